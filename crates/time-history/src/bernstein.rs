@@ -73,22 +73,31 @@ fn halved(hull: &Hull, count: usize) -> (Hull, Hull) {
     (first, second)
 }
 
+/// Binomial coefficients, by the lower number and then the upper one: exact, as whole numbers below
+/// `2^53` are.
+static CHOOSE: [Hull; MOST] = {
+    let mut all = [[0.0; MOST]; MOST];
+    let mut upper = 0;
+    while upper < MOST {
+        all[0][upper] = 1.0;
+        let mut lower = 1;
+        while lower <= upper {
+            all[lower][upper] = all[lower - 1][upper - 1] + all[lower][upper - 1];
+            lower += 1;
+        }
+        upper += 1;
+    }
+    all
+};
+
 /// Bernstein coefficients on the unit interval from those of the powers.
 fn bernstein(terms: &[f64], hull: &mut Hull) {
-    let degree = terms.len() - 1;
-    let mut scaled = [0.0; MOST];
-    let mut choose = 1.0;
-    for (k, c) in terms.iter().enumerate() {
-        scaled[k] = c / choose;
-        choose = choose * (degree - k) as f64 / (k + 1) as f64;
-    }
-    for (i, out) in hull.iter_mut().enumerate().take(terms.len()) {
-        let (mut choose, mut sum) = (1.0, 0.0);
-        for (k, s) in scaled.iter().enumerate().take(i + 1) {
-            sum += choose * s;
-            choose = choose * (i - k) as f64 / (k + 1) as f64;
+    let count = terms.len();
+    for (k, (choose, term)) in CHOOSE.iter().zip(terms).enumerate() {
+        let scaled = term / choose[count - 1];
+        for (out, choose) in hull[k..count].iter_mut().zip(&choose[k..count]) {
+            *out += choose * scaled;
         }
-        *out = sum;
     }
 }
 

@@ -707,14 +707,15 @@ mod tests {
             let end = STEP * seen.count as f64 * (1.0 - 1.0e-12);
             let all = &expected.peaks;
             for (i, (seen, expected)) in seen.peaks.iter().zip(all).enumerate() {
-                if expected.1 < end {
+                let largest = all.iter().skip(i % 4).step_by(4).map(|peak| peak.0);
+                let largest = largest.fold(0.0, f64::max);
+                // Round-off alone moves floors that no wave has reached yet.
+                if expected.1 < end && expected.0 > 1.0e-12 * largest {
                     prop_assert_eq!(seen, expected);
                 } else {
                     // Of motion that is cut while it still grows, sample and polynomial up to it
                     // are the same but for round-off.
                     let error = (seen.0 - expected.0).abs();
-                    let largest = all.iter().skip(i % 4).step_by(4).map(|peak| peak.0);
-                    let largest = largest.fold(0.0, f64::max);
                     prop_assert!(error <= 1.0e-11 * largest, "{seen:?} {expected:?}");
                 }
             }

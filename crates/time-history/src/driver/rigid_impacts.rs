@@ -215,7 +215,8 @@ impl Driver<'_> {
     /// Opens the log of every impact that begins here.
     fn begin_impacts(&mut self, work: &RigidImpacts, time: f64) {
         for (k, &l) in work.active.iter().enumerate() {
-            let meets = work.before[k] > 0.0 || work.impulses[k] > 0.0;
+            let at_rest = work.before[k] >= -work.round_off && work.impulses[k] > 0.0;
+            let meets = work.before[k] > 0.0 || at_rest;
             let closing = work.closing.contains(&l) || meets;
             if self.contacts.contact(l).is_some() || !closing {
                 continue;
@@ -244,9 +245,10 @@ impl Driver<'_> {
             for &b in &work.active {
                 work.matrix.push(coupling(&levels[a], &levels[b], mass));
             }
-            // Floors that part already have nothing to give back.
-            let rebound = work.restitution[k] * work.before[k].max(0.0);
-            work.right.push(-(work.before[k] + rebound));
+            // Also of floors that part already, as in Moreau's law: they may approach after it,
+            // for another impact. Brought to rest they would gain energy.
+            let restored = work.restitution[k] * work.before[k];
+            work.right.push(-(work.before[k] + restored));
         }
         let Some(impulses) = work.problem.solve(&work.matrix, &work.right) else {
             return false;

@@ -24,6 +24,10 @@ const LOWEST_HOP: f64 = 1.0e-12;
 /// Round-off of a velocity, as a part of the maximum one, or of the terms that it is the sum of.
 const ROUND_OFF: f64 = 1.0e-14;
 
+/// What round-off of many steps adds up to, as a multiple of that of a velocity. The work of an
+/// impulse against it is some 1e-11 of the kinetic energy.
+const MANY_STEPS: f64 = 1.0e3;
+
 /// Longest time (s) for which a level is let be.
 const LONGEST_QUIET: f64 = 1.0e-4;
 
@@ -212,11 +216,12 @@ impl Driver<'_> {
         self.dynamics.forces[l]
     }
 
-    /// Opens the log of every impact that begins here.
+    /// Opens the log of every impact that begins here: of floors that approach, and of those at
+    /// rest that impulses of others press together.
     fn begin_impacts(&mut self, work: &RigidImpacts, time: f64) {
         for (k, &l) in work.active.iter().enumerate() {
-            let at_rest = work.before[k] >= -work.round_off && work.impulses[k] > 0.0;
-            let meets = work.before[k] > 0.0 || at_rest;
+            let at_rest = work.before[k] >= -MANY_STEPS * work.round_off;
+            let meets = work.before[k] > 0.0 || (at_rest && work.impulses[k] > 0.0);
             let closing = work.closing.contains(&l) || meets;
             if self.contacts.contact(l).is_some() || !closing {
                 continue;

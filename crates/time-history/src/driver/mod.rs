@@ -354,8 +354,16 @@ impl<'a> Driver<'a> {
                     self.process(segment, tau, event, step)?;
                     continue;
                 }
-                let whole = step;
-                let (cut, reached) = self.locate(segment, tau, whole, event)?;
+                let (whole, mut event) = (step, event);
+                let (mut cut, mut reached) = self.locate(segment, tau, whole, event)?;
+                for _ in 0..self.finder.candidates.len() {
+                    let passed = self.passed_over(event, whole).filter(|_| reached);
+                    let Some(earlier) = passed else {
+                        break;
+                    };
+                    event = earlier;
+                    (cut, reached) = self.locate(segment, tau, whole, event)?;
+                }
                 step = cut;
                 ended_by = reached.then_some((event, whole));
             }

@@ -9,11 +9,12 @@
 
 use pounding_gap_element::{Memory, Phase};
 
-use super::{Driver, Mute};
+use super::{Driver, Mute, SIMULTANEOUS};
 use crate::complementarity::{Complementarity, row};
 use crate::contact::Contact;
 use crate::dynamics::{Instant, Segment, coupling};
 use crate::error::TimeHistoryError;
+use crate::events::{Candidate, EventKind};
 use crate::outcome::Peak;
 
 /// Height (m) of a hop below which impacts that follow one another ever faster are
@@ -90,17 +91,35 @@ impl Driver<'_> {
     /// Whether rigid floors that are let be overlap at the end of the trial step: they
     /// were not let be for round-off then.
     pub(super) fn overlaps_unseen(&self) -> bool {
+        let mut levels = self.mute.iter().enumerate();
+        levels.any(|(l, mute)| *mute == Mute::Step && self.comes_to_overlap(l))
+    }
+
+    /// The first of the other events of the whole step that is over at the end of the trial
+    /// step, which was cut at this one: rigid floors overlap there. The gap of floors at rest is
+    /// round-off, and the root of such a function may be found far behind where it was expected.
+    pub(super) fn passed_over(&self, event: Candidate, whole: f64) -> Option<Candidate> {
+        let passed = |other: &&Candidate| {
+            other.level != event.level
+                && other.kind == EventKind::Close
+                && (other.theta - event.theta).abs() * whole > SIMULTANEOUS
+                && self.comes_to_overlap(other.level)
+        };
+        let others = self.finder.candidates.iter().filter(passed);
+        others
+            .copied()
+            .reduce(|a, b| if b.theta < a.theta { b } else { a })
+    }
+
+    /// Whether the floors of a rigid level overlap at the end of the trial step by more than
+    /// they did.
+    fn comes_to_overlap(&self, l: usize) -> bool {
         let n = self.dynamics.layout.dofs;
-        let overlap = |l: usize, state: &[f64]| {
+        let overlap = |state: &[f64]| {
             let overlap = self.contacts.penetration(self.system, l, &state[..n]);
             overlap.max(TOUCHING)
         };
-        let mut levels = self.mute.iter().enumerate();
-        levels.any(|(l, mute)| {
-            *mute == Mute::Step
-                && self.is_rigid(l)
-                && overlap(l, &self.new_state) > overlap(l, &self.state)
-        })
+        self.is_rigid(l) && overlap(&self.new_state) > overlap(&self.state)
     }
 
     /// Applies the jumps of all rigid levels in touch at this instant.

@@ -15,6 +15,7 @@ use crate::contact::Contact;
 use crate::dynamics::{Instant, Segment, coupling};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
+use crate::impacts::TOUCH_VELOCITY;
 use crate::outcome::Peak;
 
 /// Height (m) of a hop below which impacts that follow one another ever faster are
@@ -24,10 +25,6 @@ const LOWEST_HOP: f64 = 1.0e-12;
 
 /// Round-off of a velocity, as a part of the maximum one, or of the terms that it is the sum of.
 const ROUND_OFF: f64 = 1.0e-14;
-
-/// What round-off of many steps adds up to, as a multiple of that of a velocity. The work of an
-/// impulse against it is some 1e-11 of the kinetic energy.
-const MANY_STEPS: f64 = 1.0e3;
 
 /// Longest time (s) for which a level is let be.
 const LONGEST_QUIET: f64 = 1.0e-4;
@@ -239,7 +236,7 @@ impl Driver<'_> {
     /// rest that impulses of others press together.
     fn begin_impacts(&mut self, work: &RigidImpacts, time: f64) {
         for (k, &l) in work.active.iter().enumerate() {
-            let at_rest = work.before[k] >= -MANY_STEPS * work.round_off;
+            let at_rest = work.before[k] >= -TOUCH_VELOCITY;
             let meets = work.before[k] > 0.0 || (at_rest && work.impulses[k] > 0.0);
             let closing = work.closing.contains(&l) || meets;
             if self.contacts.contact(l).is_some() || !closing {

@@ -80,6 +80,9 @@ impl Driver<'_> {
             }
         }
         let rigid = work.levels.len();
+        if rigid == 0 {
+            return 0;
+        }
         let stuck = |l: &&usize| {
             !self.is_rigid(**l) && self.contacts.contact(**l).is_some_and(Contact::is_stuck)
         };

@@ -16,6 +16,7 @@ mod properties;
 mod random_rows;
 mod reference_cases;
 mod rigid_accumulation;
+mod rigid_held;
 mod rigid_impacts;
 mod separation_rules;
 mod sine_case;

@@ -4,6 +4,7 @@
 //! failed, 4 output could not be written, 5 interrupted by a signal.
 
 mod arguments;
+mod asked_separation;
 mod color;
 mod columns;
 mod commands;
@@ -39,9 +40,9 @@ use version::Version;
 /// What commands read and answer, without printing: for the Python package, whose objects say
 /// the same.
 pub mod answers {
+    pub use crate::asked_separation::{Asked as AskedOfGaps, overridden};
     pub use crate::commands::check::Understood;
     pub use crate::commands::compare::numbers::Compared;
-    pub use crate::commands::gap::asked::{Asked as AskedOfGaps, overridden};
     pub use crate::commands::gap::numbers::Check;
     pub use crate::commands::ida::numbers::Analysis;
     pub use crate::commands::models::descriptor::Described as DescribedModel;

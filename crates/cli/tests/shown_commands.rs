@@ -134,11 +134,15 @@ fn commands_of_pages_run() {
         if shown.starts_with("docs/tutorial") {
             std::fs::write(at.join("pair.toml"), block(&text, "toml")).unwrap();
         }
-        std::fs::write(
-            at.join("history.csv"),
-            "time_s,deformation_mm\n0,0\n0.5,10\n1,-10\n",
-        )
-        .unwrap();
+        for (name, text) in [
+            ("history.csv", "time_s,deformation_mm\n0,0\n0.5,10\n1,-10\n"),
+            (
+                "spring.csv",
+                "penetration_mm,force_kN\n0.5,10\n1,50\n20,3000\n",
+            ),
+        ] {
+            std::fs::write(at.join(name), text).unwrap();
+        }
         let run = |command: &str| {
             Command::new("bash")
                 .args(["-c", command])

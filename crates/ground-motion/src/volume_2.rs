@@ -86,13 +86,18 @@ fn block(
     // Five columns cannot hold a count of six digits, and Caltech leaves the
     // counts of velocity and displacement to their blocks.
     if label.quantity == Quantity::Acceleration
+        && label.count < 100_000
         && let Some(count) = header.integers.count(index)
         && count != label.count
     {
-        draft.warnings.push(format!(
-            "the header says {count} samples, the line before the data {}",
-            label.count
-        ));
+        source.contradiction(
+            line.number,
+            format!(
+                "{} samples follow here, but line {} says {count}",
+                label.count,
+                header.integers.line_of(index)
+            ),
+        )?;
     }
     if let Some(step) = header.reals.positive(STEP)
         && (step - label.step.0).abs() > label.step.1

@@ -1,5 +1,6 @@
-//! The linear complementarity problem of simultaneous rigid impacts:
-//! `w = A z + q`, `w >= 0`, `z >= 0`, `w z = 0`.
+//! The linear complementarity problem of rigid contacts: `w = A z + q`, `w >= 0`, `z >= 0`,
+//! `w z = 0`. At an impact `z` are impulses and `w` velocities at which floors part, in touch
+//! and at rest `z` are forces and `w` accelerations.
 //!
 //! `A` is positive definite if it is `G M^-1 G'` of independent contacts; the
 //! solution then exists and is unique. Solved by principal pivoting with the least index
@@ -19,28 +20,35 @@ pub(crate) struct Complementarity {
     solver: SmallSolver,
 }
 
-/// Signs smaller than this part of the right-hand side are round-off.
+/// Signs of `w` smaller than this part of the terms that it is the sum of, and of the largest
+/// of the right-hand side, are round-off.
 const ROUND_OFF: f64 = 1.0e-14;
 
 impl Complementarity {
     /// Solves for `z`; `a` row by row. `None` if the contacts are not independent, as
     /// those of floors without clearance between two walls, and no solution is found.
     pub(crate) fn solve(&mut self, a: &[f64], q: &[f64]) -> Option<&[f64]> {
+        self.solve_mixed(a, q, q.len())
+    }
+
+    /// The same where only the first `signed` unknowns have a sign: of the others `w` is zero
+    /// whatever `z`, as of floors that friction holds.
+    pub(crate) fn solve_mixed(&mut self, a: &[f64], q: &[f64], signed: usize) -> Option<&[f64]> {
         let n = q.len();
         let scale = q.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         self.active.clear();
-        self.active.resize(n, false);
+        self.active.extend((0..n).map(|i| i >= signed));
         // 2^n pivots suffice in theory, a few in practice.
         for _ in 0..(1_usize << n.min(16)) {
             if !self.solve_active(a, q) {
                 return None;
             }
-            let violated = (0..n).find(|&i| {
+            let violated = (0..signed).find(|&i| {
                 if self.active[i] {
                     self.solution[i] < 0.0
                 } else {
-                    let w: f64 = (0..n).map(|j| a[i * n + j] * self.solution[j]).sum();
-                    w + q[i] < -ROUND_OFF * scale
+                    let (w, size) = row(&a[i * n..(i + 1) * n], &self.solution, q[i]);
+                    w < -ROUND_OFF * scale.max(size)
                 }
             });
             let Some(i) = violated else {
@@ -49,6 +57,11 @@ impl Complementarity {
             self.active[i] = !self.active[i];
         }
         None
+    }
+
+    /// Whether `w` of this unknown is zero in the last solution, whatever its `z`.
+    pub(crate) fn is_active(&self, i: usize) -> bool {
+        self.active[i]
     }
 
     /// Solves for the active unknowns; false if their matrix is singular.
@@ -74,6 +87,14 @@ impl Complementarity {
         }
         true
     }
+}
+
+/// One row of `w = A z + q`, and the sum of the sizes of its terms.
+pub(crate) fn row(a: &[f64], z: &[f64], q: f64) -> (f64, f64) {
+    let terms = a.iter().zip(z).map(|(a, z)| a * z);
+    terms.fold((q, q.abs()), |(sum, size), term| {
+        (sum + term, size + term.abs())
+    })
 }
 
 #[cfg(test)]
@@ -111,6 +132,18 @@ mod tests {
             }
         }
         panic!("no solution");
+    }
+
+    /// Two floors that a third presses on: the second contact pulls, as friction may.
+    #[test]
+    fn unknowns_without_a_sign_may_be_negative() {
+        let a = [2.0, -1.0, -1.0, 2.0];
+        let mut problem = Complementarity::default();
+        let z = problem.solve_mixed(&a, &[-0.5, 2.0], 1).unwrap().to_vec();
+        assert_eq!(z, [0.0, -1.0]);
+        assert!(!problem.is_active(0) && problem.is_active(1));
+        // With a sign it would part, and the first would be pressed.
+        assert_eq!(problem.solve(&a, &[-0.5, 2.0]), Some(&[0.25, 0.0][..]));
     }
 
     #[test]

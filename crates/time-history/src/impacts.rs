@@ -19,7 +19,7 @@ pub(crate) const TOUCH: f64 = 1.0e-14;
 
 /// Change of the relative velocity (m/s) up to which rigid floors, which never overlap, do
 /// no more than touch; floors that meet no faster than this meet at rest.
-const TOUCH_VELOCITY: f64 = 1.0e-9;
+pub(crate) const TOUCH_VELOCITY: f64 = 1.0e-9;
 
 /// The impact of a level that is in progress, or the last one while it may go on.
 #[derive(Debug, Clone, Copy)]

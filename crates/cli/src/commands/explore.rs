@@ -8,7 +8,7 @@ use pounding_files::FileUse;
 use pounding_ground_motion::read_all_bytes;
 
 use crate::arguments::ExploreArguments;
-use crate::commands::gap::asked::{Asked, overridden};
+use crate::asked_separation::{Asked, overridden};
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case};
 use crate::files::{have_a_place, name_left_over, reads_too, record_files};

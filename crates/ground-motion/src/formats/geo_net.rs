@@ -210,9 +210,10 @@ fn block(
     if let (Some(step), Some((text, digit))) = (step, printed)
         && (step - text).abs() > digit
     {
-        draft.warnings.push(format!(
-            "the header says a step of {step} s, its text {text} s"
-        ));
+        source.contradiction(
+            header.text[10].number,
+            format!("the step is {text} s here, but {step} s in the numbers of the header"),
+        )?;
     }
     if pad > 0.0 && quantity == Quantity::Acceleration {
         draft.warnings.push(format!(

@@ -110,10 +110,19 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     let count = usize::try_from(words.integer(79)).unwrap_or(0);
     let uneven = words.integer(105) == 0;
-    let present = (source.bytes.len() - HEADER) / 4 / if uneven { 2 } else { 1 };
-    if present < count && (uneven || !source.options.lenient) || count < 2 {
+    // Version 7 has 22 doubles after the data.
+    let footer = if words.integer(VERSION) == 7 { 176 } else { 0 };
+    let data = source.bytes.len() - HEADER;
+    let width = if uneven { 8 } else { 4 };
+    let present = data / width;
+    let surplus = data.saturating_sub(footer) / width > count;
+    let lenient = source.options.lenient && !uneven;
+    if (present < count || surplus) && !lenient || count < 2 {
         return Err(source.binary_error(
-            source.bytes.len(),
+            source
+                .bytes
+                .len()
+                .min(HEADER.saturating_add(width.saturating_mul(count))),
             format!("the header says {count} samples, the file holds {present}"),
         ));
     }
@@ -133,8 +142,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let ends = words.float(6).zip(words.float(5)).map(|(e, b)| e - b);
     let length = ends.filter(|length| !uneven && *length > 0.0);
     draft.header_durations = length.map(Into::into).into_iter().collect();
-    // Version 7 has 22 doubles after the data.
-    if words.integer(VERSION) == 6 && present > count {
+    if surplus {
         draft.warnings.push(format!(
             "header says {count} samples, {present} found; the surplus is not used"
         ));

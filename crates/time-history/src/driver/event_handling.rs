@@ -140,6 +140,8 @@ impl Driver<'_> {
         self.eventful = true;
         let candidates = std::mem::take(&mut self.finder.candidates);
         self.rigid.closing.clear();
+        self.held.leaving.clear();
+        self.bring_to_rest();
         for other in &candidates {
             let together = (other.theta - event.theta).abs() * step <= SIMULTANEOUS;
             let same = other.level == event.level && other.kind == event.kind;
@@ -155,15 +157,20 @@ impl Driver<'_> {
             self.mark_level(other.level);
             let rigid = self.is_rigid(other.level);
             if rigid && other.kind == EventKind::Close {
-                if self.only_touches(segment, tau, other.level) {
-                    self.keep_quiet(other.level);
-                } else {
+                if self.approaches(other.level) {
                     self.rigid.closing.push(other.level);
                     self.quiet[other.level] = PROGRESS_STEP;
+                } else {
+                    // At rest: unless a force presses them together, the sign of the gap is
+                    // round-off.
+                    self.keep_quiet(other.level);
                 }
             } else if self.goes_on_touching(segment, tau, *other) {
                 self.mute[other.level] = Mute::Step;
             } else {
+                if rigid {
+                    self.held.leaving.push(other.level);
+                }
                 self.fire(segment, tau, *other);
             }
             self.statistics.events += 1;
@@ -180,7 +187,10 @@ impl Driver<'_> {
         self.finder.candidates = candidates;
         if !self.rigid.closing.is_empty() {
             self.rigid_impacts(segment, tau)?;
+            // Of forces that jump no crossing of zero is known.
+            self.held.leaving.clear();
         }
+        self.settle_held(segment, tau)?;
         self.method.restart(smooth);
         if self.stalled > CHATTER {
             return Err(TimeHistoryError::Chatter {

@@ -6,6 +6,7 @@ mod episode_steps;
 mod event_handling;
 mod exact_steps;
 mod functions;
+mod held_contacts;
 mod parts;
 mod peaks_put_off;
 mod result;
@@ -35,6 +36,7 @@ use crate::relative_displacement::RelativeDisplacement;
 use crate::system::{Grounds, System};
 use contact_episode::{Left, Open};
 use exact_steps::{Advance, ExactSteps};
+use held_contacts::HeldContacts;
 use parts::{Marks, Parts};
 use rigid_impacts::RigidImpacts;
 
@@ -208,6 +210,7 @@ struct Driver<'a> {
     stalled: usize,
     last_ground: Option<Grounds>,
     rigid: RigidImpacts,
+    held: HeldContacts,
     /// Exact contact-free motion, where the method and the buildings allow it.
     open: Option<Box<Open<'a>>>,
     /// Where some buildings of a row touch and others do not: those that do.
@@ -259,6 +262,7 @@ impl<'a> Driver<'a> {
             stalled: 0,
             last_ground: None,
             rigid: RigidImpacts::default(),
+            held: HeldContacts::default(),
             open: None,
             parts: None,
             marks: Marks::default(),
@@ -279,6 +283,7 @@ impl<'a> Driver<'a> {
             slope: 0.0,
             interval: 0,
         };
+        self.settle_held(&segment, 0.0)?;
         let mut context = Context {
             dynamics: &mut self.dynamics,
             contacts: &self.contacts,
@@ -309,6 +314,9 @@ impl<'a> Driver<'a> {
             if let Some(exact) = &mut self.exact {
                 exact.interrupt();
             }
+            self.bring_to_rest();
+            self.held.leaving.clear();
+            self.settle_held(segment, from)?;
         }
         self.last_ground = Some(segment.ground(segment.length));
         let mut tau = from;
@@ -357,8 +365,16 @@ impl<'a> Driver<'a> {
                     self.process(segment, tau, event, step)?;
                     continue;
                 }
-                let whole = step;
-                let (cut, reached) = self.locate(segment, tau, whole, event)?;
+                let (whole, mut event) = (step, event);
+                let (mut cut, mut reached) = self.locate(segment, tau, whole, event)?;
+                for _ in 0..self.finder.candidates.len() {
+                    let passed = self.passed_over(event, whole).filter(|_| reached);
+                    let Some(earlier) = passed else {
+                        break;
+                    };
+                    event = earlier;
+                    (cut, reached) = self.locate(segment, tau, whole, event)?;
+                }
                 step = cut;
                 ended_by = reached.then_some((event, whole));
             }

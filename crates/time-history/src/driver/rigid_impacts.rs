@@ -4,15 +4,18 @@
 //! as a linear complementarity problem: impulses `P >= 0`, and every pair of floors
 //! that an impulse acts on parts with `e` times its approach velocity (Newton's
 //! restitution in every contact; Jean and Moreau 1992, Brogliato, Nonsmooth
-//! Mechanics, 3rd edition 2016, section 5.3).
+//! Mechanics, 3rd edition 2016, section 5.3). Which of them stay together afterwards is
+//! decided by their accelerations (`held_contacts`).
 
 use pounding_gap_element::{Memory, Phase};
 
-use super::{Driver, Mute};
-use crate::complementarity::Complementarity;
+use super::{Driver, Mute, SIMULTANEOUS};
+use crate::complementarity::{Complementarity, row};
 use crate::contact::Contact;
 use crate::dynamics::{Instant, Segment, coupling};
 use crate::error::TimeHistoryError;
+use crate::events::{Candidate, EventKind};
+use crate::impacts::TOUCH_VELOCITY;
 use crate::outcome::Peak;
 
 /// Height (m) of a hop below which impacts that follow one another ever faster are
@@ -20,14 +23,14 @@ use crate::outcome::Peak;
 /// own round-off of about 1e-17 m, in which lower hops would drown.
 const LOWEST_HOP: f64 = 1.0e-12;
 
-/// Round-off of a velocity, as a part of the maximum one.
+/// Round-off of a velocity, as a part of the maximum one, or of the terms that it is the sum of.
 const ROUND_OFF: f64 = 1.0e-14;
 
 /// Longest time (s) for which a level is let be.
 const LONGEST_QUIET: f64 = 1.0e-4;
 
 /// Open floors closer than this (m) take part in an impact of their neighbours.
-const TOUCHING: f64 = 1.0e-12;
+pub(super) const TOUCHING: f64 = 1.0e-12;
 
 /// Work space of the jumps.
 #[derive(Debug, Default)]
@@ -35,7 +38,8 @@ pub(super) struct RigidImpacts {
     /// Levels that close at this instant.
     pub closing: Vec<usize>,
     active: Vec<usize>,
-    /// Approach velocity of every active level before the jump (m/s).
+    /// Approach velocity of every active level before the jump (m/s), zero of floors that are
+    /// held together: what they have of one is round-off.
     before: Vec<f64>,
     /// Restitution in force: zero where the impacts accumulate.
     restitution: Vec<f64>,
@@ -46,6 +50,9 @@ pub(super) struct RigidImpacts {
     matrix: Vec<f64>,
     right: Vec<f64>,
     problem: Complementarity,
+    /// Impulse of every active level (N s), and whether its floors part after it.
+    impulses: Vec<f64>,
+    part: Vec<bool>,
 }
 
 impl Driver<'_> {
@@ -54,22 +61,11 @@ impl Driver<'_> {
         model.rigid_restitution().is_some()
     }
 
-    /// Whether floors that meet neither approach nor are pressed together: after a
-    /// lasting contact the gap opens like the cube of time, and until then its sign
-    /// is round-off.
-    pub(super) fn only_touches(&mut self, segment: &Segment, tau: f64, l: usize) -> bool {
+    /// Whether the floors of a level approach by more than round-off.
+    pub(super) fn approaches(&self, l: usize) -> bool {
         let n = self.dynamics.layout.dofs;
         let level = &self.system.levels()[l];
-        let round_off = self.velocity_round_off();
-        let approach = level.relative(&self.state[n..2 * n]);
-        if approach > round_off {
-            return false;
-        }
-        let collision = level.model.begin(0.0, level.effective_mass);
-        self.contacts.close(l, lasting(collision));
-        let holding = self.holding_force(segment, tau, l);
-        self.contacts.open(l);
-        approach < -round_off || holding <= 0.0
+        level.relative(&self.state[n..2 * n]) > self.velocity_round_off()
     }
 
     /// Round-off of a relative velocity (m/s). Floors at rest have it from those that
@@ -92,17 +88,35 @@ impl Driver<'_> {
     /// Whether rigid floors that are let be overlap at the end of the trial step: they
     /// were not let be for round-off then.
     pub(super) fn overlaps_unseen(&self) -> bool {
+        let mut levels = self.mute.iter().enumerate();
+        levels.any(|(l, mute)| *mute == Mute::Step && self.comes_to_overlap(l))
+    }
+
+    /// The first of the other events of the whole step that is over at the end of the trial
+    /// step, which was cut at this one: rigid floors overlap there. The gap of floors at rest is
+    /// round-off, and the root of such a function may be found far behind where it was expected.
+    pub(super) fn passed_over(&self, event: Candidate, whole: f64) -> Option<Candidate> {
+        let passed = |other: &&Candidate| {
+            other.level != event.level
+                && other.kind == EventKind::Close
+                && (other.theta - event.theta).abs() * whole > SIMULTANEOUS
+                && self.comes_to_overlap(other.level)
+        };
+        let others = self.finder.candidates.iter().filter(passed);
+        others
+            .copied()
+            .reduce(|a, b| if b.theta < a.theta { b } else { a })
+    }
+
+    /// Whether the floors of a rigid level overlap at the end of the trial step by more than
+    /// they did.
+    fn comes_to_overlap(&self, l: usize) -> bool {
         let n = self.dynamics.layout.dofs;
-        let overlap = |l: usize, state: &[f64]| {
+        let overlap = |state: &[f64]| {
             let overlap = self.contacts.penetration(self.system, l, &state[..n]);
             overlap.max(TOUCHING)
         };
-        let mut levels = self.mute.iter().enumerate();
-        levels.any(|(l, mute)| {
-            *mute == Mute::Step
-                && self.is_rigid(l)
-                && overlap(l, &self.new_state) > overlap(l, &self.state)
-        })
+        self.is_rigid(l) && overlap(&self.new_state) > overlap(&self.state)
     }
 
     /// Applies the jumps of all rigid levels in touch at this instant.
@@ -117,20 +131,23 @@ impl Driver<'_> {
         let mut work = std::mem::take(&mut self.rigid);
         let time = segment.start + tau;
         self.gather(&mut work, segment, tau);
-        self.begin_impacts(&work, time);
-        if !self.jump(&mut work) {
-            return Err(TimeHistoryError::Wedged {
-                time,
-                place: self.places_in_touch(),
-            });
+        if !self.solve_impacts(&mut work) {
+            return Err(self.wedged(time));
         }
+        self.begin_impacts(&work, time);
+        self.jump(&work.active, &work.impulses);
         for k in 0..work.active.len() {
             self.settle(&work, k, time);
         }
         self.follow_jump(time);
-        self.release_pulling(segment, tau, time);
         self.rigid = work;
         Ok(())
+    }
+
+    /// Contacts that leave nothing to part with.
+    pub(super) fn wedged(&self, time: f64) -> TimeHistoryError {
+        let place = self.places_in_touch();
+        TimeHistoryError::Wedged { time, place }
     }
 
     /// Levels that take part, with their approach velocities and restitutions.
@@ -147,7 +164,9 @@ impl Driver<'_> {
             if self.is_rigid(l) && in_touch {
                 work.active.push(l);
                 let level = &self.system.levels()[l];
-                work.before.push(level.relative(&self.state[n..2 * n]));
+                let approach = level.relative(&self.state[n..2 * n]);
+                let held = self.contacts.contact(l).is_some();
+                work.before.push(if held { 0.0 } else { approach });
             }
         }
         for k in 0..work.active.len() {
@@ -213,15 +232,19 @@ impl Driver<'_> {
         self.dynamics.forces[l]
     }
 
-    /// Opens the log of every impact that begins here.
+    /// Opens the log of every impact that begins here: of floors that approach, and of those at
+    /// rest that impulses of others press together.
     fn begin_impacts(&mut self, work: &RigidImpacts, time: f64) {
         for (k, &l) in work.active.iter().enumerate() {
-            let closing = work.closing.contains(&l) || work.before[k] > 0.0;
+            let at_rest = work.before[k] >= -TOUCH_VELOCITY;
+            let meets = work.before[k] > 0.0 || (at_rest && work.impulses[k] > 0.0);
+            let closing = work.closing.contains(&l) || meets;
             if self.contacts.contact(l).is_some() || !closing {
                 continue;
             }
             let level = &self.system.levels()[l];
-            let collision = level.model.begin(work.before[k], level.effective_mass);
+            let approach = work.before[k].max(0.0);
+            let collision = level.model.begin(approach, level.effective_mass);
             self.contacts.close(l, lasting(collision));
             self.log
                 .close(l, time, &collision, self.dynamics.layout, &self.state);
@@ -231,26 +254,55 @@ impl Driver<'_> {
         }
     }
 
-    /// Solves for the impulses and applies them. The work of an impulse is its mean
-    /// velocity times itself, which is the kinetic energy lost to the last bit of
-    /// theory. False if there are none.
-    fn jump(&mut self, work: &mut RigidImpacts) -> bool {
+    /// Solves for the impulses, and tells whose floors part: those that an impulse acts on by
+    /// their restitution, the others if what is added to their velocity, all by other impulses,
+    /// is more than the round-off of that sum. False if there is no solution.
+    fn solve_impacts(&self, work: &mut RigidImpacts) -> bool {
         let (levels, mass) = (self.system.levels(), self.system.mass());
+        let count = work.active.len();
         work.matrix.clear();
         work.right.clear();
         for (k, &a) in work.active.iter().enumerate() {
             for &b in &work.active {
                 work.matrix.push(coupling(&levels[a], &levels[b], mass));
             }
-            work.right
-                .push(-(1.0 + work.restitution[k]) * work.before[k]);
+            // Also of floors that part already, as in Moreau's law: they may approach after it,
+            // for another impact. Brought to rest they would gain energy.
+            let restored = work.restitution[k] * work.before[k];
+            work.right.push(-(work.before[k] + restored));
         }
         let Some(impulses) = work.problem.solve(&work.matrix, &work.right) else {
             return false;
         };
-        let n = self.dynamics.layout.dofs;
+        work.impulses.clear();
+        work.impulses.extend_from_slice(impulses);
+        work.part.clear();
+        for k in 0..count {
+            let parts = if work.problem.is_active(k) {
+                work.restitution[k] * work.before[k] > 0.0
+            } else {
+                let of_level = &work.matrix[k * count..(k + 1) * count];
+                let (parting, size) = row(of_level, &work.impulses, -work.before[k]);
+                let held = self.contacts.contact(work.active[k]).is_some();
+                let margin = if held { 0.0 } else { work.round_off };
+                parting > margin + ROUND_OFF * size
+            };
+            work.part.push(parts);
+        }
+        true
+    }
+
+    /// Applies impulses (N s) to the floors of levels. The work of an impulse is its mean
+    /// velocity times itself, which is the kinetic energy lost to the last bit of theory.
+    pub(super) fn jump(&mut self, active: &[usize], impulses: &[f64]) {
+        let (levels, mass) = (self.system.levels(), self.system.mass());
+        let (n, layout) = (self.dynamics.layout.dofs, self.dynamics.layout);
+        for (&l, impulse) in active.iter().zip(impulses) {
+            let before = levels[l].relative(&self.state[n..2 * n]);
+            self.state[layout.work(l)] += 0.5 * impulse * before;
+        }
         let velocity = &mut self.state[n..2 * n];
-        for (&l, impulse) in work.active.iter().zip(impulses) {
+        for (&l, impulse) in active.iter().zip(impulses) {
             if let Some(left) = levels[l].left {
                 velocity[left] -= impulse / mass[left];
             }
@@ -261,17 +313,15 @@ impl Driver<'_> {
                 velocity[*i] -= weight * impulse / mass[*i];
             }
         }
-        let layout = self.dynamics.layout;
-        for (k, (&l, impulse)) in work.active.iter().zip(impulses).enumerate() {
+        for (&l, impulse) in active.iter().zip(impulses) {
             let after = levels[l].relative(&self.state[n..2 * n]);
-            self.state[layout.work(l)] += 0.5 * impulse * (work.before[k] + after);
+            self.state[layout.work(l)] += 0.5 * impulse * after;
             self.state[layout.impulse(l)] += impulse;
             let of_ground = levels[l].terms.ground_of(|i| self.state[n + i]);
             self.state[layout.input()] += impulse * of_ground;
         }
         let elements = &mut self.contacts.elements;
         elements.settle(self.system, layout, &self.state);
-        true
     }
 
     /// Ends the impact of a level whose floors part; leaves the others in lasting
@@ -281,12 +331,7 @@ impl Driver<'_> {
         if self.contacts.contact(l).is_none() {
             return;
         }
-        let n = self.dynamics.layout.dofs;
-        let after = self.system.levels()[l].relative(&self.state[n..2 * n]);
-        let remains = work.restitution[k] == 0.0;
-        // Round-off of a plastic impact, or beside a lasting contact, must not count
-        // as parting.
-        if after < -work.round_off || (after < 0.0 && !remains) {
+        if work.part[k] {
             self.open(l, time);
             return;
         }
@@ -298,33 +343,10 @@ impl Driver<'_> {
             }
         }
     }
-
-    /// Lasting contact cannot pull: opens the level that would pull most, and looks
-    /// again.
-    fn release_pulling(&mut self, segment: &Segment, tau: f64, time: f64) {
-        loop {
-            let mut worst: Option<(usize, f64)> = None;
-            for k in 0..self.contacts.closed().len() {
-                let l = self.contacts.closed()[k];
-                if !self.is_rigid(l) {
-                    continue;
-                }
-                let holding = self.holding_force(segment, tau, l);
-                if holding < 0.0 && worst.is_none_or(|(_, w)| holding < w) {
-                    worst = Some((l, holding));
-                }
-            }
-            let Some((l, _)) = worst else {
-                return;
-            };
-            self.open(l, time);
-            self.keep_quiet(l);
-        }
-    }
 }
 
 /// A contact that holds.
-fn lasting(collision: pounding_gap_element::Collision) -> Contact {
+pub(super) fn lasting(collision: pounding_gap_element::Collision) -> Contact {
     Contact {
         phase: Phase::Stuck,
         collision,

@@ -1,7 +1,6 @@
 //! `pounding gap`: is the gap wide enough?
 
 mod answer;
-pub mod asked;
 mod files;
 pub mod numbers;
 mod provisions;
@@ -20,6 +19,7 @@ use pounding_study::Deal;
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
 
 use crate::arguments::{GapArguments, OutputPath, optional};
+use crate::asked_separation::{Asked, overridden};
 use crate::deal::{deal, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
@@ -27,7 +27,6 @@ use crate::files::have_a_place;
 use crate::output::{pretty, print};
 use crate::progress::{Progress, Unit, threads};
 use crate::{page, plot};
-use asked::Asked;
 
 /// Checks the gaps of a case; the answer "too small" is exit code 1.
 pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -110,7 +109,7 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
         let one = Separation::parse(text, case.buildings.len());
         separation = separation.overridden_by(one.map_err(|e| Failure::case(e, text))?);
     }
-    asked::overridden(
+    overridden(
         separation,
         &Asked {
             code: arguments.code.as_deref(),

@@ -493,11 +493,8 @@ fn rules_of_the_reader() {
     let found = own(&answers[3]);
     assert_eq!(found.len(), 2);
     for (name, width) in &found {
-        let provisions = check["gaps"][0]["provisions"].as_array().unwrap().iter();
-        let theirs = provisions
-            .filter(|p| p["name"] == name.as_str())
-            .next_back()
-            .unwrap();
+        let mut provisions = check["gaps"][0]["provisions"].as_array().unwrap().iter();
+        let theirs = provisions.rfind(|p| p["name"] == name.as_str()).unwrap();
         let levels = theirs["records"][0]["levels"].as_array().unwrap();
         let widest = levels
             .iter()

@@ -1,7 +1,7 @@
 //! Volume 2, corrected: acceleration, velocity and displacement of each channel.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftUnit, Times};
+use crate::draft::{Draft, DraftUnit, ROW, Times};
 use crate::error::GroundMotionError;
 use crate::quantity::Quantity;
 use crate::recording::Series;
@@ -90,14 +90,17 @@ fn block(
         && let Some(count) = header.integers.count(index)
         && count != label.count
     {
-        source.contradiction(
-            line.number,
-            format!(
-                "{} samples follow here, but line {} says {count}",
-                label.count,
-                header.integers.line_of(index)
-            ),
-        )?;
+        let message = format!(
+            "{} samples follow here, but line {} says {count}",
+            label.count,
+            header.integers.line_of(index)
+        );
+        match count.abs_diff(label.count) > ROW {
+            true => source.contradiction(line.number, message)?,
+            false => draft
+                .warnings
+                .push(format!("line {}: {message}", line.number)),
+        }
     }
     if let Some(step) = header.reals.positive(STEP)
         && (step - label.step.0).abs() > label.step.1

@@ -19,18 +19,13 @@ pub(crate) fn append_motion(
 ) {
     let n = layout.dofs;
     let (u, v) = (&state[..n], &state[n..2 * n]);
-    rows.time.push(time);
-    rows.ground_acceleration.push(ground);
-    rows.displacement.extend_from_slice(&u[..system.floors()]);
-    rows.velocity.extend_from_slice(&v[..system.floors()]);
-    let levels = system.levels().iter().zip(contacts.widths());
-    let penetration = levels.map(|(level, width)| level.relative(u) - width);
-    rows.penetration.extend(penetration);
-    let force = rows.force.len();
-    rows.force.resize(force + layout.levels, 0.0);
-    for &l in contacts.closed() {
-        rows.force[force + l] = forces[l];
-    }
+    let force = append_floors_and_levels(
+        (system, layout, contacts),
+        (time, ground),
+        [u, v],
+        forces,
+        rows,
+    );
     let response = rows.response.len();
     rows.response
         .resize(response + system.named_responses(), 0.0);
@@ -68,6 +63,31 @@ pub(crate) fn append_motion(
             }
         }
     }
+}
+
+/// Appends what all rows begin with: floors, and penetrations and forces of levels. Returns where
+/// the forces of this row begin.
+#[inline]
+fn append_floors_and_levels(
+    (system, layout, contacts): (&System, Layout, &Contacts),
+    (time, ground): (f64, f64),
+    [u, v]: [&[f64]; 2],
+    forces: &[f64],
+    rows: &mut History,
+) -> usize {
+    rows.time.push(time);
+    rows.ground_acceleration.push(ground);
+    rows.displacement.extend_from_slice(&u[..system.floors()]);
+    rows.velocity.extend_from_slice(&v[..system.floors()]);
+    let levels = system.levels().iter().zip(contacts.widths());
+    let penetration = levels.map(|(level, width)| level.relative(u) - width);
+    rows.penetration.extend(penetration);
+    let force = rows.force.len();
+    rows.force.resize(force + layout.levels, 0.0);
+    for &l in contacts.closed() {
+        rows.force[force + l] = forces[l];
+    }
+    force
 }
 
 /// Rows of shear buildings on rigid ground without elements and without responses with names, in one
@@ -130,18 +150,13 @@ impl ShearRows {
         rows: &mut History,
     ) {
         let (u, v) = (&u[..self.floors.len()], &v[..self.floors.len()]);
-        rows.time.push(time);
-        rows.ground_acceleration.push(ground);
-        rows.displacement.extend_from_slice(u);
-        rows.velocity.extend_from_slice(v);
-        let levels = system.levels().iter().zip(contacts.widths());
-        let penetration = levels.map(|(level, width)| level.relative(u) - width);
-        rows.penetration.extend(penetration);
-        let force = rows.force.len();
-        rows.force.resize(force + layout.levels, 0.0);
-        for &l in contacts.closed() {
-            rows.force[force + l] = forces[l];
-        }
+        append_floors_and_levels(
+            (system, layout, contacts),
+            (time, ground),
+            [u, v],
+            forces,
+            rows,
+        );
         let (mut kinetic, mut strain, mut last) = (0.0, 0.0, 0.0);
         for (floor, (u, v)) in self.floors.iter().zip(u.iter().zip(v)) {
             let below = if floor.is_first { 0.0 } else { last };

@@ -208,6 +208,7 @@ fn block(
     let eleven = header.text[10].lower();
     let printed = number::after(&eleven, "intervals of").or_else(|| number::after(&eleven, " at "));
     if let (Some(step), Some((text, digit))) = (step, printed)
+        && eleven.contains("interval")
         && (step - text).abs() > digit
     {
         source.contradiction(

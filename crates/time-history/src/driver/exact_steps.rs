@@ -3,6 +3,7 @@
 
 use pounding_gap_element::{Direction, Guard};
 
+use super::closings::Closings;
 use super::functions::{Begin, Function, Group, Place, Row};
 use super::peaks_put_off::PeaksPutOff;
 use super::series_events::Scan;
@@ -11,7 +12,7 @@ use crate::dynamics::{Layout, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::methods::Context;
-use crate::propagation::{ContactSeries, HALVINGS, Propagation};
+use crate::propagation::{AffineContact, ContactSeries, HALVINGS, Propagation};
 use crate::recorder::{Recorder, wants};
 use crate::system::System;
 
@@ -37,8 +38,7 @@ pub(super) struct ExactSteps {
     doubtful: Vec<usize>,
     /// Closings of the contact levels.
     pub levels: Vec<Row>,
-    /// Their values and rates at the end of the last whole interval.
-    pub closings: Vec<[f64; 2]>,
+    pub closings: Closings,
     /// Time (s) in the interval until which steps are left to the method.
     method_until: f64,
     /// Space for the state while recorders are served.
@@ -79,7 +79,7 @@ impl ExactSteps {
                 .iter()
                 .map(|l| Row::of_level(system, l))
                 .collect(),
-            closings: Vec::with_capacity(system.levels().len()),
+            closings: Closings::new(system.levels().len()),
             method_until: 0.0,
             saved: Vec::with_capacity(Layout::of(system).dimension()),
             recording: 0,
@@ -238,7 +238,7 @@ impl Driver<'_> {
             let passes = clear || self.holds_no_event(exact);
             if passes && self.takes_peaks(exact, segment, tau) {
                 let (propagation, series) = (&mut exact.propagation, &mut exact.series);
-                propagation.works(series, system, place);
+                propagation.works(series, system);
                 let next = tau + series.length();
                 return match (shortenings, scan) {
                     (0, Scan::First(event)) => Advance::ToEvent(next, (event, whole)),
@@ -329,7 +329,12 @@ impl Driver<'_> {
                 doubtful.push(number);
             }
         }
-        if doubtful.is_empty() && series.contacts.is_empty() {
+        let stays_below = |law: &AffineContact| {
+            let l = law.level;
+            let present = [&self.peaks.penetration[l], &self.peaks.force[l]].map(|peak| peak.value);
+            levels[l].stay_below((law, ends), self.contacts.width(l), present)
+        };
+        if doubtful.is_empty() && series.contacts.iter().all(stays_below) {
             return true;
         }
         *stale = true;
@@ -353,6 +358,10 @@ impl Driver<'_> {
         let peaks = &mut self.peaks;
         series.contacts.iter().all(|law| {
             let (row, width) = (&levels[law.level], self.contacts.width(law.level));
+            let present = [&peaks.penetration[law.level], &peaks.force[law.level]];
+            if row.stay_below((law, ends), width, present.map(|peak| peak.value)) {
+                return true;
+            }
             let penetration = &mut peaks.penetration[law.level];
             row.takes_penetration(&now, ends, width, penetration)
                 && row.takes_force(&now, (law, ends), &mut peaks.force[law.level])

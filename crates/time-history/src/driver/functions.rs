@@ -129,13 +129,15 @@ impl Row {
         }
     }
 
+    /// Bound of the derivative of this order over the step.
     #[inline]
-    fn bound(&self, ends: &Ends, order: usize) -> f64 {
+    pub(super) fn bound(&self, ends: &Ends, order: usize) -> f64 {
         let of = self.mobility.iter();
         of.map(|(b, m)| m * ends.bounds[*b][order]).sum()
     }
 
     /// The derivative of this order at both ends.
+    #[inline]
     fn both(&self, ends: &Ends, order: usize) -> (f64, f64) {
         (self.sum(&ends.start[order]), self.sum(&ends.end[order]))
     }
@@ -167,13 +169,34 @@ impl Row {
 
     /// The same of the force of a closed level.
     pub(super) fn range_of_force(&self, law: &AffineContact, ends: &Ends) -> (f64, f64) {
-        let force = self.force(law, ends);
-        let [x0, v0, ..] = force.start;
-        let [x1, v1, ..] = force.end;
-        hermite_range([x0, v0, x1, v1], force.bounds[0], ends.length)
+        let [u, v, a] = [0, 1, 2].map(|order| self.both(ends, order));
+        let force = |constant: f64, by_penetration: (f64, f64), by_velocity: (f64, f64)| {
+            let of = |u: f64, v: f64| constant + law.stiffness * u + law.dashpot * v;
+            (
+                of(by_penetration.0, by_velocity.0),
+                of(by_penetration.1, by_velocity.1),
+            )
+        };
+        let ((x0, x1), (v0, v1)) = (force(law.at_rest, u, v), force(0.0, v, a));
+        let fourth = law.stiffness * self.bound(ends, 4) + law.dashpot * self.bound(ends, 5);
+        hermite_range([x0, v0, x1, v1], fourth, ends.length)
     }
 
-    /// The row as a function, from the derivative of this order on.
+    /// Whether the penetration of a closed level and its force are sure to stay below these, by
+    /// values and slopes at the ends alone.
+    pub(super) fn stay_below(
+        &self,
+        (law, ends): (&AffineContact, &Ends),
+        width: f64,
+        [penetration, force]: [f64; 2],
+    ) -> bool {
+        let (_, closing) = self.range(ends, 0);
+        // What is not a number is no proof.
+        closing - width <= penetration && self.range_of_force(law, ends).1 <= force
+    }
+
+    /// The row as a function of displacements, or of absolute accelerations, which are of order
+    /// two.
     fn values(&self, ends: &Ends, order: usize) -> Values {
         let mut values = Values {
             start: [0.0; 4],
@@ -181,7 +204,11 @@ impl Row {
             bounds: [4, 5, 8].map(|k| self.bound(ends, order + k)),
         };
         for k in 0..4 {
-            (values.start[k], values.end[k]) = self.both(ends, order + k);
+            let (start, end) = match (order, k) {
+                (2, 0 | 1) => (&ends.absolute_start[k], &ends.absolute_end[k]),
+                _ => (&ends.start[order + k], &ends.end[order + k]),
+            };
+            (values.start[k], values.end[k]) = (self.sum(start), self.sum(end));
         }
         values
     }
@@ -263,17 +290,6 @@ impl Course {
     pub(super) fn range(&self) -> (f64, f64) {
         let ([x0, v0], [x1, v1]) = (self.start, self.end);
         hermite_range([x0, v0, x1, v1], self.fourth, self.length)
-    }
-
-    /// Whether it is sure to stay below this.
-    pub(super) fn stays_below(&self, limit: f64) -> bool {
-        let ([x0, v0], [x1, v1], h) = (self.start, self.end, self.length);
-        let third = h / 3.0;
-        let (a, b) = (x0 + third * v0, x1 - third * v1);
-        let (first, last) = (0.25 * x0 + 0.75 * a, 0.25 * x1 + 0.75 * b);
-        let middle = 0.5 * (a + b) + h * h * h * h / 144.0 * self.fourth;
-        // What is not a number is no proof.
-        x0 < limit && x1 < limit && first < limit && last < limit && middle < limit
     }
 
     /// Whether it may have a maximum or minimum inside: whether the control points of its slope
@@ -415,7 +431,7 @@ pub(super) enum Begin {
 
 /// Functions of one building that are sums of displacements, and those that are sums of absolute
 /// accelerations: a product for each tells the values of all. They stand one kind after the other,
-/// each filled up to whole blocks.
+/// each filled up to whole blocks; the first are the coordinates, whether they have peaks or not.
 #[derive(Debug)]
 pub(super) struct Group {
     building: usize,
@@ -445,15 +461,31 @@ impl Group {
             let terms = f.row.terms.iter();
             terms.filter(|(i, _)| *i == dof).map(|(_, w)| w).sum()
         };
-        let rows = [kinds.0, kinds.1]
-            .map(|own| DMatrix::from_fn(own.len(), dofs.len(), |k, j| weight(&own[k], dofs[j])));
-        let of_accelerations = padded(kinds.0.len());
-        let later = (0..kinds.1.len()).map(|k| of_accelerations + k);
-        let places: Vec<usize> = (0..kinds.0.len()).chain(later).collect();
+        let weights = |f: &Function| -> Vec<f64> { dofs.iter().map(|i| weight(f, *i)).collect() };
+        let n = dofs.len();
+        let unit = |j: usize| (0..n).map(|i| f64::from(u8::from(i == j))).collect();
+        let mut of_displacements: Vec<Vec<f64>> = (0..n).map(unit).collect();
+        let mut places: Vec<usize> = Vec::with_capacity(own.len());
+        for row in kinds.0.iter().map(weights) {
+            let coordinate = of_displacements[..n].iter().position(|unit| *unit == row);
+            let free = coordinate.filter(|place| !places.contains(place));
+            places.push(free.unwrap_or(of_displacements.len()));
+            if free.is_none() {
+                of_displacements.push(row);
+            }
+        }
+        let accelerations: Vec<Vec<f64>> = kinds.1.iter().map(weights).collect();
+        let of_accelerations = padded(of_displacements.len());
+        places.extend((0..accelerations.len()).map(|k| of_accelerations + k));
+        let rows = [of_displacements, accelerations]
+            .map(|rows| DMatrix::from_fn(rows.len(), n, |k, j| rows[k][j]));
         let zeros = || vec![0.0; of_accelerations + padded(kinds.1.len())];
-        let mut mobility = zeros();
+        // A coordinate without a peak exceeds none.
+        let (mut mobility, mut peaks) = (zeros(), zeros());
+        peaks[..n].fill(f64::INFINITY);
         for (place, function) in places.iter().zip(own) {
             mobility[*place] = function.row.mobility.iter().map(|(_, m)| m).sum();
+            peaks[*place] = 0.0;
         }
         Self {
             building,
@@ -461,7 +493,7 @@ impl Group {
                 .map(|rows| RowBlocks::new(rows.nrows(), dofs.len(), |i, j| rows[(i, j)])),
             rows,
             mobility,
-            peaks: zeros(),
+            peaks,
             values: std::array::from_fn(|_| zeros()),
             beyond: zeros(),
             of_accelerations,
@@ -479,8 +511,8 @@ impl Group {
         }
     }
 
-    /// Its functions as rows over the coordinates of the building: of displacements, and of
-    /// absolute accelerations.
+    /// Rows over the coordinates of the building: the coordinates themselves and further functions
+    /// of displacements, and functions of absolute accelerations.
     pub(super) fn rows(&self) -> [&DMatrix<f64>; 2] {
         self.rows.each_ref()
     }
@@ -809,12 +841,6 @@ impl Function {
     pub(super) fn takes_peak(&self, place: &Place<'_>, ends: &Ends, peaks: &mut Peaks) -> bool {
         let (order, h) = (self.order(), ends.length);
         let mut values = self.row.values(ends, order);
-        if order == 2 {
-            for k in 0..2 {
-                values.start[k] = self.row.sum(&ends.absolute_start[k]);
-                values.end[k] = self.row.sum(&ends.absolute_end[k]);
-            }
-        }
         if let Some((factor, force)) = self.force(place, ends) {
             for k in 0..4 {
                 values.start[k] += factor * force.start[k];

@@ -1,5 +1,6 @@
 //! The run: steps, events, peaks, ledger.
 
+mod closings;
 mod contact_episode;
 mod contact_free;
 mod episode_steps;

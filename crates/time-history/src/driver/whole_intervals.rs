@@ -99,16 +99,9 @@ impl Driver<'_> {
         let n = self.dynamics.layout.dofs;
         let start = [&self.state[..n], &self.state[n..2 * n]];
         if fresh {
-            closings.clear();
-            closings.extend(levels.iter().map(|row| row.at(start)));
+            closings.begin(levels, start, |l| self.contacts.width(l));
         }
-        let mut numbered = levels.iter().zip(closings).enumerate();
-        let open = numbered.all(|(l, (row, closing))| {
-            let course = row.over(*closing, ends);
-            *closing = course.end;
-            course.stays_below(self.contacts.width(l))
-        });
-        if !open {
+        if !closings.advance(levels, ends) {
             *met = true;
             return false;
         }

@@ -4,7 +4,7 @@ use nalgebra::{DMatrix, SymmetricEigen};
 
 use std::ops::Range;
 
-use super::product::{RowBlocks, multiply, pad, padded, product_and_squares};
+use super::product::{RowBlocks, multiply, pad, padded};
 use super::whole_interval::{Courses, OfLength, WholeInterval};
 use super::{BOUNDED, Ends, HALVINGS};
 use crate::dynamics::Segment;
@@ -339,24 +339,23 @@ impl Building {
         which: usize,
         (index, ends): (usize, &mut Ends),
     ) {
-        let (n, loads, columns) = (self.dofs.len(), self.loads.len(), self.start.len());
         self.take_loads(system, segment, [0.0, segment.length]);
-        self.whole.advance(which, &mut self.start);
-        let [before, now] = self.whole.others();
-        let motion = &now[..2 * n];
-        for load in 0..loads {
-            let at = 2 * (n + load);
-            let (a, slope, b) = (self.start[at], self.start[at + 1], self.end[at]);
-            ends.input -= now[at] * b - before[at] * a - slope * now[at + 1];
-        }
-        let (form, squared) = now[2 * (n + loads)..].split_at(columns);
-        let (work, [fourth, sixth]) = product_and_squares((form, &self.start), &squared[..4 * n]);
+        let (work, [fourth, sixth]) = self.whole.advance(which, &mut self.start);
         ends.viscous += work;
-        ends.bounds[index][4] = fourth.sqrt();
-        ends.bounds[index][6] = sixth.sqrt();
+        let bounds = &mut ends.bounds[index];
+        (bounds[4], bounds[6]) = (fourth.sqrt(), sixth.sqrt());
+        let first = 2 * self.dofs.len();
+        let loads = [&self.start[first..], &self.end[first..]].map(|at| at.as_chunks::<2>().0);
+        let moved = self.whole.others().map(|at| at.as_chunks::<2>().0);
+        let loads = loads[0].iter().zip(loads[1]);
+        for (([a, slope], [b, _]), ([before, _], [after, integral])) in
+            loads.zip(moved[0].iter().zip(moved[1]))
+        {
+            ends.input -= after * b - before * a - slope * integral;
+        }
         let [floors, further] = &self.parts;
         let [u, v, ..] = &mut ends.end;
-        for (out, motion) in [u, v].into_iter().zip(motion.chunks_exact(n)) {
+        for (out, motion) in [u, v].into_iter().zip(self.whole.motion()) {
             let (of_floors, of_others) = motion.split_at(floors.len());
             out[floors.clone()].copy_from_slice(of_floors);
             out[further.clone()].copy_from_slice(of_others);

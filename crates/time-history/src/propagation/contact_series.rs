@@ -4,7 +4,7 @@
 use multiversion::multiversion;
 
 use super::building::Building;
-use super::product::{NARROW, multiply, padded};
+use super::product::{NARROW, add_product, multiply, padded};
 use super::{BOUNDED, Ends, ORDERS};
 use crate::contact::Contacts;
 use crate::dynamics::Segment;
@@ -150,8 +150,8 @@ pub(crate) struct ContactSeries {
     sum: Vec<f64>,
     both: Vec<f64>,
     acceleration: Vec<f64>,
-    /// By place at the start of the step: loads and their slopes times its length, then the
-    /// ground's acceleration and its slope.
+    /// By place at the start of the step: loads and their slopes, then the ground's acceleration
+    /// and its slope.
     loads: [Vec<f64>; 2],
     ground: [Vec<f64>; 2],
     /// Derivatives at the start, order after order.
@@ -273,7 +273,7 @@ impl ContactSeries {
         state: &[f64],
         length: f64,
     ) -> bool {
-        let (n, all) = (self.places, self.dofs.len());
+        let all = self.dofs.len();
         self.length = length;
         self.led = false;
         for (k, i) in &self.dofs {
@@ -281,25 +281,24 @@ impl ContactSeries {
             self.velocity[*k] = state[all + *i];
         }
         self.take_loads(system, (segment, tau));
-        for k in 1..=MOST {
-            let (u, u_next) = self.displacement[(k - 1) * n..(k + 1) * n].split_at_mut(n);
-            let (v, v_next) = self.velocity[(k - 1) * n..(k + 1) * n].split_at_mut(n);
-            let forces = Forces {
-                buildings,
-                contacts: &self.contacts,
-                rows: &self.rows,
-                loads: self.loads.get(k - 1).map(Vec::as_slice),
-                at_rest: k == 1,
-            };
-            let scale = length / k as f64;
-            let terms = (&mut *u_next, &mut *v_next);
-            next_terms(&forces, (scale, u, v), &mut self.acceleration, terms);
-            if k >= FEWEST && largest(v_next) < NEGLIGIBLE.1 && largest(u_next) < NEGLIGIBLE.0 {
-                self.last = k;
-                return true;
-            }
-        }
-        false
+        let forces = Forces {
+            buildings,
+            contacts: &self.contacts,
+            rows: &self.rows,
+            loads: self.loads.each_ref().map(Vec::as_slice),
+        };
+        let terms = (
+            self.displacement.as_mut_slice(),
+            self.velocity.as_mut_slice(),
+        );
+        let last = expand(
+            &forces,
+            (self.places, length),
+            &mut self.acceleration,
+            terms,
+        );
+        self.last = last.unwrap_or(self.last);
+        last.is_some()
     }
 
     /// Takes loads and ground at the start of a step.
@@ -315,7 +314,7 @@ impl ContactSeries {
                 false => load,
             };
             self.loads[0][*place] = load[0];
-            self.loads[1][*place] = self.length * load[1];
+            self.loads[1][*place] = load[1];
             (self.ground[0][*place], self.ground[1][*place]) = (ground[0], ground[1]);
         }
     }
@@ -429,10 +428,14 @@ impl ContactSeries {
     fn derive_start(&mut self) {
         let (n, h) = (self.places, self.length);
         let mut factor = 1.0;
-        self.derived[..n].copy_from_slice(&self.displacement[..n]);
-        for order in 1..BOUNDED.end {
-            for i in 0..n {
-                self.derived[order * n + i] = factor * self.velocity[(order - 1) * n + i];
+        let (first, others) = self.derived.split_at_mut(n);
+        first.copy_from_slice(&self.displacement[..n]);
+        let orders = others
+            .chunks_exact_mut(n)
+            .zip(self.velocity.chunks_exact(n));
+        for (order, (out, terms)) in (1..BOUNDED.end).zip(orders) {
+            for (out, term) in out.iter_mut().zip(terms) {
+                *out = factor * term;
             }
             factor *= order as f64 / h;
         }
@@ -508,12 +511,7 @@ impl ContactSeries {
     }
 
     /// Works over the step, into `ends` and [`ContactSeries::contacts`].
-    pub(super) fn works(
-        &mut self,
-        (system, buildings): (&System, &[Building]),
-        (segment, tau): (&Segment, f64),
-        ends: &mut Ends,
-    ) {
+    pub(super) fn works(&mut self, (system, buildings): (&System, &[Building]), ends: &mut Ends) {
         let (n, h) = (self.places, self.length);
         (ends.input, ends.viscous) = (0.0, 0.0);
         for (k, factor) in self.factors[..=self.last].iter_mut().enumerate() {
@@ -521,15 +519,12 @@ impl ContactSeries {
         }
         let integral = &mut self.sum;
         multiply(&self.displacement, n, &self.factors[..=self.last], integral);
-        let instants = [segment.ground(tau), segment.ground(tau + h)];
-        for (k, i) in &self.dofs {
-            if *i >= system.with_mass() {
-                continue;
-            }
-            let [a, b] = instants.map(|at| system.load_on(*i, at));
-            let slope = system.load_slope_on(*i, segment);
-            let moved = ends.end[0][*i] * b - ends.start[0][*i] * a - slope * integral[*k];
-            ends.input -= system.mass()[*i] * moved;
+        let (mass, [loads, slopes]) = (system.mass(), &self.loads);
+        for (k, i) in self.dofs.iter().filter(|(_, i)| *i < system.with_mass()) {
+            let (load, slope) = (loads[*k], slopes[*k]);
+            let (before, after) = (ends.start[0][*i], ends.end[0][*i]);
+            let moved = after * (load + slope * h) - before * load - slope * integral[*k];
+            ends.input -= mass[*i] * moved;
         }
         let mut contacts = std::mem::take(&mut self.contacts);
         for contact in &mut contacts {
@@ -549,12 +544,12 @@ impl ContactSeries {
         let rule = RULES.iter().find(suffices).unwrap_or(most);
         for (weight, powers) in rule.points {
             let (weight, powers) = (h * weight, &powers[..=self.last]);
-            multiply(&self.velocity, n, powers, &mut self.both[n..]);
+            let (u, v) = self.both.split_at_mut(n);
+            let terms = (self.velocity.as_slice(), n, powers);
+            ends.viscous += weight * viscous_power(buildings, terms, v, &mut self.force);
             if grounded {
-                multiply(&self.displacement, n, powers, &mut self.both[..n]);
+                multiply(&self.displacement, n, powers, u);
             }
-            let (u, v) = self.both.split_at(n);
-            ends.viscous += weight * viscous_power(buildings, v, &mut self.force);
             for contact in &mut contacts {
                 let row = &self.rows[contact.level];
                 let rate: f64 = row.iter().map(|e| e.weight * v[e.place]).sum();
@@ -578,25 +573,46 @@ struct Forces<'a> {
     buildings: &'a [Building],
     contacts: &'a [AffineContact],
     rows: &'a [Vec<Entry>],
-    /// Of the first two terms alone.
-    loads: Option<&'a [f64]>,
-    /// Whether what the contacts have at rest counts.
-    at_rest: bool,
+    /// Values at the start and slopes: they act on the first two terms alone.
+    loads: [&'a [f64]; 2],
 }
 
-/// The next terms of displacements and velocities.
+/// Expands displacements and velocities, whose first terms are given, over a step of this length
+/// (s). Returns the number of the last term if they have an end.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
+fn expand(
+    forces: &Forces<'_>,
+    (n, length): (usize, f64),
+    acceleration: &mut [f64],
+    (displacement, velocity): (&mut [f64], &mut [f64]),
+) -> Option<usize> {
+    for k in 1..=MOST {
+        let (u, u_next) = displacement[(k - 1) * n..(k + 1) * n].split_at_mut(n);
+        let (v, v_next) = velocity[(k - 1) * n..(k + 1) * n].split_at_mut(n);
+        let step = (k, length);
+        next_terms(forces, step, (u, v), acceleration, (u_next, v_next));
+        if k >= FEWEST && largest(v_next) < NEGLIGIBLE.1 && largest(u_next) < NEGLIGIBLE.0 {
+            return Some(k);
+        }
+    }
+    None
+}
+
+/// The terms of this number of displacements and velocities from those before.
+#[inline(always)]
 fn next_terms(
     forces: &Forces<'_>,
-    (scale, u, v): (f64, &[f64], &[f64]),
+    (k, length): (usize, f64),
+    (u, v): (&[f64], &[f64]),
     acceleration: &mut [f64],
     (u_next, v_next): (&mut [f64], &mut [f64]),
 ) {
+    let scale = length / k as f64;
     let mut first = 0;
     for building in forces.buildings {
         let (count, rows) = (building.dofs.len(), building.mass.len());
@@ -613,15 +629,16 @@ fn next_terms(
             delta += entry.weight * u[entry.place];
             rate += entry.weight * v[entry.place];
         }
-        let constant = if forces.at_rest { contact.at_rest } else { 0.0 };
+        let constant = if k == 1 { contact.at_rest } else { 0.0 };
         let force = constant + contact.stiffness * delta + contact.dashpot * rate;
         for entry in row {
             acceleration[entry.place] -= entry.push * force;
         }
     }
-    if let Some(loads) = forces.loads {
-        for (acceleration, load) in acceleration.iter_mut().zip(loads) {
-            *acceleration -= load;
+    if let Some(loads) = forces.loads.get(k - 1) {
+        let factor = if k == 1 { 1.0 } else { length };
+        for (acceleration, load) in acceleration.iter_mut().zip(*loads) {
+            *acceleration -= factor * load;
         }
     }
     let u_next = u_next.as_chunks_mut::<NARROW>().0;
@@ -645,12 +662,7 @@ fn scaled(factor: f64, mut block: [f64; NARROW]) -> [f64; NARROW] {
 }
 
 /// The largest magnitude.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[inline(always)]
 fn largest(values: &[f64]) -> f64 {
     let mut largest = [0.0_f64; NARROW];
     for block in values.as_chunks::<NARROW>().0 {
@@ -693,14 +705,22 @@ fn energies(building: &Building, (y, x): (&[f64], &[f64]), force: &mut [f64]) ->
     (sum(kinetic), sum(strain))
 }
 
-/// Power of the damping (W) at these velocities, filled up with zeros.
+/// Velocities, filled up with zeros, from so many terms in blocks and the powers of the time; and the
+/// power of the damping (W).
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn viscous_power(buildings: &[Building], velocity: &[f64], force: &mut [f64]) -> f64 {
+fn viscous_power(
+    buildings: &[Building],
+    (terms, n, powers): (&[f64], usize, &[f64]),
+    velocity: &mut [f64],
+    force: &mut [f64],
+) -> f64 {
+    velocity.fill(0.0);
+    add_product(terms, n, powers, velocity);
     let (mut sums, mut first) = ([0.0; NARROW], 0);
     for building in buildings {
         let own = &velocity[first..][..building.mass.len()];

@@ -234,13 +234,8 @@ impl Propagation {
     }
 
     /// Works out what works over a series.
-    pub(crate) fn works(
-        &mut self,
-        series: &mut ContactSeries,
-        system: &System,
-        place: (&Segment, f64),
-    ) {
-        series.works((system, &self.buildings), place, &mut self.ends);
+    pub(crate) fn works(&mut self, series: &mut ContactSeries, system: &System) {
+        series.works((system, &self.buildings), &mut self.ends);
     }
 }
 

@@ -217,12 +217,7 @@ impl Columns for [&[f64]; 2] {
 
 /// The product of two vectors, and sums of squares of values of which two belong to the one and
 /// two to the other sum, in turn.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[inline(always)]
 pub(crate) fn product_and_squares((a, b): (&[f64], &[f64]), squared: &[f64]) -> (f64, [f64; 2]) {
     let (a, rest_of_a) = a.as_chunks::<NARROW>();
     let (b, rest_of_b) = b.as_chunks::<NARROW>();

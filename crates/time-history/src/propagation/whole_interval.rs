@@ -1,10 +1,11 @@
 //! A whole interval of one building without contact as one product of a matrix: the motion at
 //! its end, works, bounds, and the courses of all that has peaks.
 
+use multiversion::multiversion;
 use nalgebra::DMatrix;
 use std::ops::Range;
 
-use super::product::{RowBlocks, padded};
+use super::product::{RowBlocks, padded, product_and_squares};
 
 /// What comes of an interval of one length. Columns are those of the start: displacements,
 /// velocities, acceleration and slope of every load.
@@ -32,9 +33,8 @@ pub(super) struct WholeInterval {
     over: Vec<RowBlocks>,
     /// The functions at the start of an interval.
     start: RowBlocks,
-    /// Displacements and velocities and what else is not a function; then values of the functions
-    /// of displacements and of those of absolute accelerations, and their rates in the same order.
-    others: usize,
+    /// Values of the functions of displacements and of those of absolute accelerations, and their
+    /// rates in the same order; what else there is stands after them.
     functions: [Range<usize>; 2],
     /// Masses by load, over the coordinates.
     masses: DMatrix<f64>,
@@ -44,8 +44,9 @@ pub(super) struct WholeInterval {
 }
 
 impl WholeInterval {
-    /// Functions are rows over the coordinates: over displacements, and over absolute
-    /// accelerations. The masses are those of the coordinates with a load, by load.
+    /// Functions are rows over the coordinates: over displacements, of which the first are the
+    /// coordinates themselves, and over absolute accelerations. The masses are those of the
+    /// coordinates with a load, by load.
     pub(super) fn new(
         start: &DMatrix<f64>,
         lengths: &[OfLength],
@@ -72,19 +73,13 @@ impl WholeInterval {
             }
             all
         };
-        let others = 2 * n + lengths.first().map_or(0, |of| of.others.nrows());
-        let first = padded(others);
+        let others = lengths.first().map_or(0, |of| of.others.nrows());
         let over = lengths.iter().map(|of| {
             let functions = of_motion(&of.motion);
-            RowBlocks::new(first + count, columns, |row, column| {
-                if row < 2 * n {
-                    of.motion[(row, column)]
-                } else if row < others {
-                    of.others[(row - 2 * n, column)]
-                } else if row < first {
-                    0.0
-                } else {
-                    functions[(row - first, column)]
+            RowBlocks::new(count + others, columns, |row, column| {
+                match row.checked_sub(count) {
+                    None => functions[(row, column)],
+                    Some(other) => of.others[(other, column)],
                 }
             })
         });
@@ -93,38 +88,50 @@ impl WholeInterval {
         Self {
             over,
             start: RowBlocks::new(count, columns, |i, j| at_start[(i, j)]),
-            others: first,
-            functions: [first..first + half, first + half..first + count],
+            functions: [0..half, half..count],
             masses,
-            now: vec![0.0; first + count],
-            before: vec![0.0; first + count],
+            now: vec![0.0; count + padded(others)],
+            before: vec![0.0; count + padded(others)],
         }
     }
 
     /// Begins anew where the next interval does.
     pub(super) fn begin(&mut self, start: &[f64]) {
-        let n = self.masses.ncols();
-        self.now[..2 * n].copy_from_slice(&start[..2 * n]);
+        let (functions, others) = self.now.split_at_mut(self.functions[1].end);
         for (load, masses) in self.masses.row_iter().enumerate() {
-            let sum = masses.iter().zip(start).map(|(m, u)| m * u).sum();
-            self.now[2 * n + 2 * load] = sum;
+            others[2 * load] = masses.iter().zip(start).map(|(m, u)| m * u).sum();
         }
-        self.start.multiply(start, &mut self.now[self.others..]);
+        self.start.multiply(start, functions);
     }
 
     /// Leads over an interval from where the last one ended, or from where it was begun; `start`
-    /// brings the loads and is given the motion.
-    pub(super) fn advance(&mut self, which: usize, start: &mut [f64]) {
-        let motion = 2 * self.masses.ncols();
-        start[..motion].copy_from_slice(&self.now[..motion]);
+    /// brings the loads and is given the motion. Returns the work of the damping, and what the
+    /// bounds of orders 4 and 6 are the roots of.
+    pub(super) fn advance(&mut self, which: usize, start: &mut [f64]) -> (f64, [f64; 2]) {
+        let n = self.masses.ncols();
+        let (u, v) = start[..2 * n].split_at_mut(n);
+        for (out, motion) in [u, v].into_iter().zip(self.motion()) {
+            out.copy_from_slice(motion);
+        }
         std::mem::swap(&mut self.now, &mut self.before);
-        self.over[which].multiply(start, &mut self.now);
+        let form = self.functions[1].end + 2 * self.masses.nrows();
+        lead(&self.over[which], start, &mut self.now, (form, 4 * n))
     }
 
-    /// Displacements and velocities and the rows of [`OfLength::others`], before the last
-    /// interval and after it.
+    /// Displacements and velocities after the last interval.
+    #[inline]
+    pub(super) fn motion(&self) -> [&[f64]; 2] {
+        let n = self.masses.ncols();
+        self.functions
+            .each_ref()
+            .map(|of| &self.now[of.start..][..n])
+    }
+
+    /// The rows of [`OfLength::others`], before the last interval and after it.
+    #[inline]
     pub(super) fn others(&self) -> [&[f64]; 2] {
-        [&self.before, &self.now].map(Vec::as_slice)
+        let first = self.functions[1].end;
+        [&self.before[first..], &self.now[first..]]
     }
 
     /// Functions of displacements, then of absolute accelerations.
@@ -140,4 +147,23 @@ impl WholeInterval {
             end: of(&self.now),
         }
     }
+}
+
+/// The product of a matrix with a vector, and of what it comes to the product of the rows of a
+/// quadratic form with the vector, and the sums of squares of so many rows after them.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn lead(
+    matrix: &RowBlocks,
+    x: &[f64],
+    out: &mut [f64],
+    (form, squared): (usize, usize),
+) -> (f64, [f64; 2]) {
+    matrix.multiply_inline(x, out);
+    let (form, rest) = out[form..].split_at(x.len());
+    product_and_squares((form, x), &rest[..squared])
 }

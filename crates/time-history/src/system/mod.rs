@@ -671,20 +671,11 @@ impl System {
             let mut below = 0.0;
             let [range, further] = self.parts(index);
             if let StiffnessMatrix::Dense(k) = building.stiffness_matrix() {
-                // Above the diagonal the matrix holds all of it.
                 let (floors, others) = (&u[range], &u[further]);
                 let columns = k.as_slice().chunks_exact(k.nrows());
-                for (j, (column, x)) in columns.zip(floors.iter().chain(others)).enumerate() {
-                    let (above, diagonal) = (&column[..j], column[j]);
-                    let (of_floors, of_others) = above.split_at(j.min(floors.len()));
-                    let mut force = 0.0;
-                    for (k, u) in of_floors.iter().zip(floors) {
-                        force += k * u;
-                    }
-                    for (k, u) in of_others.iter().zip(others) {
-                        force += k * u;
-                    }
-                    sum += (force + 0.5 * diagonal * x) * x;
+                for (column, x) in columns.zip(floors.iter().chain(others)) {
+                    let (of_floors, of_others) = column.split_at(floors.len());
+                    sum += 0.5 * (product(of_floors, floors) + product(of_others, others)) * x;
                 }
                 continue;
             }
@@ -728,6 +719,18 @@ impl ContactLevel {
         }
         of_floors + self.terms.sum_of(x)
     }
+}
+
+/// Product of two vectors.
+fn product(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, rest_of_a), (b, rest_of_b)) = (a.as_chunks::<2>(), b.as_chunks::<2>());
+    let mut sums = [0.0; 2];
+    for (a, b) in a.iter().zip(b) {
+        sums[0] += a[0] * b[0];
+        sums[1] += a[1] * b[1];
+    }
+    let rest: f64 = rest_of_a.iter().zip(rest_of_b).map(|(a, b)| a * b).sum();
+    sums[0] + sums[1] + rest
 }
 
 /// Product of a building's matrix with its floors and its other coordinates.

@@ -124,6 +124,30 @@ fn no_delay_is_one_motion() {
     }
 }
 
+/// Ground that moves alike under two buildings of one kind, by two motions of their own, takes both
+/// along: the gap, a thousandth of what the ground moves by, neither closes nor opens.
+#[test]
+fn a_rigid_translation_leaves_the_gap_alone() {
+    let own = "ground = { file = \"../ground_motions/el_centro_1940_ns.csv\" }";
+    let twins = |ground: &str| {
+        let alike = pair(ground)
+            .replace("60000.0", "25000.0")
+            .replace("80000000.0", "13840000.0");
+        assembled(&alike.replace("width = 0.03", "width = 1e-4\nseat = 1.0"))
+    };
+    let together = twins(own);
+    let outcome = go(&together.system, &together.options);
+    assert_eq!(outcome.impacts.len(), 0);
+    assert!(outcome.buildings[0].storeys[2].displacement.value > 0.03);
+    for level in &outcome.gaps[0].levels {
+        let opening = level.responses[0].peak.value;
+        assert!(opening.abs() < 1e-12, "{opening:e}");
+        assert_eq!(level.first_contact, None);
+    }
+    let apart = twins(&own.replace(" }", ", delay = 0.5 }"));
+    assert!(!go(&apart.system, &apart.options).impacts.is_empty());
+}
+
 /// Both buildings later by the same time: the run, later.
 #[test]
 fn a_delay_of_all_shifts_the_run() {

@@ -3,7 +3,6 @@
 
 use pounding_gap_element::{Direction, Guard};
 
-use super::closings::Closings;
 use super::functions::{Begin, Function, Group, Place, Row};
 use super::peaks_put_off::PeaksPutOff;
 use super::series_events::Scan;
@@ -38,7 +37,8 @@ pub(super) struct ExactSteps {
     doubtful: Vec<usize>,
     /// Closings of the contact levels.
     pub levels: Vec<Row>,
-    pub closings: Closings,
+    /// Their values and rates at the end of the last whole interval.
+    pub closings: Vec<[f64; 2]>,
     /// Time (s) in the interval until which steps are left to the method.
     method_until: f64,
     /// Space for the state while recorders are served.
@@ -79,7 +79,7 @@ impl ExactSteps {
                 .iter()
                 .map(|l| Row::of_level(system, l))
                 .collect(),
-            closings: Closings::new(system.levels().len()),
+            closings: Vec::with_capacity(system.levels().len()),
             method_until: 0.0,
             saved: Vec::with_capacity(Layout::of(system).dimension()),
             recording: 0,

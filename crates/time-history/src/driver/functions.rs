@@ -131,9 +131,12 @@ impl Row {
 
     /// Bound of the derivative of this order over the step.
     #[inline]
-    pub(super) fn bound(&self, ends: &Ends, order: usize) -> f64 {
-        let of = self.mobility.iter();
-        of.map(|(b, m)| m * ends.bounds[*b][order]).sum()
+    fn bound(&self, ends: &Ends, order: usize) -> f64 {
+        let of = |(building, mobility): &(usize, f64)| mobility * ends.bounds[*building][order];
+        match self.mobility.as_slice() {
+            [one, other] => of(one) + of(other),
+            all => all.iter().map(of).sum(),
+        }
     }
 
     /// The derivative of this order at both ends.
@@ -290,6 +293,17 @@ impl Course {
     pub(super) fn range(&self) -> (f64, f64) {
         let ([x0, v0], [x1, v1]) = (self.start, self.end);
         hermite_range([x0, v0, x1, v1], self.fourth, self.length)
+    }
+
+    /// Whether it is sure to stay below this.
+    pub(super) fn stays_below(&self, limit: f64) -> bool {
+        let ([x0, v0], [x1, v1], h) = (self.start, self.end, self.length);
+        let third = h / 3.0;
+        let (a, b) = (x0 + third * v0, x1 - third * v1);
+        let (first, last) = (0.25 * x0 + 0.75 * a, 0.25 * x1 + 0.75 * b);
+        let middle = 0.5 * (a + b) + h * h * h * h / 144.0 * self.fourth;
+        // What is not a number is no proof.
+        x0 < limit && x1 < limit && first < limit && last < limit && middle < limit
     }
 
     /// Whether it may have a maximum or minimum inside: whether the control points of its slope

@@ -1,6 +1,5 @@
 //! The run: steps, events, peaks, ledger.
 
-mod closings;
 mod contact_episode;
 mod contact_free;
 mod episode_steps;

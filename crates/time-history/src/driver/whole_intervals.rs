@@ -99,9 +99,16 @@ impl Driver<'_> {
         let n = self.dynamics.layout.dofs;
         let start = [&self.state[..n], &self.state[n..2 * n]];
         if fresh {
-            closings.begin(levels, start, |l| self.contacts.width(l));
+            closings.clear();
+            closings.extend(levels.iter().map(|row| row.at(start)));
         }
-        if !closings.advance(levels, ends) {
+        let mut numbered = levels.iter().zip(closings).enumerate();
+        let open = numbered.all(|(l, (row, closing))| {
+            let course = row.over(*closing, ends);
+            *closing = course.end;
+            course.stays_below(self.contacts.width(l))
+        });
+        if !open {
             *met = true;
             return false;
         }

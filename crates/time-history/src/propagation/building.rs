@@ -345,12 +345,11 @@ impl Building {
         let bounds = &mut ends.bounds[index];
         (bounds[4], bounds[6]) = (fourth.sqrt(), sixth.sqrt());
         let first = 2 * self.dofs.len();
-        let loads = [&self.start[first..], &self.end[first..]].map(|at| at.as_chunks::<2>().0);
-        let moved = self.whole.others().map(|at| at.as_chunks::<2>().0);
-        let loads = loads[0].iter().zip(loads[1]);
-        for (([a, slope], [b, _]), ([before, _], [after, integral])) in
-            loads.zip(moved[0].iter().zip(moved[1]))
-        {
+        let [before, after] = self.whole.others();
+        let (starts, ends_of_loads) = (pairs(&self.start[first..]), pairs(&self.end[first..]));
+        let loads = starts.iter().zip(ends_of_loads);
+        let moved = pairs(before).iter().zip(pairs(after));
+        for (([a, slope], [b, _]), ([before, _], [after, integral])) in loads.zip(moved) {
             ends.input -= after * b - before * a - slope * integral;
         }
         let [floors, further] = &self.parts;
@@ -505,6 +504,12 @@ impl Building {
             }
         }
     }
+}
+
+/// Values two by two, as loads stand with their slopes.
+#[inline]
+fn pairs(values: &[f64]) -> &[[f64; 2]] {
+    values.as_chunks::<2>().0
 }
 
 /// Rows of the derivatives of order two and more.

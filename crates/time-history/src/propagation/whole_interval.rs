@@ -121,10 +121,9 @@ impl WholeInterval {
     /// Displacements and velocities after the last interval.
     #[inline]
     pub(super) fn motion(&self) -> [&[f64]; 2] {
-        let n = self.masses.ncols();
-        self.functions
-            .each_ref()
-            .map(|of| &self.now[of.start..][..n])
+        let (n, [values, rates]) = (self.masses.ncols(), &self.functions);
+        let (u, v) = (&self.now[values.start..], &self.now[rates.start..]);
+        [&u[..n], &v[..n]]
     }
 
     /// The rows of [`OfLength::others`], before the last interval and after it.

@@ -7,10 +7,9 @@ use multiversion::multiversion;
 const WIDEST: usize = 32;
 const WIDE: usize = 16;
 const MIDDLE: usize = 8;
+/// A block of [`RowBlocks`] that spares a middle one beside a narrow one.
+const MIDDLE_AND_NARROW: usize = 12;
 pub(crate) const NARROW: usize = 4;
-/// Rows of a block of [`RowBlocks`] at most: as many sums as registers of four numbers hold beside
-/// what they are made of.
-const MOST_IN_BLOCK: usize = 40;
 
 /// Rows with what fills them up to a multiple of the narrow block.
 pub(crate) fn padded(rows: usize) -> usize {
@@ -93,8 +92,7 @@ fn block<const ROWS: usize>(
 }
 
 /// A matrix for products of all its rows: in blocks of rows that are summed side by side, each
-/// column after column, filled up with zeros to the padded number of rows. All blocks but the last
-/// have [`MOST_IN_BLOCK`] rows.
+/// column after column, filled up with zeros to the padded number of rows.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct RowBlocks {
     columns: usize,
@@ -107,15 +105,14 @@ impl RowBlocks {
         let mut entries = Vec::with_capacity(all * columns);
         let mut first = 0;
         while first < all {
-            let own = first..first + (all - first).min(MOST_IN_BLOCK);
-            first = own.end;
+            let widths = [WIDEST, WIDE, MIDDLE_AND_NARROW, MIDDLE, NARROW];
+            let width = widths.into_iter().find(|w| first + w <= all);
+            let width = width.unwrap_or(NARROW);
             for column in 0..columns {
-                let rows_of_block = own.clone();
-                entries.extend(rows_of_block.map(|row| match row < rows {
-                    true => entry(row, column),
-                    false => 0.0,
-                }));
+                let own = first..first + width;
+                entries.extend(own.map(|row| if row < rows { entry(row, column) } else { 0.0 }));
             }
+            first += width;
         }
         Self { columns, entries }
     }
@@ -157,20 +154,20 @@ trait Columns: Copy {
 #[inline(always)]
 fn blocks(entries: &[f64], x: impl Columns, out: &mut [f64]) {
     let mut left = (entries, out);
-    while !left.1.is_empty() {
-        left = match left.1.len() / NARROW {
-            0 => return,
-            1 => take_block::<4>(left, x),
-            2 => take_block::<8>(left, x),
-            3 => take_block::<12>(left, x),
-            4 => take_block::<16>(left, x),
-            5 => take_block::<20>(left, x),
-            6 => take_block::<24>(left, x),
-            7 => take_block::<28>(left, x),
-            8 => take_block::<32>(left, x),
-            9 => take_block::<36>(left, x),
-            _ => take_block::<MOST_IN_BLOCK>(left, x),
-        };
+    while left.1.len() >= WIDEST {
+        left = take_block::<WIDEST>(left, x);
+    }
+    if left.1.len() >= WIDE {
+        left = take_block::<WIDE>(left, x);
+    }
+    if left.1.len() >= MIDDLE_AND_NARROW {
+        left = take_block::<MIDDLE_AND_NARROW>(left, x);
+    }
+    if left.1.len() >= MIDDLE {
+        left = take_block::<MIDDLE>(left, x);
+    }
+    if left.1.len() >= NARROW {
+        take_block::<NARROW>(left, x);
     }
 }
 

@@ -7,8 +7,6 @@ use multiversion::multiversion;
 const WIDEST: usize = 32;
 const WIDE: usize = 16;
 const MIDDLE: usize = 8;
-/// A block of [`RowBlocks`] that spares a middle one beside a narrow one.
-const MIDDLE_AND_NARROW: usize = 12;
 pub(crate) const NARROW: usize = 4;
 
 /// Rows with what fills them up to a multiple of the narrow block.
@@ -105,7 +103,7 @@ impl RowBlocks {
         let mut entries = Vec::with_capacity(all * columns);
         let mut first = 0;
         while first < all {
-            let widths = [WIDEST, WIDE, MIDDLE_AND_NARROW, MIDDLE, NARROW];
+            let widths = [WIDEST, WIDE, MIDDLE, NARROW];
             let width = widths.into_iter().find(|w| first + w <= all);
             let width = width.unwrap_or(NARROW);
             for column in 0..columns {
@@ -159,9 +157,6 @@ fn blocks(entries: &[f64], x: impl Columns, out: &mut [f64]) {
     }
     if left.1.len() >= WIDE {
         left = take_block::<WIDE>(left, x);
-    }
-    if left.1.len() >= MIDDLE_AND_NARROW {
-        left = take_block::<MIDDLE_AND_NARROW>(left, x);
     }
     if left.1.len() >= MIDDLE {
         left = take_block::<MIDDLE>(left, x);

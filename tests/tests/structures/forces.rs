@@ -396,3 +396,23 @@ fn no_force_is_no_force() {
     let zero = "[[building.force]]\nstorey = 2\nconstant = 0\n";
     agree(&plain, &own(&assembled(&text(zero), &file)), 1e-9);
 }
+
+/// The struck frame of the examples, by hand: sines between impacts, of which each begins with a part
+/// of the velocity that the last one ended with.
+#[test]
+fn a_struck_frame_meets_the_wall_when_sines_do() {
+    let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../examples/snap_back/struck.toml");
+    let assembly = assemble(&Case::read(&file).unwrap()).unwrap();
+    let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+    let (rate, gap, struck, restitution) = (40.0_f64.sqrt(), 0.02, 0.4_f64, 0.6);
+    let mut approach = (struck * struck - (rate * gap).powi(2)).sqrt();
+    let mut time = (rate * gap / struck).asin() / rate;
+    assert_eq!(outcome.impacts.len(), 4);
+    for impact in &outcome.impacts {
+        assert!((impact.time_closed - time).abs() < 1e-9, "{time}");
+        assert!((impact.approach_velocity - approach).abs() < 1e-9);
+        approach *= restitution;
+        let amplitude = gap.hypot(approach / rate);
+        time += (PI + 2.0 * (gap / amplitude).asin()) / rate;
+    }
+}

@@ -164,6 +164,26 @@ fn all_errors_of_a_case() {
     );
 }
 
+/// Floors are looked at with a stand-in for the model, to which the spring does not belong.
+#[test]
+fn a_spring_is_not_blamed_for_another_error() {
+    let folder = bench();
+    let text = changed(
+        CASE,
+        &[
+            ("\"1 s\"", "\"1 kg\""),
+            (
+                "model = \"anagnostopoulos_2004\"",
+                "model = \"borovin_2014\"\nfriction = 0.3\nspring = [[\"1 mm\", \"10 kN\"]]",
+            ),
+            ("stiffness = \"93.5 MN/m\"\n", ""),
+            ("restitution = 0.65\n", ""),
+        ],
+    );
+    std::fs::write(folder.path().join("bad.toml"), text).unwrap();
+    refused(&run(folder.path(), "check bad.toml"), &["1 kg"]);
+}
+
 #[test]
 fn laws_are_found_by_what_they_do() {
     let folder = bench();

@@ -1,5 +1,7 @@
 //! An accelerogram with its origin.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use crate::error::GroundMotionError;
@@ -69,7 +71,7 @@ pub struct Peak {
 /// Ground acceleration at even steps, the first sample at time zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Accelerogram {
-    samples: Vec<f64>,
+    samples: Arc<[f64]>,
     time_step: f64,
     scale: f64,
     origin: Option<Origin>,
@@ -161,6 +163,12 @@ impl Accelerogram {
         &self.samples
     }
 
+    /// The same samples, shared: nothing is copied.
+    #[must_use]
+    pub fn shared_samples(&self) -> Arc<[f64]> {
+        Arc::clone(&self.samples)
+    }
+
     /// Time step (s).
     #[must_use]
     pub fn time_step(&self) -> f64 {
@@ -221,8 +229,8 @@ impl Accelerogram {
         }
         let mut scaled = self.clone();
         scaled.scale *= factor;
-        for a in &mut scaled.samples {
-            *a *= factor;
+        if factor != 1.0 {
+            scaled.samples = self.samples.iter().map(|a| a * factor).collect();
         }
         Ok(scaled)
     }

@@ -27,7 +27,7 @@ fn models_json(name: Option<&str>) -> Result<String, Problem> {
 /// Two bodies collide: numbers and arrays by name. Without the mass of the right one it is a
 /// wall.
 #[pyfunction]
-#[pyo3(signature = (model, parameters, mass_left, mass_right, velocity_left, velocity_right, separation=None))]
+#[pyo3(signature = (model, parameters, mass_left, mass_right, velocity_left, velocity_right, separation=None, spring=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 fn collide<'py>(
     py: Python<'py>,
@@ -38,6 +38,7 @@ fn collide<'py>(
     velocity_left: f64,
     velocity_right: f64,
     separation: Option<&str>,
+    spring: Option<Vec<(f64, f64)>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let refused = |e| Problem::from(Failure::from(e));
     let descriptor = registry::find(model).map_err(refused)?;
@@ -54,6 +55,7 @@ fn collide<'py>(
         };
         given = given.with_separation(rule);
     }
+    given.spring = spring;
     let model = registry::build(descriptor.name, &given).map_err(refused)?;
     let bodies = Bodies {
         mass_left,

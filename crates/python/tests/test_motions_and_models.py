@@ -74,6 +74,16 @@ def test_an_elastic_collision_of_equal_masses_exchanges_velocities() -> None:
     assert made.force.max() <= made.peak_force
 
 
+def test_a_table_is_the_spring_of_a_collision() -> None:
+    table = np.array([[5e-3, 100e3], [10e-3, 500e3], [20e-3, 3000e3]])
+    bodies = {"mass_left": 25e3, "velocity_left": 0.5}
+    made = pounding.collide("borovin_2014", friction=0.3, spring=table, **bodies)
+    # The closed form of the law about any spring.
+    assert made.restitution == pytest.approx(np.sqrt(0.7 / 1.3), rel=1e-8)
+    with pytest.raises(pounding.CaseError, match="hertz_1882 takes none"):
+        pounding.collide("hertz_1882", spring=table, **bodies)
+
+
 def test_models_are_described() -> None:
     models = pounding.models()
     assert "jankowski_2005" in models.index and len(models) >= 35

@@ -255,6 +255,7 @@ fn floors(case: &Case) -> Vec<CaseError> {
         // Any model that is known.
         gap.model.value = "linear_elastic".to_owned();
         gap.separation = None;
+        gap.spring = None;
         gap.parameters = vec![stiffness.clone()];
         let hits_columns = gap.columns.iter().any(Option::is_some);
         base.gaps = vec![gap];

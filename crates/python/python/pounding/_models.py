@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 from . import _native
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     import numpy as np
     import numpy.typing as npt
     import pandas
@@ -59,6 +61,7 @@ def collide(
     velocity_left: float,
     velocity_right: float = 0.0,
     separation: str | None = None,
+    spring: Iterable[Sequence[float]] | None = None,
     **parameters: float,
 ) -> Collision:
     """Two bodies collide under an impact model, without anything else that acts on them.
@@ -73,11 +76,15 @@ def collide(
         Velocities before (m/s), positive to the right.
     separation : str, optional
         Separation rule, where the model has several.
+    spring : array of shape (points, 2), optional
+        Penetrations (m) and forces (N), both increasing: a spring of your own in the place of
+        ``stiffness`` and ``exponent``, for ``borovin_2014``.
     **parameters
         Parameters of the model (SI), such as ``stiffness`` and ``restitution``.
     """
+    table = None if spring is None else [(float(d), float(f)) for d, f in spring]
     pairs = [(name, float(value)) for name, value in parameters.items()]
     answer = _native.collide(
-        model, pairs, mass_left, mass_right, velocity_left, velocity_right, separation
+        model, pairs, mass_left, mass_right, velocity_left, velocity_right, separation, table
     )
     return Collision(**answer)

@@ -98,6 +98,7 @@ def collide(
     velocity_left: float,
     velocity_right: float,
     separation: str | None,
+    spring: list[tuple[float, float]] | None,
 ) -> dict[str, Any]: ...
 def has_ida(study: str) -> bool: ...
 def run_study(

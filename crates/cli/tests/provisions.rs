@@ -261,6 +261,20 @@ fn editions_by_date() {
             &["--code", "ntc", "--date", "2000-01-01"],
             "in force on 2000-01-01",
         ),
+        // A date that nothing asks for.
+        (
+            &["--code", "tdy_2007", "--date", "2018-12-31"],
+            "\"tdy_2007\" is one edition",
+        ),
+        (
+            &["--code", "tdy_2007", "--date", "2018-12-31"],
+            "name \"turkey\"",
+        ),
+        (
+            &["--set", "code=\"tdy_2007\"", "--set", "date=\"2018-12-31\""],
+            "decides nothing",
+        ),
+        (&["--date", "2018-12-31"], "no code is asked for"),
         (&["--country", "Itly"], "did you mean \"Italy\"?"),
         (
             &["--country", "United States", "--date", "2020-01-01"],

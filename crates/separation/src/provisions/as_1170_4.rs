@@ -8,19 +8,19 @@ use crate::inputs::{Site, Structure};
 use crate::status::Status;
 use crate::working::Working;
 
-/// Height (m) from which the rule speaks.
+/// Height of the structure (m) above which the rule speaks.
 const LOWEST: f64 = 15.0;
 
 fn boundary(
     working: &mut Working,
-    _: &Structure,
-    elevation: f64,
+    structure: &Structure,
+    _: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
-    if elevation <= LOWEST {
-        return Err(working.not_applicable("it speaks of levels above 15 m"));
+    if structure.height <= LOWEST {
+        return Err(working.not_applicable("it speaks of structures of more than 15 m"));
     }
-    Ok(0.01 * working.elevation(elevation))
+    Ok(0.01 * working.note("H", structure.height, "m"))
 }
 
 static EDITION: Edition = Edition {
@@ -38,11 +38,11 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     height: HeightDatum::NotSeen,
     ground: Ground::OwnSide,
     elastic_displacement_factor: None,
-    formula: "h / 100, or by analysis",
+    formula: "H / 100 with the height H of the structure, or by analysis",
     inputs: &[],
     status: Status::Unverified("the rule and its limit of 15 m"),
-    remarks: &["For levels above 15 m."],
-    worked: "18000 / 100",
+    remarks: &["For structures of more than 15 m; at each of their levels."],
+    worked: "21000 / 100",
     rule: Rule::Boundary(boundary),
 };
 
@@ -52,13 +52,21 @@ mod tests {
 
     use super::*;
 
-    /// 20 m: 200 mm. Below 15 m: nothing.
+    /// A structure of 20 m: 200 mm at each of its levels. One of 15 m: nothing.
     #[test]
     fn by_hand() {
-        let own = |h| BOUNDARY.boundary(&Structure::default(), h, &Site::default());
-        assert!((own(20.0).unwrap().width - 0.2).abs() < 1.0e-12);
+        let own = |height, elevation| {
+            let structure = Structure {
+                height,
+                ..Structure::default()
+            };
+            BOUNDARY.boundary(&structure, elevation, &Site::default())
+        };
+        for elevation in [5.0, 20.0] {
+            assert!((own(20.0, elevation).unwrap().width - 0.2).abs() < 1.0e-12);
+        }
         assert!(matches!(
-            own(15.0),
+            own(15.0, 15.0),
             Err(SeparationError::NotApplicable { .. })
         ));
     }

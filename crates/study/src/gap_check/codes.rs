@@ -392,13 +392,46 @@ fn chosen_code(
         return Ok((Some(code.code()), Some(date)));
     }
     let Some(name) = &separation.code else {
+        idle_date(case, separation, "no code is asked for", "name one with it")?;
         return Ok((None, None));
     };
     if let Some(rule) = own.iter().find(|rule| rule.name() == name.value) {
+        let why = format!("the rule \"{}\" has no editions", name.value);
+        idle_date(case, separation, &why, "leave it away")?;
         return Ok((Some(Code::of_rule(rule.clone())), None));
     }
     let (code, by_date) = choose_code(&name.value, date).map_err(|e| wrong(name, e))?;
-    Ok((Some(code.code()), by_date.then_some(date)))
+    if by_date {
+        return Ok((Some(code.code()), Some(date)));
+    }
+    let why = format!("\"{}\" is one edition", name.value);
+    let help = if code.family == code.name {
+        "leave it away".to_owned()
+    } else {
+        let family = code.family;
+        format!("leave it away, or name \"{family}\", between whose editions a date chooses")
+    };
+    idle_date(case, separation, &why, &help)?;
+    Ok((Some(code.code()), None))
+}
+
+/// The error of a date that chooses between nothing. One in a case may wait for a code that an
+/// argument names, and is not meant for an edition that an argument names.
+fn idle_date(
+    case: &Case,
+    separation: &Separation,
+    why: &str,
+    help: &str,
+) -> Result<(), CheckError> {
+    let Some(date) = &separation.date else {
+        return Ok(());
+    };
+    let of_case = |word: &Located<String>| stands_in(case, word);
+    if of_case(date) && !separation.code.as_ref().is_some_and(of_case) {
+        return Ok(());
+    }
+    let message = format!("the date {} decides nothing: {why}", date.value);
+    Err(unknown(case, date, message, Some(help.to_owned())))
 }
 
 /// Every word of `[separation]` in a case that is not known or cannot be used: structural systems,
@@ -427,6 +460,12 @@ pub fn unknown_words(case: &Case) -> Vec<CaseError> {
     all.filter_map(placed).chain(rules).collect()
 }
 
+/// Whether a word stands in the case, and not in an argument.
+fn stands_in(case: &Case, word: &Located<String>) -> bool {
+    let there = case.source.get(word.span.clone());
+    there.is_some_and(|text| text.contains(&word.value))
+}
+
 /// A word that is not known: with its place if it stands in the case, and not in an
 /// argument.
 fn unknown(
@@ -435,8 +474,7 @@ fn unknown(
     message: String,
     help: Option<String>,
 ) -> CheckError {
-    let there = case.source.get(name.span.clone());
-    if there.is_some_and(|text| text.contains(&name.value)) {
+    if stands_in(case, name) {
         case.error(name.span.clone(), message, help).into()
     } else {
         CheckError::Word { message, help }

@@ -217,12 +217,12 @@ fn a_typed_chain_is_the_shear_building() {
                 "displacement",
                 b.displacement.value,
                 a.displacement.value,
-                1e-11,
+                1e-13,
             );
-            near("drift", b.drift_ratio.value, a.drift_ratio.value, 1e-11);
-            near("shear", b.storey_shear.value, a.storey_shear.value, 1e-11);
+            near("drift", b.drift_ratio.value, a.drift_ratio.value, 1e-13);
+            near("shear", b.storey_shear.value, a.storey_shear.value, 1e-13);
             let (a, b) = (a.acceleration_absolute.value, b.acceleration_absolute.value);
-            near("acceleration", b, a, 1e-11);
+            near("acceleration", b, a, 1e-13);
         }
         // The moment of the storey shears over the storeys below them.
         let moment = typed.buildings[0].base_moment.unwrap().value;

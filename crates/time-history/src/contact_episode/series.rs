@@ -11,7 +11,7 @@ use crate::polynomial::{fit, maximum_above};
 use crate::system::System;
 
 /// Maximum product of rate and step.
-const LONGEST: f64 = 1.2;
+const LONGEST: f64 = 1.3;
 
 /// Relative size below which a leading term is what a root that was just passed leaves.
 const NEGLIGIBLE_START: f64 = 1.0e-13;
@@ -108,8 +108,7 @@ impl Series {
         }
     }
 
-    /// Bound of the rate (1/s) of the motion of the closed levels, of
-    /// `sqrt(sum k / m) + sum c / m`.
+    /// Bound of the rate (1/s) of the motion of the closed levels, of `sqrt(k / m) + c / m`.
     pub(crate) fn rate(&self) -> f64 {
         self.rate
     }
@@ -121,7 +120,6 @@ impl Series {
 
     /// Takes the laws of the closed levels.
     pub(crate) fn take_laws(&mut self, system: &System, rows: &LevelRows, touches: &[Touch]) {
-        let (mut squares, mut damping) = (0.0, 0.0);
         for (index, touch) in touches.iter().enumerate() {
             let level = &system.levels()[touch.level];
             let (collision, phase) = (&touch.contact.collision, touch.contact.phase);
@@ -130,8 +128,6 @@ impl Series {
                 Some(law) if !level.model.is_affine(collision, phase) => Law::Powers(law),
                 _ => {
                     let law = touch.contact.force(level, 0.0, 0.0);
-                    squares += law.by_penetration.abs() / level.effective_mass;
-                    damping += law.by_velocity.abs() / level.effective_mass;
                     Law::Affine {
                         constant: law.value,
                         stiffness: law.by_penetration,
@@ -152,7 +148,35 @@ impl Series {
             let others = touches.iter().map(|b| row.product(&rows.levels[b.level]));
             self.mobility.extend(others);
         }
-        self.rate = squares.sqrt() + damping;
+        self.rate = self.contact_rate();
+    }
+
+    /// Stiffness and dashpots of all levels act through the mobility: its eigenvalues with either
+    /// are at most the greatest sum over a row, and at most the sum over the diagonal. Levels
+    /// that share no floor do not add up.
+    fn contact_rate(&self) -> f64 {
+        let count = self.touches.len();
+        let (mut rows, mut diagonal) = ([0.0_f64; 2], [0.0_f64; 2]);
+        for (l, mobility) in self.mobility.chunks(count.max(1)).enumerate() {
+            let mut sums = [0.0; 2];
+            for (m, (mobility, touch)) in mobility.iter().zip(&self.touches).enumerate() {
+                let Law::Affine {
+                    stiffness, dashpot, ..
+                } = touch.law
+                else {
+                    continue;
+                };
+                for (k, law) in [stiffness, dashpot].into_iter().enumerate() {
+                    let part = (mobility * law).abs();
+                    sums[k] += part;
+                    if l == m {
+                        diagonal[k] += part;
+                    }
+                }
+            }
+            rows = [rows[0].max(sums[0]), rows[1].max(sums[1])];
+        }
+        rows[0].min(diagonal[0]).sqrt() + rows[1].min(diagonal[1])
     }
 
     /// Expands the motion over a step.
@@ -361,6 +385,9 @@ impl Series {
         let leading = LEADING.min(self.last + 1);
         let mut zeros = 0;
         for (k, lanes) in lanes.chunks(self.lanes).enumerate().take(leading) {
+            if k > 0 && !is_noise(k, CLEAR_OF_ZERO) {
+                break;
+            }
             let offset = if k == 0 { offset } else { 0.0 };
             if !is_noise(k, ROUND_OFF * (row.dot_magnitudes(lanes) + offset)) {
                 break;

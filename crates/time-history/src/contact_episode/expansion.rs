@@ -4,7 +4,7 @@ use multiversion::multiversion;
 
 use super::rows::{ModalRow, total};
 use super::series::{Series, Works};
-use super::tables::{PARTS, TERMS, sample};
+use super::tables::{PARTS, TERMS, Terms, sample};
 use crate::contact_free::{Lane, ModeLanes, WIDTH};
 
 /// A remainder below this, relative to the motion, is round-off.
@@ -186,6 +186,28 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
         for (touch, rate) in series.touches.iter_mut().zip(&series.next_rates) {
             let delta = scale * touch.rate[k];
             touch.push(k + 1, (delta, *rate));
+        }
+    }
+}
+
+/// Multiplies the terms of the modes by these factors, from the second on.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn shorten(series: &mut Series, factors: &Terms) {
+    let lanes = series.lanes;
+    let terms = lanes..(series.last + 1) * lanes;
+    let displacement = series.displacement[terms.clone()].chunks_exact_mut(lanes);
+    let velocity = series.velocity[terms].chunks_exact_mut(lanes);
+    for ((displacement, velocity), factor) in displacement.zip(velocity).zip(&factors[1..]) {
+        for (x, v) in displacement.iter_mut().zip(velocity) {
+            for l in 0..WIDTH {
+                x[l] *= factor;
+                v[l] *= factor;
+            }
         }
     }
 }

@@ -109,9 +109,11 @@ pub(crate) fn in_series(
         let mut first = None;
         if let Some((touch, motion)) = closed.next_if(|(t, _)| t.level == l) {
             let row = &rows.levels[l];
-            let zeros = series.leading_zeros((row, false), &motion.delta, touch.width);
-            let open = fall(series, &motion.delta, zeros);
-            keep(&mut first, open, (l, EventKind::Open), &muted);
+            if !series.stays_positive(&motion.delta) {
+                let zeros = series.leading_zeros((row, false), &motion.delta, touch.width);
+                let open = fall(series, &motion.delta, zeros);
+                keep(&mut first, open, (l, EventKind::Open), &muted);
+            }
             for (index, transition) in transitions(system, touch).iter().enumerate() {
                 let found = passage((system, row), series, (touch, motion), *transition);
                 keep(&mut first, found, (l, EventKind::Transition(index)), &muted);

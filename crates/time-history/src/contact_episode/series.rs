@@ -6,12 +6,12 @@ use super::rows::{LevelRows, ModalRow};
 use super::tables::{TERMS, Tables, Terms, maximum, sample, sum_and_bend, value_and_slope};
 use super::touch::Touch;
 use super::touch_series::TouchSeries;
-use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH, scale};
+use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH};
 use crate::polynomial::{fit, maximum_above};
 use crate::system::System;
 
 /// Maximum product of rate and step.
-const LONGEST: f64 = 1.2;
+const LONGEST: f64 = 1.3;
 
 /// Relative size below which a leading term is what a root that was just passed leaves.
 const NEGLIGIBLE_START: f64 = 1.0e-13;
@@ -108,8 +108,7 @@ impl Series {
         }
     }
 
-    /// Bound of the rate (1/s) of the motion of the closed levels, of
-    /// `sqrt(sum k / m) + sum c / m`.
+    /// Bound of the rate (1/s) of the motion of the closed levels, of `sqrt(k / m) + c / m`.
     pub(crate) fn rate(&self) -> f64 {
         self.rate
     }
@@ -121,7 +120,6 @@ impl Series {
 
     /// Takes the laws of the closed levels.
     pub(crate) fn take_laws(&mut self, system: &System, rows: &LevelRows, touches: &[Touch]) {
-        let (mut squares, mut damping) = (0.0, 0.0);
         for (index, touch) in touches.iter().enumerate() {
             let level = &system.levels()[touch.level];
             let (collision, phase) = (&touch.contact.collision, touch.contact.phase);
@@ -130,8 +128,6 @@ impl Series {
                 Some(law) if !level.model.is_affine(collision, phase) => Law::Powers(law),
                 _ => {
                     let law = touch.contact.force(level, 0.0, 0.0);
-                    squares += law.by_penetration.abs() / level.effective_mass;
-                    damping += law.by_velocity.abs() / level.effective_mass;
                     Law::Affine {
                         constant: law.value,
                         stiffness: law.by_penetration,
@@ -152,7 +148,13 @@ impl Series {
             let others = touches.iter().map(|b| row.product(&rows.levels[b.level]));
             self.mobility.extend(others);
         }
-        self.rate = squares.sqrt() + damping;
+        let touches = &self.touches;
+        self.rate = contact_rate(&self.mobility, touches.len(), |l| match touches[l].law {
+            Law::Affine {
+                stiffness, dashpot, ..
+            } => [stiffness, dashpot],
+            Law::Powers(_) => [0.0; 2],
+        });
     }
 
     /// Expands the motion over a step.
@@ -220,17 +222,13 @@ impl Series {
 
     /// Cuts the step at `theta`.
     pub(crate) fn shorten(&mut self, theta: f64) {
-        let lanes = self.lanes;
-        let mut factor = 1.0;
+        let mut factors = [1.0; TERMS];
         for k in 1..=self.last {
-            factor *= theta;
-            let range = k * lanes..(k + 1) * lanes;
-            for terms in [&mut self.displacement, &mut self.velocity] {
-                for lane in &mut terms[range.clone()] {
-                    *lane = scale(factor, *lane);
-                }
-            }
-            for touch in &mut self.touches {
+            factors[k] = factors[k - 1] * theta;
+        }
+        expansion::shorten(self, &factors);
+        for touch in &mut self.touches {
+            for (k, factor) in factors.iter().enumerate().take(self.last + 1).skip(1) {
                 touch.delta[k] *= factor;
                 touch.rate[k] *= factor;
                 touch.force[k] *= factor;
@@ -361,6 +359,9 @@ impl Series {
         let leading = LEADING.min(self.last + 1);
         let mut zeros = 0;
         for (k, lanes) in lanes.chunks(self.lanes).enumerate().take(leading) {
+            if k > 0 && !is_noise(k, CLEAR_OF_ZERO) {
+                break;
+            }
             let offset = if k == 0 { offset } else { 0.0 };
             if !is_noise(k, ROUND_OFF * (row.dot_magnitudes(lanes) + offset)) {
                 break;
@@ -368,6 +369,15 @@ impl Series {
             zeros = k + 1;
         }
         zeros
+    }
+
+    /// Whether a series stays clear of zero and positive, so that its start is no root either.
+    pub(crate) fn stays_positive(&self, terms: &Terms) -> bool {
+        if terms[0] <= CLEAR_OF_ZERO {
+            return false;
+        }
+        let (after, bend) = self.end_and_bend(terms);
+        terms[0].min(after) - bend > 0.0
     }
 
     /// A scalar series at the nodes of a fit.
@@ -402,5 +412,74 @@ impl Series {
     pub(crate) fn end_and_bend(&self, terms: &Terms) -> (f64, f64) {
         let (end, bend) = sum_and_bend(terms, self.last);
         (end, 0.125 * bend)
+    }
+}
+
+/// Bound of the rate (1/s) of so many closed levels with these stiffnesses (N/m) and dashpots
+/// (N s/m). They act through the mobility (1/kg): the eigenvalues of their product with it are at
+/// most the greatest sum over a row (Gershgorin), and at most the sum over the diagonal. Levels that
+/// share no floor do not add up.
+fn contact_rate(mobility: &[f64], count: usize, law: impl Fn(usize) -> [f64; 2]) -> f64 {
+    let (mut greatest, mut diagonal) = ([0.0_f64; 2], [0.0_f64; 2]);
+    for (l, row) in mobility.chunks(count.max(1)).enumerate() {
+        let mut sums = [0.0; 2];
+        for (m, mobility) in row.iter().enumerate() {
+            for (k, law) in law(m).into_iter().enumerate() {
+                let part = (mobility * law).abs();
+                sums[k] += part;
+                if l == m {
+                    diagonal[k] += part;
+                }
+            }
+        }
+        greatest = [greatest[0].max(sums[0]), greatest[1].max(sums[1])];
+    }
+    greatest[0].min(diagonal[0]).sqrt() + greatest[1].min(diagonal[1])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_that_share_no_floor_do_not_add_up() {
+        let laws = [[50.0, 3.0], [27.0, 4.0]];
+        let rate = contact_rate(&[2.0, 0.0, 0.0, 3.0], 2, |l| laws[l]);
+        assert_eq!(rate, 10.0 + 12.0);
+        assert_eq!(contact_rate(&[], 0, |_| [1.0; 2]), 0.0);
+    }
+
+    /// Against the largest eigenvalue by the power method, of levels that share floors.
+    #[test]
+    fn the_rate_of_levels_bounds_their_eigenvalues() {
+        let mut closest = f64::INFINITY;
+        for seed in 0..200 {
+            let count = 2 + seed % 5;
+            let number = |k: usize| libm::sin((seed * 97 + k) as f64 * 1.3);
+            let row = |l: usize| std::array::from_fn::<_, 4, _>(|j| number(7 * l + j));
+            let product = |a: [f64; 4], b: [f64; 4]| -> f64 { (0..4).map(|j| a[j] * b[j]).sum() };
+            let mobility: Vec<f64> = (0..count * count)
+                .map(|i| product(row(i / count), row(i % count)))
+                .collect();
+            let stiffness: Vec<f64> = (0..count).map(|l| 1.5 + number(500 + l)).collect();
+            let rate = contact_rate(&mobility, count, |l| [stiffness[l], 0.0]);
+            let mut x = vec![1.0; count];
+            let mut eigenvalue = 0.0;
+            for _ in 0..2000 {
+                let y: Vec<f64> = (0..count)
+                    .map(|l| {
+                        (0..count)
+                            .map(|m| mobility[l * count + m] * stiffness[m] * x[m])
+                            .sum()
+                    })
+                    .collect();
+                eigenvalue = y.iter().fold(0.0_f64, |most, y| most.max(y.abs()));
+                x = y.iter().map(|y| y / eigenvalue).collect();
+            }
+            let ratio = rate * rate / eigenvalue;
+            assert!(ratio >= 1.0 - 1e-9, "{seed}: {ratio}");
+            closest = closest.min(ratio);
+        }
+        assert!(closest < 1.2, "{closest}");
     }
 }

@@ -274,17 +274,15 @@ impl ContactFreePhase {
         self.write_peaks(system, peaks);
     }
 
-    /// Floor displacements and velocities from those of the modes.
-    pub(crate) fn state_of(
-        &mut self,
-        constants: &ContactFree,
-        (q, p): (&[Lane], &[Lane]),
-        [displacement, velocity]: [&mut [f64]; 2],
-    ) {
-        for (modal, floors) in [(q, displacement), (p, velocity)] {
-            transform(&constants.shapes, modal, &mut self.modal);
-            gather(&self.modal, floors);
-        }
+    /// A function of the floors from that of the modes.
+    pub(crate) fn floors_of(&mut self, constants: &ContactFree, modal: &[Lane], out: &mut [f64]) {
+        transform(&constants.shapes, modal, &mut self.modal);
+        gather(&self.modal, out);
+    }
+
+    /// Floor displacements at the end of the last step, whose peaks have been taken.
+    pub(crate) fn present_displacements(&self, out: &mut [f64]) {
+        gather(&self.displacement.now, out);
     }
 
     /// Forces in sections.

@@ -277,6 +277,7 @@ impl Driver<'_> {
                 && event.theta * whole <= EVENT_TOLERANCE
             {
                 // Nothing to cross: the event is at the start.
+                self.displacements_of_modes(open);
                 self.fire_all(open, segment, tau, (event, whole))?;
                 continue;
             }
@@ -287,6 +288,9 @@ impl Driver<'_> {
             };
             self.arrive(open, segment.start + tau + step, step)?;
             if let Some((event, whole)) = event {
+                // The peaks at the end of the step have asked for them.
+                let dofs = open.contact_episode.dofs.clone();
+                open.phase.present_displacements(&mut self.state[dofs]);
                 self.fire_all(open, segment, next, (event, whole))?;
             }
             tau = next;
@@ -294,6 +298,17 @@ impl Driver<'_> {
         Ok(None)
     }
 
+    /// Takes the floors' displacements from the modes.
+    fn displacements_of_modes(&mut self, open: &mut Open<'_>) {
+        let (q, dofs) = (
+            &open.contact_episode.pair.start.motion[0],
+            open.contact_episode.dofs.clone(),
+        );
+        open.phase
+            .floors_of(&open.constants, q, &mut self.state[dofs]);
+    }
+
+    /// Processes the events at an instant, whose displacements the state has.
     fn fire_all(
         &mut self,
         open: &mut Open<'_>,
@@ -307,9 +322,9 @@ impl Driver<'_> {
             contact_episode,
         } = &mut *open;
         let (n, dofs) = (self.dynamics.layout.dofs, contact_episode.dofs.clone());
-        let [q, p, ..] = &contact_episode.pair.start.motion;
-        let (u, v) = self.state[..2 * n].split_at_mut(n);
-        phase.state_of(constants, (q, p), [&mut u[dofs.clone()], &mut v[dofs]]);
+        let p = &contact_episode.pair.start.motion[1];
+        let velocities = &mut self.state[n..2 * n][dofs];
+        phase.floors_of(constants, p, velocities);
         let smooth = self.process(segment, tau, event, whole)?;
         let contact_episode = &mut open.contact_episode;
         contact_episode.lengths.restart(smooth);

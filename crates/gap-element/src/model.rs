@@ -82,6 +82,36 @@ pub struct PowerLaw {
     pub dashpot_exponent: f64,
 }
 
+impl PowerLaw {
+    /// Force (N) at a positive penetration (m) and its rate (m/s).
+    #[inline]
+    #[must_use]
+    pub fn force(&self, delta: f64, velocity: f64) -> f64 {
+        let root = delta.sqrt();
+        let power = |exponent: f64| {
+            if exponent == 1.5 {
+                root * delta
+            } else if exponent == 0.25 {
+                root.sqrt()
+            } else if exponent == 1.0 {
+                delta
+            } else {
+                libm::pow(delta, exponent)
+            }
+        };
+        let spring = power(self.exponent);
+        if self.dashpot == 0.0 {
+            return self.stiffness * spring;
+        }
+        let dashpot = if self.dashpot_exponent == self.exponent {
+            spring
+        } else {
+            power(self.dashpot_exponent)
+        };
+        self.stiffness * spring + self.dashpot * dashpot * velocity
+    }
+}
+
 /// The function whose sign change ends a phase.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Guard {

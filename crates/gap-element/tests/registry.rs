@@ -65,6 +65,8 @@ proptest! {
                 let error = (force - (spring + dashpot)).abs();
                 let size = spring.abs() + dashpot.abs();
                 prop_assert!(error <= 1e-13 * size, "{} {phase:?}: {error:e}", d.name);
+                let error = (law.force(delta, v) - (spring + dashpot)).abs();
+                prop_assert!(error <= 1e-13 * size, "{} {phase:?}, by the law: {error:e}", d.name);
                 compared += 1;
             }
         }

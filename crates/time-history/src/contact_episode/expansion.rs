@@ -59,6 +59,7 @@ fn expand_in_place<const LANES: usize, const CLOSED: usize>(
     let (last, h) = (series.last, series.step);
     let (ground, mobility) = (series.ground, &series.mobility);
     let touches = &mut series.touches[..CLOSED];
+    let powers = &mut series.powers[..CLOSED];
     let rows: [[Lane; LANES]; CLOSED] =
         std::array::from_fn(|i| levels[touches[i].level].spread::<LANES>());
     let mobility: [[f64; CLOSED]; CLOSED] =
@@ -127,7 +128,7 @@ fn expand_in_place<const LANES: usize, const CLOSED: usize>(
         for i in 0..CLOSED {
             let delta = scale * rates[i];
             rates[i] = scale * next[i];
-            forces[i] = touches[i].push(k + 1, (delta, rates[i]));
+            forces[i] = touches[i].push(&mut powers[i], k + 1, (delta, rates[i]));
         }
     }
     series.bend.copy_from_slice(&bend);
@@ -183,9 +184,10 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
             (q_next[c], p_next[c]) = (x, a);
             (series.bend[c], series.snap[c]) = (bend, snap);
         }
-        for (touch, rate) in series.touches.iter_mut().zip(&series.next_rates) {
+        let touches = series.touches.iter_mut().zip(&mut series.powers);
+        for ((touch, powers), rate) in touches.zip(&series.next_rates) {
             let delta = scale * touch.rate[k];
-            touch.push(k + 1, (delta, *rate));
+            touch.push(powers, k + 1, (delta, *rate));
         }
     }
 }

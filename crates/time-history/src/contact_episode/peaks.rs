@@ -7,7 +7,7 @@ use super::rows::{FloorRows, ModalRow};
 use super::series::Series;
 use super::span::Span;
 use crate::contact_free::{
-    ContactFree, Lane, Track, WIDTH, drifts, raise, raise_now, to_floors, transform,
+    ContactFree, Lane, Track, WIDTH, add, drifts, raise, raise_now, scale, to_floors, transform,
 };
 use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, fit_nodes, value};
 
@@ -165,6 +165,45 @@ fn values(
     ]
 }
 
+/// The same at the end of a step of the pair, for which `modal` is work space.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn values_of_span(
+    scene: &Scene<'_>,
+    span: &Span<'_>,
+    modal: &mut [Lane],
+    tracks: &mut Tracks<'_>,
+) -> [bool; 3] {
+    let (constants, rows) = (scene.constants, &scene.constants.rows);
+    let shapes = &constants.shapes;
+    let length = span.clock.offset(1.0);
+    let ground = scene.ground.0 + scene.ground.1 * length;
+    to_floors(shapes, &span.end.motion[0], &mut tracks.displacement.next);
+    drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
+    let accelerations = span.end.motion[2].iter().zip(&constants.modes);
+    for (out, (a, m)) in modal.iter_mut().zip(accelerations) {
+        *out = add(*a, scale(ground, m.participation));
+    }
+    to_floors(shapes, modal, &mut tracks.acceleration.next);
+    let bend = |k: usize| {
+        let [a, b] = [span.start, span.end].map(|p| rows.bound(&p.motion[k]));
+        a.max(b)
+    };
+    // What lies between can differ from the chord by this much, and half as much again for
+    // safety.
+    let over = 0.1875 * length * length * bend(2);
+    tracks.extend(over);
+    [
+        exceeds(tracks.displacement, over),
+        exceeds(tracks.drift, 2.0 * over),
+        exceeds(tracks.acceleration, 0.75 * length * bend(3)),
+    ]
+}
+
 /// Whether any floor could exceed its peak inside, for this bound of the overshoot.
 #[inline(always)]
 fn exceeds(track: &Track, over: f64) -> bool {
@@ -270,19 +309,26 @@ impl Rates {
         }
     }
 
-    /// Takes the rates at the start or the end of a span.
-    fn take(&mut self, constants: &ContactFree, span: &Span<'_>, slope: f64, end: usize) {
-        let point = if end == 0 { span.start } else { span.end };
-        let shapes = &constants.shapes;
-        transform(shapes, &point.motion[1], &mut self.ends[0][end]);
-        let [velocity, drift, _] = &mut self.ends;
-        drifts(shapes, &velocity[end], &mut drift[end]);
-        for (c, m) in constants.modes.iter().enumerate() {
-            for l in 0..WIDTH {
-                self.modal[c][l] = point.motion[3][c][l] + m.participation[l] * slope;
-            }
+    /// Takes the velocities of floors and drifts at both ends of a span.
+    fn take_velocities(&mut self, constants: &ContactFree, span: &Span<'_>) {
+        let (shapes, [velocity, drift, _]) = (&constants.shapes, &mut self.ends);
+        for (end, point) in [span.start, span.end].into_iter().enumerate() {
+            transform(shapes, &point.motion[1], &mut velocity[end]);
+            drifts(shapes, &velocity[end], &mut drift[end]);
         }
-        transform(shapes, &self.modal, &mut self.ends[2][end]);
+    }
+
+    /// Takes the rates of absolute acceleration at both ends of a span over which that of the
+    /// ground has this slope (m/s3).
+    fn take_jerks(&mut self, constants: &ContactFree, span: &Span<'_>, slope: f64) {
+        for (end, point) in [span.start, span.end].into_iter().enumerate() {
+            for (c, m) in constants.modes.iter().enumerate() {
+                for l in 0..WIDTH {
+                    self.modal[c][l] = point.motion[3][c][l] + m.participation[l] * slope;
+                }
+            }
+            transform(&constants.shapes, &self.modal, &mut self.ends[2][end]);
+        }
     }
 }
 
@@ -295,28 +341,15 @@ pub(crate) fn note_floors_of_span(
     start: f64,
 ) {
     let (constants, rows) = (scene.constants, &scene.constants.rows);
-    let shapes = &constants.shapes;
     let length = span.clock.offset(1.0);
-    let ground = scene.ground.0 + scene.ground.1 * length;
-    transform(shapes, &span.end.motion[0], &mut tracks.displacement.next);
-    drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
-    for (c, m) in constants.modes.iter().enumerate() {
-        for l in 0..WIDTH {
-            rates.modal[c][l] = span.end.motion[2][c][l] + m.participation[l] * ground;
-        }
-    }
-    transform(shapes, &rates.modal, &mut tracks.acceleration.next);
+    let loud = values_of_span(scene, span, &mut rates.modal, tracks);
     let scales = [false, true].map(|end| span.clock.derivatives(end)[0]);
-    let bend = |k: usize| {
-        let [a, b] = [span.start, span.end].map(|p| rows.bound(&p.motion[k]));
-        a.max(b)
-    };
-    // What lies between can differ from the chord by this much, and half as much again for
-    // safety.
-    let over = 0.1875 * length * length * bend(2);
-    let bounds = [over, 2.0 * over, 0.75 * length * bend(3)];
-    tracks.extend(over);
-    let mut taken = false;
+    if loud[0] || loud[1] {
+        rates.take_velocities(constants, span);
+    }
+    if loud[2] {
+        rates.take_jerks(constants, span, scene.ground.1);
+    }
     let mut sampled = false;
     for (which, track) in [
         &mut *tracks.displacement,
@@ -326,14 +359,10 @@ pub(crate) fn note_floors_of_span(
     .into_iter()
     .enumerate()
     {
-        if !exceeds(track, bounds[which]) {
-            raise(track, start + length);
+        if !loud[which] {
+            // No value at the end can be a peak either.
+            std::mem::swap(&mut track.now, &mut track.next);
             continue;
-        }
-        if !taken {
-            rates.take(constants, span, scene.ground.1, 0);
-            rates.take(constants, span, scene.ground.1, 1);
-            taken = true;
         }
         for i in 0..rows.floors.len() {
             if !may_exceed(track, &rates.ends[which], scales, MARGIN[which], i) {

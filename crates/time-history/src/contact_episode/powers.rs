@@ -6,7 +6,8 @@
 
 use pounding_gap_element::PowerLaw;
 
-use super::tables::{PARTS, TERMS, Terms};
+use super::tables::{PARTS, TERMS};
+use crate::contact_free::{Lane, WIDTH, add};
 
 /// The law of a closed level as it is expanded.
 #[derive(Debug, Clone, Copy)]
@@ -20,127 +21,115 @@ pub(super) enum Law {
     Powers(PowerLaw),
 }
 
-/// One power: its terms but the newest, and these times their number.
-#[derive(Debug, Clone, Copy)]
-struct Power {
-    terms: Terms,
-    weighted: Terms,
-    newest: f64,
-}
-
-/// Series of the powers in a law. Those of the penetration and of its rate stand in
-/// reverse, so that sums of products run the same way through both.
+/// Series of the powers in a law, all sums of whose recurrences run side by side: the places
+/// of a lane are the two sums of the spring's power, the two of the dashpot's, and the product
+/// of the dashpot's with the rate.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Powers {
-    spring: Power,
-    dashpot: Power,
-    delta: Terms,
-    /// Terms of the penetration times their number.
-    weighted: Terms,
-    rate: Terms,
+    /// Terms of the powers by their number: a term of the spring's and the same times its
+    /// number, both of the dashpot's, and once more that of the dashpot's.
+    terms: [Lane; TERMS],
+    /// What they are multiplied by, in reverse, so that both run the same way: a term of the
+    /// penetration times its number and the term, twice, and that of the rate.
+    motion: [Lane; TERMS],
     /// One over the first term of the penetration, and the first term of the rate.
     inverse: f64,
     first_rate: f64,
+    /// The first terms of the powers of spring and dashpot.
+    first: [f64; 2],
 }
 
 impl Powers {
-    pub(super) const NONE: Self = {
-        let none = Power {
-            terms: [0.0; TERMS],
-            weighted: [0.0; TERMS],
-            newest: 0.0,
-        };
-        Self {
-            spring: none,
-            dashpot: none,
-            delta: [0.0; TERMS],
-            weighted: [0.0; TERMS],
-            rate: [0.0; TERMS],
-            inverse: 0.0,
-            first_rate: 0.0,
-        }
+    pub(super) const NONE: Self = Self {
+        terms: [Lane::ZERO; TERMS],
+        motion: [Lane::ZERO; TERMS],
+        inverse: 0.0,
+        first_rate: 0.0,
+        first: [0.0; 2],
     };
 
     /// Term `k` of the force, from that of the penetration and of its rate.
     #[inline(always)]
     pub(super) fn term(&mut self, law: &PowerLaw, k: usize, (delta, rate): (f64, f64)) -> f64 {
-        let place = TERMS - 1 - k;
-        self.delta[place] = delta;
-        self.weighted[place] = k as f64 * delta;
         if k == 0 {
-            (self.inverse, self.first_rate) = (1.0 / delta, rate);
+            return self.begin(law, (delta, rate));
         }
-        let motion = Motion {
-            delta: &self.delta[place..],
-            weighted: &self.weighted[place..],
-            part: PARTS[k] * self.inverse,
+        let sums = self.sums(k);
+        let (order, part) = (k as f64, PARTS[k] * self.inverse);
+        let weighted = order * delta;
+        self.motion[TERMS - k] = Lane([weighted, delta, weighted, delta, rate, 0.0, 0.0, 0.0]);
+        // What is known last comes last.
+        let next = |exponent: f64, first: f64, rising: f64, falling: f64| {
+            (exponent * (rising + weighted * first) - falling) * part
         };
-        let force = law.stiffness * self.spring.term(law.exponent, k, motion);
-        if law.dashpot == 0.0 {
-            return force;
-        }
-        let power = if law.dashpot_exponent == law.exponent {
-            &self.spring
+        let spring = next(law.exponent, self.first[0], sums[0], sums[1]);
+        let (dashpot, force) = if law.dashpot == 0.0 {
+            (0.0, law.stiffness * spring)
         } else {
-            self.dashpot.term(law.dashpot_exponent, k, motion);
-            &self.dashpot
-        };
-        // What is known last comes last.
-        self.rate[place] = rate;
-        let mut sum = self.first_rate * power.newest;
-        if let Some(before) = k.checked_sub(1) {
-            let inner = dot(&self.rate[place + 1..], &power.terms[1..], before);
-            sum = (inner + sum) + rate * power.terms[0];
-        }
-        force + law.dashpot * sum
-    }
-}
-
-/// The penetration up to one of its terms, in reverse.
-#[derive(Clone, Copy)]
-struct Motion<'a> {
-    delta: &'a [f64],
-    weighted: &'a [f64],
-    /// One over the number of the term times the first of all.
-    part: f64,
-}
-
-impl Power {
-    /// Term `k` of `delta^exponent`.
-    #[inline(always)]
-    fn term(&mut self, exponent: f64, k: usize, motion: Motion<'_>) -> f64 {
-        let Some(before) = k.checked_sub(1) else {
-            let first = motion.delta[0];
-            self.newest = if exponent == 1.5 {
-                first * first.sqrt()
-            } else if exponent == 0.25 {
-                first.sqrt().sqrt()
+            let dashpot = if law.dashpot_exponent == law.exponent {
+                spring
             } else {
-                libm::pow(first, exponent)
+                next(law.dashpot_exponent, self.first[1], sums[2], sums[3])
             };
-            return self.newest;
+            let product = (sums[4] + self.first_rate * dashpot) + rate * self.first[1];
+            (dashpot, law.stiffness * spring + law.dashpot * product)
         };
-        let rising = dot(motion.weighted, &self.terms, before);
-        let falling = dot(motion.delta, &self.weighted, before);
-        let order = before as f64;
-        // What is known last comes last.
-        let last = motion.delta[before] * self.newest * (exponent - order);
-        self.terms[before] = self.newest;
-        self.weighted[before] = order * self.newest;
-        self.newest = ((exponent * rising - falling) + last) * motion.part;
-        self.newest
+        let both = [order * spring, order * dashpot];
+        self.terms[k] = Lane([spring, both[0], dashpot, both[1], dashpot, 0.0, 0.0, 0.0]);
+        force
+    }
+
+    /// The first term of the force.
+    #[inline(always)]
+    fn begin(&mut self, law: &PowerLaw, (delta, rate): (f64, f64)) -> f64 {
+        (self.inverse, self.first_rate) = (1.0 / delta, rate);
+        let spring = power(delta, law.exponent);
+        let dashpot = if law.dashpot == 0.0 {
+            0.0
+        } else if law.dashpot_exponent == law.exponent {
+            spring
+        } else {
+            power(delta, law.dashpot_exponent)
+        };
+        self.first = [spring, dashpot];
+        law.stiffness * spring + law.dashpot * rate * dashpot
+    }
+
+    /// Sums over the terms between the first and term `k`.
+    #[inline(always)]
+    fn sums(&self, k: usize) -> Lane {
+        let (terms, motion) = (&self.terms[1..k], &self.motion[TERMS + 1 - k..]);
+        // Two chains of additions, not one.
+        let (mut even, mut odd) = (Lane::ZERO, Lane::ZERO);
+        let (pairs, rest) = terms.as_chunks::<2>();
+        let (others, other) = motion.as_chunks::<2>();
+        for (t, m) in pairs.iter().zip(others) {
+            for l in 0..WIDTH {
+                even[l] += t[0][l] * m[0][l];
+                odd[l] += t[1][l] * m[1][l];
+            }
+        }
+        for (t, m) in rest.iter().zip(other) {
+            for l in 0..WIDTH {
+                even[l] += t[l] * m[l];
+            }
+        }
+        let sums = add(even, odd);
+        // Keeps the compiler from taking the vectors before it apart.
+        *std::hint::black_box(&sums)
     }
 }
 
-/// Sum of the products of the first `count` terms, one by one: a vector would wait for
-/// terms that were stored one by one just before.
+/// A power of a positive penetration.
 #[inline(always)]
-fn dot(a: &[f64], b: &[f64], count: usize) -> f64 {
-    let mut sum = 0.0;
-    for (x, y) in a[..count].iter().zip(&b[..count]) {
-        sum += x * y;
+fn power(delta: f64, exponent: f64) -> f64 {
+    if exponent == 1.5 {
+        delta * delta.sqrt()
+    } else if exponent == 0.25 {
+        delta.sqrt().sqrt()
+    } else {
+        libm::pow(delta, exponent)
     }
-    sum
 }
 
 #[cfg(test)]

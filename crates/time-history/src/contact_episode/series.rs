@@ -1,7 +1,7 @@
 //! Taylor series of the modes and of contacts with affine laws, summed to round-off.
 
 use super::expansion;
-use super::powers::Law;
+use super::powers::{Law, Powers};
 use super::rows::{LevelRows, ModalRow};
 use super::tables::{TERMS, Tables, Terms, maximum, sample, sum_and_bend, value_and_slope};
 use super::touch::Touch;
@@ -75,6 +75,8 @@ pub(crate) struct Series {
     pub(super) displacement: Vec<Lane>,
     pub(super) velocity: Vec<Lane>,
     pub touches: Vec<TouchSeries>,
+    /// Series of the powers in the laws of the closed levels.
+    pub(super) powers: Vec<Powers>,
     /// Acceleration (1/kg) with which each closed level parts under a unit force on each.
     pub(super) mobility: Vec<f64>,
     /// Terms of the rates of the closed levels to be taken in next.
@@ -100,6 +102,7 @@ impl Series {
             displacement: terms(),
             velocity: terms(),
             touches: Vec::with_capacity(levels),
+            powers: vec![Powers::NONE; levels],
             mobility: Vec::with_capacity(levels * levels),
             next_rates: vec![0.0; levels],
             bend: vec![Lane::ZERO; lanes],
@@ -176,10 +179,11 @@ impl Series {
         self.last = self.enough.max(from.terms);
         self.displacement[..lanes].copy_from_slice(from.displacement);
         self.velocity[..lanes].copy_from_slice(from.velocity);
-        for (series, touch) in self.touches.iter_mut().zip(touches) {
+        let all = self.touches.iter_mut().zip(&mut self.powers);
+        for ((series, powers), touch) in all.zip(touches) {
             let row = &rows.levels[touch.level];
             let delta = row.dot(from.displacement) - touch.width;
-            series.push(0, (delta, row.dot(from.velocity)));
+            series.push(powers, 0, (delta, row.dot(from.velocity)));
         }
         expansion::expand(self, &constants.modes, &rows.levels);
         // What steps of more terms left would count in sums over four terms at once.

@@ -11,7 +11,6 @@ pub(crate) struct TouchSeries {
     pub rate: Terms,
     pub force: Terms,
     pub(super) law: Law,
-    powers: Powers,
     /// Work on the contact over the step (J), and its impulse (N s).
     pub works: (f64, f64),
 }
@@ -24,14 +23,14 @@ impl TouchSeries {
             rate: [0.0; TERMS],
             force: [0.0; TERMS],
             law,
-            powers: Powers::NONE,
             works: (0.0, 0.0),
         }
     }
 
-    /// Takes term `k` of penetration and rate in. Returns that of the force.
+    /// Takes term `k` of penetration and rate in. Returns that of the force, whose powers
+    /// `powers` has from the terms before.
     #[inline(always)]
-    pub(super) fn push(&mut self, k: usize, (delta, rate): (f64, f64)) -> f64 {
+    pub(super) fn push(&mut self, powers: &mut Powers, k: usize, (delta, rate): (f64, f64)) -> f64 {
         (self.delta[k], self.rate[k]) = (delta, rate);
         self.force[k] = match &self.law {
             Law::Affine {
@@ -42,7 +41,7 @@ impl TouchSeries {
                 let constant = if k == 0 { *constant } else { 0.0 };
                 constant + stiffness * delta + dashpot * rate
             }
-            Law::Powers(law) => self.powers.term(law, k, (delta, rate)),
+            Law::Powers(law) => powers.term(law, k, (delta, rate)),
         };
         self.force[k]
     }

@@ -40,9 +40,12 @@ pub(crate) fn septic(start: [f64; 4], end: [f64; 4]) -> Polynomial {
 /// Nodes at which [`fit`] wants a function sampled: Chebyshev points with both
 /// ends, on the unit interval.
 pub(crate) fn fit_nodes() -> [f64; COEFFICIENTS] {
-    std::array::from_fn(|i| {
-        0.5 * (1.0 - libm::cos(std::f64::consts::PI * i as f64 / DEGREE as f64))
-    })
+    static NODES: LazyLock<[f64; COEFFICIENTS]> = LazyLock::new(|| {
+        std::array::from_fn(|i| {
+            0.5 * (1.0 - libm::cos(std::f64::consts::PI * i as f64 / DEGREE as f64))
+        })
+    });
+    *NODES
 }
 
 /// Coefficients of the polynomials that are one at one node of a fit and zero at the

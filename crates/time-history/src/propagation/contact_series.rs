@@ -526,6 +526,12 @@ impl ContactSeries {
             let moved = after * (load + slope * h) - before * load - slope * integral[*k];
             ends.input -= mass[*i] * moved;
         }
+        let grounded = self.is_grounded();
+        // With the contacts, which make the motion fast.
+        let reach = self.rate(system) * h;
+        let [.., most] = &RULES;
+        let suffices = |rule: &&Rule| reach <= rule.reach;
+        let rule = RULES.iter().find(suffices).unwrap_or(most);
         let mut contacts = std::mem::take(&mut self.contacts);
         for contact in &mut contacts {
             let row = &self.rows[contact.level];
@@ -537,11 +543,6 @@ impl ContactSeries {
                 contact.at_rest * h + contact.stiffness * held + contact.dashpot * change;
             contact.work = (contact.at_rest + 0.5 * contact.stiffness * (after + before)) * change;
         }
-        let grounded = contacts.iter().any(|c| self.moves_ground[c.level]);
-        let reach = self.rate(system) * h;
-        let [.., most] = &RULES;
-        let suffices = |rule: &&Rule| reach <= rule.reach;
-        let rule = RULES.iter().find(suffices).unwrap_or(most);
         for (weight, powers) in rule.points {
             let (weight, powers) = (h * weight, &powers[..=self.last]);
             let (u, v) = self.both.split_at_mut(n);

@@ -235,7 +235,7 @@ impl HarmonicTable {
                 place,
                 format!("straight lines of {step} s do not draw a wave of {frequency} Hz"),
                 format!(
-                    "give a `step` of at most {} s, or leave it away",
+                    "give a `step` of at most {} s, or leave it out",
                     1.0 / (FEWEST_LINES * frequency)
                 ),
             );

@@ -397,7 +397,7 @@ fn chosen_code(
     };
     if let Some(rule) = own.iter().find(|rule| rule.name() == name.value) {
         let why = format!("the rule \"{}\" has no editions", name.value);
-        idle_date(case, separation, &why, "leave it away")?;
+        idle_date(case, separation, &why, "leave it out")?;
         return Ok((Some(Code::of_rule(rule.clone())), None));
     }
     let (code, by_date) = choose_code(&name.value, date).map_err(|e| wrong(name, e))?;
@@ -406,10 +406,10 @@ fn chosen_code(
     }
     let why = format!("\"{}\" is one edition", name.value);
     let help = if code.family == code.name {
-        "leave it away".to_owned()
+        "leave it out".to_owned()
     } else {
         let family = code.family;
-        format!("leave it away, or name \"{family}\", between whose editions a date chooses")
+        format!("leave it out, or name \"{family}\", between whose editions a date chooses")
     };
     idle_date(case, separation, &why, &help)?;
     Ok((Some(code.code()), None))

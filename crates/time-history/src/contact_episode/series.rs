@@ -420,9 +420,10 @@ impl Series {
 }
 
 /// Bound of the rate (1/s) of so many closed levels with these stiffnesses (N/m) and dashpots
-/// (N s/m). They act through the mobility (1/kg): the eigenvalues of their product with it are at
-/// most the greatest sum over a row (Gershgorin), and at most the sum over the diagonal. Levels that
-/// share no floor do not add up.
+/// (N s/m). They act through the mobility (1/kg): the eigenvalues of their product with it, which
+/// are those of a symmetric matrix and so bound what contacts add to the motion, are at most the
+/// greatest sum over a row (Gershgorin), and at most the sum over the diagonal. Levels that share no
+/// floor do not add up.
 fn contact_rate(mobility: &[f64], count: usize, law: impl Fn(usize) -> [f64; 2]) -> f64 {
     let (mut greatest, mut diagonal) = ([0.0_f64; 2], [0.0_f64; 2]);
     for (l, row) in mobility.chunks(count.max(1)).enumerate() {

@@ -25,8 +25,7 @@ pub(crate) fn accelerogram(
 }
 
 /// A record beside that of the case, as one building has it for itself: read, processed and
-/// scaled. It shares no samples with that of the case, even of the same file: systems under another
-/// record replace the samples of the case wherever they are shared.
+/// scaled.
 ///
 /// # Errors
 /// An unknown unit or format, with its place in the case, or a record that cannot be read,

@@ -71,7 +71,8 @@ pub struct Peak {
 /// Ground acceleration at even steps, the first sample at time zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Accelerogram {
-    samples: Arc<[f64]>,
+    // Shared by copies; a vector, as a slice would be a second copy while a file is read.
+    samples: Arc<Vec<f64>>,
     time_step: f64,
     scale: f64,
     origin: Option<Origin>,
@@ -109,7 +110,7 @@ impl Accelerogram {
         }
         let factor = unit.in_si();
         Ok(Self {
-            samples: samples.into_iter().map(|a| a * factor).collect(),
+            samples: Arc::new(samples.into_iter().map(|a| a * factor).collect()),
             time_step,
             scale: 1.0,
             origin: None,
@@ -161,12 +162,6 @@ impl Accelerogram {
     #[must_use]
     pub fn samples(&self) -> &[f64] {
         &self.samples
-    }
-
-    /// The same samples, shared: nothing is copied.
-    #[must_use]
-    pub fn shared_samples(&self) -> Arc<[f64]> {
-        Arc::clone(&self.samples)
     }
 
     /// Time step (s).
@@ -230,7 +225,7 @@ impl Accelerogram {
         let mut scaled = self.clone();
         scaled.scale *= factor;
         if factor != 1.0 {
-            scaled.samples = self.samples.iter().map(|a| a * factor).collect();
+            scaled.samples = Arc::new(self.samples.iter().map(|a| a * factor).collect());
         }
         Ok(scaled)
     }

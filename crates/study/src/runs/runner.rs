@@ -221,7 +221,7 @@ impl<'s> Runner<'s> {
             base
         } else {
             Arc::new(base.under(GroundAcceleration {
-                samples: record.shared_samples(),
+                samples: record.samples().into(),
                 time_step: record.time_step(),
             }))
         };

@@ -228,7 +228,7 @@ duration = 5
 }
 
 /// Works over a step are integrated for the motion in contact, which is much faster than that of
-/// slow buildings: impacts lose energy to round-off as they should.
+/// slow buildings: the ledger closes to round-off.
 #[test]
 fn stiff_contacts_of_slow_buildings_close_the_ledger() {
     for (stiffness, restitution) in [(4.0e8, 0.65), (1.6e9, 0.65), (1.6e9, 0.3)] {

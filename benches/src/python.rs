@@ -2,8 +2,10 @@
 
 use std::fmt::Write as _;
 use std::process::Command;
+use std::time::Instant;
 
 use pounding::Model;
+use pounding_time_history::in_parallel;
 use verification::Failure;
 
 use crate::clock::{least, process_seconds, thread_seconds};
@@ -40,7 +42,15 @@ pub(crate) fn beside_the_library(interpreter: &str) -> Result<String, Failure> {
             _ => Err(String::from_utf8_lossy(&made.stderr).into_owned().into()),
         }
     };
-    let mut times: [Vec<f64>; 6] = Default::default();
+    // What two processors are to one, of which some share a core or are shared with others.
+    let library = |threads: usize| -> Result<f64, Failure> {
+        let start = Instant::now();
+        in_parallel(RUNS, threads, |_| model.run())
+            .into_iter()
+            .collect::<Result<Vec<_>, _>>()?;
+        Ok(start.elapsed().as_secs_f64())
+    };
+    let mut times: [Vec<f64>; 8] = Default::default();
     for _ in 0..ROUNDS {
         let start = thread_seconds();
         for _ in 0..RUNS {
@@ -57,6 +67,8 @@ pub(crate) fn beside_the_library(interpreter: &str) -> Result<String, Failure> {
         times[3].push(processor);
         times[4].push(elapsed);
         times[5].push(python("2", "own")?.1);
+        times[6].push(library(1)?);
+        times[7].push(library(2)?);
     }
     let per_run = times.map(|t| 1.0e3 * least(&t) / RUNS as f64);
     let names = [
@@ -71,8 +83,9 @@ pub(crate) fn beside_the_library(interpreter: &str) -> Result<String, Failure> {
     }
     writeln!(
         text,
-        "\nTwo threads are {:.2} times as fast as one (elapsed time).",
-        per_run[4] / per_run[5]
+        "\nTwo threads are {:.2} times as fast as one, those of the library {:.2} times (elapsed time).",
+        per_run[4] / per_run[5],
+        per_run[6] / per_run[7]
     )?;
     Ok(text)
 }

@@ -45,7 +45,7 @@ fn building(storeys: usize, damping: Damping) -> Arc<ShearBuilding> {
 fn coarse() -> GroundAcceleration {
     let samples = (0..80).map(|i| (1.7 * f64::from(i)).sin() + 0.6 * (0.9 * f64::from(i)).cos());
     GroundAcceleration {
-        samples: samples.collect(),
+        samples: Arc::new(samples.collect()),
         time_step: 0.12,
     }
 }

@@ -120,7 +120,7 @@ fn write_wall(path: &Path) {
     let chain = ShearBuilding::new("chain".to_owned(), mass, storeys, height, damping);
     let buildings = [wall, chain].map(|b| Arc::new(b.unwrap()));
     let ground = GroundAcceleration {
-        samples: record.samples().into(),
+        samples: record.shared_samples(),
         time_step: record.time_step(),
     };
     let system = System::new(buildings.to_vec(), ground);

@@ -114,7 +114,7 @@ impl Row {
 
     fn system(&self, ground: &GroundAcceleration) -> System {
         let mut ground = ground.clone();
-        ground.samples = ground.samples.iter().map(|a| self.scale * a).collect();
+        ground.samples = Arc::new(ground.samples.iter().map(|a| self.scale * a).collect());
         let buildings = self.buildings.iter().enumerate();
         let buildings: Vec<_> = buildings.map(|(i, b)| Arc::new(building(i, *b))).collect();
         let storeys: Vec<usize> = self.buildings.iter().map(|b| b.0).collect();

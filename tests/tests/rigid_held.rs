@@ -195,7 +195,7 @@ fn row(seed: u64, ground: &GroundAcceleration) -> System {
     };
     let scale = chance.between(0.5, 2.0);
     let mut ground = ground.clone();
-    ground.samples = ground.samples.iter().map(|a| scale * a).collect();
+    ground.samples = Arc::new(ground.samples.iter().map(|a| scale * a).collect());
     let mut system = System::new(buildings, ground);
     let mut add = |chance: &mut Chance, left: Option<usize>, right: usize| {
         let width = chance.between(0.001, 0.02);

@@ -164,6 +164,12 @@ impl Accelerogram {
         &self.samples
     }
 
+    /// The same in the memory that copies of this accelerogram share.
+    #[must_use]
+    pub fn shared_samples(&self) -> Arc<Vec<f64>> {
+        Arc::clone(&self.samples)
+    }
+
     /// Time step (s).
     #[must_use]
     pub fn time_step(&self) -> f64 {

@@ -126,7 +126,7 @@ impl Simulation {
         let buildings = self.buildings.iter().map(Building::build);
         let buildings = buildings.collect::<Result<Vec<_>, _>>()?;
         let ground = GroundAcceleration {
-            samples: accelerogram.samples().into(),
+            samples: accelerogram.shared_samples(),
             time_step: accelerogram.time_step(),
         };
         let (mut displacement, mut velocity) = (Vec::new(), Vec::new());

@@ -532,7 +532,7 @@ fn buildings_with_a_stiffness_matrix() {
     let mut system = core::System::new(
         vec![wall, frame],
         core::GroundAcceleration {
-            samples: record.accelerogram().samples().into(),
+            samples: record.accelerogram().shared_samples(),
             time_step: record.accelerogram().time_step(),
         },
     );

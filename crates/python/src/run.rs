@@ -54,7 +54,7 @@ impl Run {
         wanted: Wanted,
         (watch, told): (&Watch, &(dyn Fn(f64) + Sync)),
     ) -> Result<Self, Problem> {
-        let assembly = case.assembly_sharing(files)?;
+        let mut assembly = case.assembly_sharing(files)?;
         let failed = |e: TimeHistoryError| case.problem(Failure::of_case(e, &case.case));
         let (system, options) = (&assembly.system, &assembly.options);
         if wanted.histories {
@@ -97,6 +97,8 @@ impl Run {
                 outcome.with_unknown_peaks()
             })
         });
+        // Thousands of runs are kept.
+        assembly.system.release_tables();
         Ok(Self {
             case: case.clone(),
             outcome,

@@ -411,6 +411,8 @@ impl ImpactLog {
             let places = (a.gap, a.level).cmp(&(b.gap, b.level));
             a.time_closed.total_cmp(&b.time_closed).then(places)
         });
+        // Outcomes of thousands of runs are kept.
+        impacts.shrink_to_fit();
         (self.levels, impacts)
     }
 }

@@ -152,7 +152,7 @@ fn left_and_right_are_alike() {
         let mirrored = system(&case([B, A], gap));
         let ground = mirrored.ground();
         let mirrored = mirrored.under(GroundAcceleration {
-            samples: ground.samples.iter().map(|a| -a).collect(),
+            samples: Arc::new(ground.samples.iter().map(|a| -a).collect()),
             time_step: ground.time_step,
         });
         let mirrored = go(&mirrored, EVENT_DRIVEN);

@@ -318,7 +318,7 @@ fn buildings_that_turn_in_plan_collide_as_two_independent_codes_say() {
     let record = pounding_ground_motion::read(&file, &ReadOptions::default()).unwrap();
     case.motions.push(GroundMotion {
         acceleration: GroundAcceleration {
-            samples: record.samples().iter().map(|a| 0.7 * a).collect(),
+            samples: Arc::new(record.samples().iter().map(|a| 0.7 * a).collect()),
             time_step: record.time_step(),
         },
         delay: 0.0,

@@ -230,7 +230,7 @@ fn isolated_building_between_walls() {
     .with_laws(vec![Some(law("bilinear", &isolator)), None, None, None])
     .unwrap();
     let mut ground = el_centro();
-    ground.samples = ground.samples.iter().map(|a| 1.5 * a).collect();
+    ground.samples = Arc::new(ground.samples.iter().map(|a| 1.5 * a).collect());
     let mut system = System::new(vec![Arc::new(building)], ground);
     let parameters = ModelParameters::from_pairs(&[("stiffness", 2.5e8), ("restitution", 0.5)]);
     let model: Arc<dyn ImpactModel> = registry::build("anagnostopoulos_2004", &parameters)

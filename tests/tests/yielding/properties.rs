@@ -82,7 +82,7 @@ impl Pair {
         let mut ground = ground.clone();
         if mirrored {
             buildings.reverse();
-            ground.samples = ground.samples.iter().map(|a| -a).collect();
+            ground.samples = Arc::new(ground.samples.iter().map(|a| -a).collect());
         }
         let mut system = System::new(buildings, ground);
         let pairs = (0..2)

@@ -22,7 +22,7 @@ pub fn el_centro_record() -> Accelerogram {
 pub fn el_centro() -> GroundAcceleration {
     let record = el_centro_record();
     GroundAcceleration {
-        samples: record.samples().into(),
+        samples: record.shared_samples(),
         time_step: record.time_step(),
     }
 }

@@ -14,7 +14,7 @@ use crate::excitation::further_record;
 /// A record as the time history takes it.
 pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
     GroundAcceleration {
-        samples: accelerogram.samples().into(),
+        samples: accelerogram.shared_samples(),
         time_step: accelerogram.time_step(),
     }
 }

@@ -221,7 +221,7 @@ impl<'s> Runner<'s> {
             base
         } else {
             Arc::new(base.under(GroundAcceleration {
-                samples: record.samples().into(),
+                samples: record.shared_samples(),
                 time_step: record.time_step(),
             }))
         };

@@ -612,7 +612,7 @@ mod tests {
             swell * waves.sum::<f64>()
         });
         let ground = GroundAcceleration {
-            samples: ground.collect(),
+            samples: Arc::new(ground.collect()),
             time_step: STEP,
         };
         let mut system = System::new(buildings, ground);

@@ -83,8 +83,9 @@ pub struct Gap {
 /// the last.
 #[derive(Debug, Clone)]
 pub struct GroundAcceleration {
-    /// Samples (m/s2), the first at time zero.
-    pub samples: Arc<[f64]>,
+    /// Samples (m/s2), the first at time zero; a vector, as those who read records have one, which
+    /// systems then share.
+    pub samples: Arc<Vec<f64>>,
     /// Time step (s).
     pub time_step: f64,
 }
@@ -426,6 +427,13 @@ impl System {
             level_rows: Vec::new(),
             ..self.clone()
         }
+    }
+
+    /// Gives up the tables that runs of this system have left in it, some 20 kB of two small
+    /// buildings: for who keeps many systems after their runs. Another run makes them again.
+    pub fn release_tables(&mut self) {
+        self.contact_free = Arc::default();
+        self.propagation = Arc::default();
     }
 
     /// Constants of contact-free motion; `None` if the damping of a building couples its modes,

@@ -347,7 +347,7 @@ impl Motions {
         let mut this = self.clone();
         for motion in this.motions.iter_mut().filter(|m| !m.is_of(first)) {
             let samples = motion.acceleration.samples.iter();
-            motion.acceleration.samples = samples.map(|a| factor * a).collect();
+            motion.acceleration.samples = Arc::new(samples.map(|a| factor * a).collect());
         }
         this.lay_out_intervals();
         this

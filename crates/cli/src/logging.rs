@@ -3,9 +3,10 @@
 
 use std::io::IsTerminal;
 
-use tracing_subscriber::EnvFilter;
+use tracing_subscriber::filter::Targets;
 use tracing_subscriber::fmt::format::FmtSpan;
 use tracing_subscriber::fmt::time::uptime;
+use tracing_subscriber::layer::{Layer, SubscriberExt};
 
 use crate::arguments::ColorChoice;
 use crate::failure::Failure;
@@ -28,7 +29,8 @@ pub fn begin(verbose: u8, color: ColorChoice) -> Result<(), Failure> {
         (None, 1) => "pounding=info".to_owned(),
         (None, _) => "pounding=debug".to_owned(),
     };
-    let filter = EnvFilter::builder().parse(&directives).map_err(|e| {
+    // Levels of targets alone: filters by the fields of spans would take a library of regular expressions.
+    let filter: Targets = directives.parse().map_err(|e| {
         Failure::input(
             format!("{KEY}={directives}: {e}"),
             Some(format!(
@@ -36,14 +38,14 @@ pub fn begin(verbose: u8, color: ColorChoice) -> Result<(), Failure> {
             )),
         )
     })?;
-    let subscriber = tracing_subscriber::fmt()
-        .with_env_filter(filter)
+    let layer = tracing_subscriber::fmt::layer()
         .with_writer(std::io::stderr)
         .with_ansi(color.is_on(std::io::stderr().is_terminal()))
         .with_timer(uptime())
         // A step is told when it ends, with the time that it took.
         .with_span_events(FmtSpan::CLOSE)
-        .finish();
+        .with_filter(filter);
+    let subscriber = tracing_subscriber::registry().with(layer);
     // In a process that has one already, as Python's may, that one is asked.
     let _ = tracing::subscriber::set_global_default(subscriber);
     Ok(())

@@ -22,7 +22,7 @@ const MOST: u64 = 4_000_000;
 const RECORD: &str = "../../ground_motions/el_centro_1940_ns.csv";
 
 /// Whether this program has the module.
-fn has_module() -> bool {
+pub fn has_module() -> bool {
     let module = pounding_explorer_page::has_module();
     if let Err(reason) = &module {
         eprintln!("skipped: {reason}");

@@ -169,6 +169,9 @@ fn commands_of_pages_run() {
             };
             let output = run(&part);
             checked += 1;
+            if part.starts_with("pounding explore ") && !crate::explore::has_module() {
+                continue;
+            }
             if !matches!(output.status.code(), Some(0 | 1)) {
                 let said = String::from_utf8_lossy(&output.stderr);
                 wrong.push(format!("{}: {command}\n{said}", shown.display()));

@@ -367,6 +367,9 @@ fn every_call_is_valid_and_writes() {
         if call.reads.is_empty() && !name.starts_with("motion synth") {
             continue;
         }
+        if name == "explore" && !crate::explore::has_module() {
+            continue;
+        }
         let before = fixture.content();
         let mut words: Vec<String> = call.words.split_whitespace().map(str::to_owned).collect();
         let outputs = outputs(&command);

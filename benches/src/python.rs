@@ -45,9 +45,8 @@ pub(crate) fn beside_the_library(interpreter: &str) -> Result<String, Failure> {
     // What two processors are to one, of which some share a core or are shared with others.
     let library = |threads: usize| -> Result<f64, Failure> {
         let start = Instant::now();
-        in_parallel(RUNS, threads, |_| model.run())
-            .into_iter()
-            .collect::<Result<Vec<_>, _>>()?;
+        let runs = in_parallel(RUNS, threads, |_| model.run().map_err(Box::new));
+        runs.into_iter().collect::<Result<Vec<_>, _>>()?;
         Ok(start.elapsed().as_secs_f64())
     };
     let mut times: [Vec<f64>; 8] = Default::default();

@@ -8,6 +8,7 @@
 mod attributes;
 mod chunks;
 pub mod dimension_scales;
+mod new_file;
 mod run;
 pub mod study;
 mod values;

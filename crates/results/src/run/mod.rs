@@ -183,7 +183,7 @@ fn reason_of(error: &hdf5::Error) -> String {
 }
 
 fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
-    let file = hdf5::File::create(path)?;
+    let file = crate::new_file::create(path)?;
     let tables = begin_in(&file, head)?;
     Ok((file, tables))
 }

@@ -11,7 +11,7 @@ use super::constants::ContactFree;
 use super::lane_candidates::{BlockLook, Interval, LaneCandidate};
 use super::lanes::{Ground, Lane, Modal, Track, WIDTH};
 use super::sample_bound::SampleBound;
-use super::tall_block::Suspect;
+use super::block_ends::Suspect;
 use crate::polynomial::absolute_maximum;
 use crate::system::System;
 
@@ -54,12 +54,12 @@ pub(super) struct Candidates {
     reached: Option<(usize, usize)>,
     bound: SampleBound,
     look: CloserLook,
-    tall: Option<Box<OfTall>>,
+    blocks: Option<Box<OfBlocks>>,
 }
 
-/// What tall buildings put off, of eight floors over a whole block.
+/// What is put off of eight floors over a whole block.
 #[derive(Debug, Clone)]
-struct OfTall {
+struct OfBlocks {
     list: Vec<LaneCandidate>,
     capacity: usize,
     /// Maximum number in one block.
@@ -68,7 +68,7 @@ struct OfTall {
     intervals: Vec<Interval>,
     /// Blocks in the order in which they are looked at: how far they could exceed a peak, and
     /// where their candidates begin and end.
-    blocks: Vec<(f64, usize, usize)>,
+    order: Vec<(f64, usize, usize)>,
 }
 
 /// Candidates kept at least, and states at most, of which tall buildings keep more: the longer
@@ -83,8 +83,9 @@ const LANES_PUT_OFF: f64 = 0.25;
 pub(super) type AllTracks<'a> = [&'a mut Track; 4];
 
 impl Candidates {
-    /// For so many functions, of `tall` buildings or not.
-    pub(super) fn new(lanes: usize, functions: usize, tall: bool) -> Self {
+    /// For so many lanes and functions, in blocks by their ends or not, and of `tall` buildings or
+    /// not.
+    pub(super) fn new((lanes, functions): (usize, usize), by_ends: bool, tall: bool) -> Self {
         let capacity = CANDIDATES.max(2 * BLOCK * functions);
         let snapshots = if tall { TALL_SNAPSHOTS } else { SNAPSHOTS };
         let put_off = |all: usize| all + (LANES_PUT_OFF * (snapshots * all) as f64) as usize;
@@ -98,7 +99,7 @@ impl Candidates {
             reached: None,
             bound: SampleBound::new(lanes),
             look: CloserLook::new(lanes, tall),
-            tall: tall.then(|| Box::new(OfTall::new(lanes, put_off(3 * lanes)))),
+            blocks: by_ends.then(|| Box::new(OfBlocks::new(lanes, put_off(3 * lanes)))),
         }
     }
 
@@ -114,7 +115,7 @@ impl Candidates {
             reached: None,
             bound: SampleBound::new(0),
             look: CloserLook::new(0, false),
-            tall: None,
+            blocks: None,
         }
     }
 
@@ -126,9 +127,9 @@ impl Candidates {
         wanted: usize,
     ) {
         let full = |this: &Self| {
-            let tall = this.tall.as_ref();
+            let blocks = this.blocks.as_ref();
             this.list.len() + wanted > this.capacity
-                || tall.is_some_and(|tall| tall.list.len() + tall.most > tall.capacity)
+                || blocks.is_some_and(|of| of.list.len() + of.most > of.capacity)
         };
         if !full(self) && self.used < self.samples.len() {
             return;
@@ -175,15 +176,15 @@ impl Candidates {
         });
     }
 
-    /// Notes what could have a peak in a block of tall buildings that starts at this sample
-    /// from this state.
+    /// Notes what could have a peak in a block by its ends that starts at this sample from this
+    /// state.
     pub(super) fn put_off(&mut self, start: (usize, &Modal), suspects: &[Suspect]) {
         if suspects.is_empty() {
             return;
         }
         let snapshot = self.snapshot(start);
-        if let Some(tall) = &mut self.tall {
-            tall.list.extend(suspects.iter().map(|s| LaneCandidate {
+        if let Some(blocks) = &mut self.blocks {
+            blocks.list.extend(suspects.iter().map(|s| LaneCandidate {
                 quantity: s.quantity,
                 lane: s.lane,
                 upper: s.upper,
@@ -195,10 +196,10 @@ impl Candidates {
     /// Drops what lies below the peaks by now, and the states that nothing is reached from.
     fn prune(&mut self, tracks: &AllTracks<'_>) {
         self.list.retain(|c| is_above(c, tracks));
-        if let Some(tall) = &mut self.tall {
-            tall.list.retain(|c| c.is_above(tracks));
+        if let Some(blocks) = &mut self.blocks {
+            blocks.list.retain(|c| c.is_above(tracks));
         }
-        let lanes = self.tall.as_ref().map_or(&[][..], |tall| &tall.list);
+        let lanes = self.blocks.as_ref().map_or(&[][..], |of| &of.list);
         let mut wanted = [false; TALL_SNAPSHOTS];
         let of_lanes = lanes.iter().map(|c| c.snapshot);
         for snapshot in self.list.iter().map(|c| c.snapshot).chain(of_lanes) {
@@ -216,8 +217,8 @@ impl Candidates {
         for candidate in &mut self.list {
             candidate.snapshot = places[candidate.snapshot];
         }
-        if let Some(tall) = &mut self.tall {
-            for candidate in &mut tall.list {
+        if let Some(blocks) = &mut self.blocks {
+            for candidate in &mut blocks.list {
                 candidate.snapshot = places[candidate.snapshot];
             }
         }
@@ -239,21 +240,21 @@ impl Candidates {
         (constants, system): (&ContactFree, &System),
         tracks: &mut AllTracks<'_>,
     ) -> bool {
-        let Some(mut tall) = self.tall.take() else {
+        let Some(mut of) = self.blocks.take() else {
             return false;
         };
-        let any = !tall.list.is_empty();
+        let any = !of.list.is_empty();
         let (mut count, mut start) = (0, 0);
-        for group in tall.list.chunk_by(|a, b| a.snapshot == b.snapshot) {
+        for group in of.list.chunk_by(|a, b| a.snapshot == b.snapshot) {
             let most = group.iter().map(|c| c.relative_excess(tracks));
-            tall.blocks[count] = (most.fold(0.0, f64::max), start, start + group.len());
+            of.order[count] = (most.fold(0.0, f64::max), start, start + group.len());
             count += 1;
             start += group.len();
         }
-        let blocks = &mut tall.blocks[..count];
-        blocks.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        for (_, start, end) in &*blocks {
-            let group = &tall.list[*start..*end];
+        let order = &mut of.order[..count];
+        order.sort_unstable_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
+        for (_, start, end) in &*order {
+            let group = &of.list[*start..*end];
             if !group.iter().any(|c| c.is_above(tracks)) {
                 continue;
             }
@@ -262,19 +263,19 @@ impl Candidates {
             let lanes = constants.modes.len();
             let state = self.states[snapshot * 2 * lanes..][..2 * lanes].split_at(lanes);
             let ground = &system.ground().samples[first..=first + BLOCK];
-            tall.look.begin(constants, state, ground);
+            of.look.begin(constants, state, ground);
             for candidate in group {
                 if !candidate.is_above(tracks) {
                     continue;
                 }
                 let track = &mut *tracks[candidate.quantity as usize];
-                tall.intervals.clear();
-                let (look, intervals) = (&mut tall.look, &mut tall.intervals);
+                of.intervals.clear();
+                let (look, intervals) = (&mut of.look, &mut of.intervals);
                 look.look_at(constants, candidate, (first, track), intervals);
                 if self.list.len() + intervals.len() > self.capacity {
                     self.settle_samples((constants, system), tracks);
                 }
-                self.list.extend(tall.intervals.iter().map(|i| Candidate {
+                self.list.extend(of.intervals.iter().map(|i| Candidate {
                     quantity: candidate.quantity,
                     floor: i.floor,
                     sample: first + i.number,
@@ -283,8 +284,8 @@ impl Candidates {
                 }));
             }
         }
-        tall.list.clear();
-        self.tall = Some(tall);
+        of.list.clear();
+        self.blocks = Some(of);
         any
     }
 
@@ -378,7 +379,7 @@ impl Candidates {
     }
 }
 
-impl OfTall {
+impl OfBlocks {
     fn new(lanes: usize, capacity: usize) -> Self {
         Self {
             list: Vec::with_capacity(capacity),
@@ -386,7 +387,7 @@ impl OfTall {
             most: 3 * lanes,
             look: BlockLook::new(lanes),
             intervals: Vec::with_capacity(BLOCK * WIDTH),
-            blocks: vec![(0.0, 0, 0); TALL_SNAPSHOTS],
+            order: vec![(0.0, 0, 0); TALL_SNAPSHOTS],
         }
     }
 }

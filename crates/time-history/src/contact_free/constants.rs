@@ -5,7 +5,8 @@ use pounding_shear_building::ShearBuilding;
 use super::block::Rows;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
-use super::tall_block::is_tall;
+use super::block_ends::is_tall;
+use super::block_step::BlockStep;
 use crate::bands::Bands;
 use crate::contact_episode::{FloorRows, ModalRow};
 use crate::rates::fastest_rate;
@@ -42,6 +43,8 @@ pub(crate) struct ContactFree {
     /// Stiffness and damping of tall buildings by the masses of the floors, where both are
     /// tridiagonal.
     pub bands: Option<Bands>,
+    /// The step over a block of samples, where its bounds are good.
+    pub block_step: Option<BlockStep>,
     /// Steps so short that displacements are polynomials of degree 7 over each.
     pub fine: Fine,
 }
@@ -74,6 +77,10 @@ impl ContactFree {
         this.bands = system.bands().filter(|_| is_tall(system)).cloned();
         if let Some(bands) = &mut this.bands {
             bands.divide(system.mass());
+        }
+        if !this.swings && system.sections().is_empty() {
+            let parts = this.modes_over(system, BlockStep::parts(step));
+            this.block_step = Some(BlockStep::new(&this.modes, &parts, step));
         }
         let parts = (this.fastest * step / FINE).ceil().max(1.0);
         this.fine = Fine {
@@ -125,6 +132,7 @@ impl ContactFree {
             section_rows: Vec::new(),
             above: vec![Lane::ZERO; dofs.div_ceil(WIDTH)],
             bands: None,
+            block_step: None,
             fine: Fine::default(),
         }
     }

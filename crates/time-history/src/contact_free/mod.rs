@@ -10,6 +10,8 @@
 //! the driver, which brackets and locates.
 
 mod block;
+mod block_ends;
+mod block_step;
 mod candidates;
 mod closer_look;
 mod constants;
@@ -20,10 +22,10 @@ mod mode_step;
 mod part;
 mod phase;
 mod sample_bound;
-mod tall_block;
 mod transform;
 
 pub(crate) use block::step_over;
+pub(crate) use block_step::Loads;
 pub(crate) use constants::ContactFree;
 pub(crate) use free_sample::FreeSample;
 pub(crate) use lanes::{

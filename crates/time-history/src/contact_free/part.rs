@@ -61,6 +61,7 @@ impl ContactFree {
             section_rows: Vec::new(),
             above: Vec::new(),
             bands: None,
+            block_step: None,
             fine: Fine::default(),
         }
     }

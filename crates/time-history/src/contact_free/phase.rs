@@ -8,7 +8,7 @@ use super::constants::ContactFree;
 use super::lanes::{
     Lane, Modal, ModalState, Track, WIDTH, at, balance, drifts, gather, restoring, spread,
 };
-use super::tall_block::{TallBlock, is_tall};
+use super::block_ends::{BlockEnds, is_tall};
 use super::transform::transform;
 use crate::contact::Contacts;
 use crate::contact_episode::{LevelRows, Tracks};
@@ -125,7 +125,7 @@ pub(crate) struct ContactFreePhase {
     /// Whether the floors' accelerations at the present time are known.
     pub acceleration_known: bool,
     /// Whether they, and the penetrations, are to be worked out at the end of the phase, as
-    /// blocks of tall buildings do without them.
+    /// blocks by their ends do without them.
     acceleration_left_out: bool,
     penetration_left_out: bool,
     /// Present penetrations.
@@ -141,8 +141,8 @@ pub(crate) struct ContactFreePhase {
     start_energy: Vec<Lane>,
     drifted: Vec<Lane>,
     block: Block,
-    /// Blocks of tall buildings.
-    pub(super) tall: Option<Box<TallBlock>>,
+    /// Blocks whose floors are worked out at both ends.
+    pub(super) ends: Option<Box<BlockEnds>>,
     pub(super) candidates: Candidates,
     /// The motion at the start of the block, for observers.
     block_start: Modal,
@@ -154,6 +154,8 @@ impl ContactFreePhase {
         let lanes = dofs.div_ceil(WIDTH);
         let sections = system.sections().len();
         let tall = is_tall(system);
+        let by_ends = tall || constants.block_step.is_some();
+        system.loads().ask(system);
         let zeros = || vec![Lane::ZERO; lanes];
         Self {
             now: Modal::new(lanes),
@@ -172,8 +174,8 @@ impl ContactFreePhase {
             start_energy: zeros(),
             drifted: zeros(),
             block: Block::new(system),
-            tall: tall.then(|| Box::new(TallBlock::new(constants))),
-            candidates: Candidates::new(lanes, 3 * dofs + sections, tall),
+            ends: by_ends.then(|| Box::new(BlockEnds::new(constants))),
+            candidates: Candidates::new((lanes, 3 * dofs + sections), by_ends, tall),
             block_start: Modal::new(lanes),
         }
     }
@@ -199,7 +201,7 @@ impl ContactFreePhase {
             start_energy: Vec::new(),
             drifted: Vec::new(),
             block: Block::none(),
-            tall: None,
+            ends: None,
             candidates: Candidates::none(),
             block_start: Modal::new(0),
         }
@@ -311,13 +313,16 @@ impl ContactFreePhase {
         self.begin(constants);
         let before = accounts.state[Layout::of(range.system).input()];
         let mut sample = range.from;
+        let by_loads = constants.block_step.is_some();
         while sample < range.to {
-            let count = BLOCK.min(range.to - sample);
+            // Loads are at hand for blocks from every eighth sample on.
+            let count = BLOCK - if by_loads { sample % BLOCK } else { 0 };
+            let count = count.min(range.to - sample);
             if !observers.is_empty() {
                 self.block.watch();
                 self.block_start.copy_from(&self.now);
             }
-            let advanced = if count == BLOCK && self.propagate_tall_block(constants, range, sample)
+            let advanced = if count == BLOCK && self.propagate_by_ends(constants, range, sample)
             {
                 BLOCK
             } else {
@@ -387,8 +392,8 @@ impl ContactFreePhase {
     }
 
     fn begin(&mut self, constants: &ContactFree) {
-        if let Some(tall) = &mut self.tall {
-            tall.forget();
+        if let Some(ends) = &mut self.ends {
+            ends.forget();
         }
         for field in [
             &mut self.now.input,
@@ -436,23 +441,30 @@ impl ContactFreePhase {
         }
     }
 
-    /// Advances a block of samples of tall buildings, if it is sure that nothing closes in it.
+    /// Advances a block of samples by its ends, if it is sure that nothing closes in it.
     /// Returns whether it did.
-    fn propagate_tall_block(
+    fn propagate_by_ends(
         &mut self,
         constants: &ContactFree,
         range: &SampleRange<'_>,
         sample: usize,
     ) -> bool {
-        let Some(tall) = &mut self.tall else {
+        let Some(ends) = &mut self.ends else {
             return false;
         };
         let mut samples = [0.0; BLOCK + 1];
         samples.copy_from_slice(&range.system.ground().samples[sample..=sample + BLOCK]);
         let peak = &self.acceleration.peak;
-        let low = tall.advance(constants, &self.now, &samples, peak, &mut self.block);
-        if !tall.is_open(range.system, range.contacts) {
-            tall.forget();
+        let loads = range.system.loads().of(constants, sample);
+        let low = ends.advance(
+            constants,
+            &self.now,
+            (&samples, loads),
+            peak,
+            &mut self.block,
+        );
+        if !ends.is_open(range.system, range.contacts) {
+            ends.forget();
             self.measure_penetrations(range);
             return false;
         }
@@ -470,9 +482,9 @@ impl ContactFreePhase {
             &mut self.acceleration,
         ];
         let end = (sample + BLOCK) as f64 * constants.step;
-        let suspects = tall.take_end(constants, tracks, (end, low));
+        let suspects = ends.take_end(constants, tracks, (end, low));
         self.candidates.put_off((sample, &self.now), suspects);
-        let exact = tall.is_exact();
+        let exact = ends.is_exact();
         self.acceleration_known = !low && exact;
         self.acceleration_left_out = !low && !exact;
         self.penetration_left_out = true;

@@ -34,7 +34,7 @@ pub use unequal_floors::UnequalFloors;
 pub use unequal_floors::more_pairs;
 
 use crate::bands::Bands;
-use crate::contact_free::ContactFree;
+use crate::contact_free::{ContactFree, Loads};
 use crate::elements::Element;
 use crate::error::TimeHistoryError;
 use crate::propagation::Propagation;
@@ -129,6 +129,8 @@ pub struct System {
     /// What contact-free motion needs, made when it is first asked for; shared by all systems with
     /// these buildings and this step.
     contact_free: Arc<OnceLock<Option<ContactFree>>>,
+    /// Loads of contact-free blocks, shared by all systems with these buildings and this record.
+    loads: Arc<Loads>,
     /// The same of exact steps of buildings that are no sums of oscillators.
     propagation: Arc<OnceLock<Option<Propagation>>>,
 }
@@ -170,6 +172,7 @@ impl System {
             initial: vec![0.0; 2 * mass.len()],
             bands: Bands::of(&buildings),
             contact_free: Arc::default(),
+            loads: Arc::default(),
             propagation: Arc::default(),
             buildings,
             mass,
@@ -447,6 +450,11 @@ impl System {
             .contact_free
             .get_or_init(|| ContactFree::new(self, step));
         constants.as_ref()
+    }
+
+    /// What the record does to the modes over blocks of samples without contact.
+    pub(crate) fn loads(&self) -> &Loads {
+        &self.loads
     }
 
     /// Exact steps over whole intervals; `None` for large buildings, and where elements have a

@@ -18,6 +18,7 @@ impl System {
             } else {
                 Arc::default()
             },
+            loads: Arc::default(),
             motions: (self.motions.as_ref()).map(|m| Arc::new(m.with_first(&self.ground, &ground))),
             propagation: match same_step && self.motions.is_none() {
                 true => Arc::clone(&self.propagation),

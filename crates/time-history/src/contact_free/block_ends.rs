@@ -1,16 +1,17 @@
-//! Blocks of tall buildings, whose mode shapes are larger than the cache: a product with all of
-//! them for every sample would cost the square of the storeys.
+//! Blocks whose floors are worked out at both ends alone, with their rates: a product with all mode
+//! shapes for every sample would cost the square of the storeys.
 //!
-//! Floors are worked out at the ends of a block alone, with their rates. Inside, a floor is the
-//! cubic through both, which lies within the hull of its Bernstein coefficients, and what its modes
-//! deviate from theirs: no more than the largest deviation at a sample, which is known, and the
+//! Inside, a floor is the cubic through both ends, which lies within the hull of its Bernstein
+//! coefficients, and what its modes depart from theirs. That is bounded by the exact step over the block
+//! ([`super::block_step`]), or, where there is none, by the largest departure at a sample and the
 //! overshoot between samples. What stays below its peak by this bound has no higher one in the
 //! block. The rest is put off, eight floors together, and looked at from the state at the start of
-//! the block ([`super::lane_candidates`]). Values at samples have the bits of [`super::block`].
+//! the block ([`super::lane_candidates`]).
 
 use multiversion::multiversion;
 
 use super::block::{BLOCK, Block, advance_all, bound_overshoots};
+use super::block_step::{BlockStep, Bounds, Load};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
@@ -21,7 +22,8 @@ use crate::bands::Bands;
 use crate::contact::Contacts;
 use crate::system::System;
 
-/// Storeys of the tallest building from which this costs less than all floors at every sample.
+/// Storeys of the tallest building from which this costs less than all floors at every sample where
+/// there is no step over the block.
 const TALL: usize = 24;
 
 /// Bernstein coefficients of a cubic.
@@ -33,15 +35,17 @@ type End = [Vec<Lane>; 4];
 
 /// Work space.
 #[derive(Debug, Clone)]
-pub(super) struct TallBlock {
+pub(super) struct BlockEnds {
     /// Of the modes at one end, and of the floors at both.
     modes: End,
     start: End,
     end: End,
     /// Whether displacements, and accelerations, at the start are those of the present time.
     holds: [bool; 2],
-    /// Maximum deviation of every mode's displacement and absolute acceleration from the cubic.
-    deviation: [Vec<Lane>; 2],
+    /// How far the modes depart from their cubics.
+    bounds: Bounds,
+    /// What the accelerations of a block do to the modes, where it is not at hand.
+    loads: Vec<Load>,
     /// What displacement, drift and absolute acceleration of every floor may exceed the hull by.
     beyond: [Vec<Lane>; 3],
     /// What could have a peak in the block.
@@ -86,7 +90,7 @@ pub(super) fn is_tall(system: &System) -> bool {
     tallest.is_some_and(|storeys| storeys >= TALL) && system.sections().is_empty()
 }
 
-impl TallBlock {
+impl BlockEnds {
     pub(super) fn new(constants: &ContactFree) -> Self {
         let (dofs, lanes) = (constants.building.len(), constants.modes.len());
         let zeros = || vec![Lane::ZERO; lanes];
@@ -96,7 +100,8 @@ impl TallBlock {
             start: end(),
             end: end(),
             holds: [false; 2],
-            deviation: [zeros(), zeros()],
+            bounds: Bounds::new(lanes),
+            loads: vec![Load::default(); constants.block_step.as_ref().map_or(0, |_| lanes)],
             beyond: std::array::from_fn(|_| zeros()),
             suspects: Vec::with_capacity(3 * lanes),
             bands: constants.bands.as_ref().map(|bands| ByBands {
@@ -123,11 +128,17 @@ impl TallBlock {
         &mut self,
         constants: &ContactFree,
         now: &Modal,
-        samples: &[f64; BLOCK + 1],
+        (samples, loads): (&[f64; BLOCK + 1], &[Load]),
         peak: &[Lane],
         block: &mut Block,
     ) -> bool {
-        let low = advance_modes(constants, (now, samples), peak, block, self);
+        let low = match &constants.block_step {
+            Some(step) => {
+                self.step_over(constants, (step, now), (samples, loads), &mut block.end);
+                bound_all(constants, (samples[0], samples[BLOCK]), peak, self)
+            }
+            None => advance_modes(constants, (now, samples), peak, block, self),
+        };
         let (q, p) = (&now.displacement, &now.velocity);
         if !(self.holds[0] && (low || self.holds[1])) {
             self.work_out_end(constants, (q, p, samples[0]), low);
@@ -136,6 +147,26 @@ impl TallBlock {
         let (q, p) = (&block.end.displacement, &block.end.velocity);
         self.work_out_end(constants, (q, p, samples[BLOCK]), low);
         low
+    }
+
+    /// Advances the modes by one step over the block, whose loads are at hand or to be worked out.
+    fn step_over(
+        &mut self,
+        constants: &ContactFree,
+        (step, now): (&BlockStep, &Modal),
+        (samples, loads): (&[f64; BLOCK + 1], &[Load]),
+        end: &mut Modal,
+    ) {
+        let loads = match loads {
+            [] => {
+                step.load(samples, &mut self.loads);
+                &self.loads
+            }
+            made => made,
+        };
+        let ends = (samples[0], samples[BLOCK]);
+        let bounds = &mut self.bounds;
+        step.advance(&constants.modes, (now, ends), loads, (end, bounds));
     }
 
     /// Works out the floors, from these displacements and velocities of the modes and this
@@ -223,30 +254,68 @@ fn advance_modes(
     (now, samples): (&Modal, &[f64; BLOCK + 1]),
     peak: &[Lane],
     block: &mut Block,
-    tall: &mut TallBlock,
+    ends: &mut BlockEnds,
 ) -> bool {
     advance_all(constants, now, samples, block);
     bound_overshoots(constants, block, [0], true);
     let low = is_low(constants, (&block.over[0], block.largest.0), peak);
-    deviate(constants, (now, samples), block, low, tall);
-    add(&block.modal, &mut tall.deviation[0]);
+    deviate(constants, (now, samples), block, low, ends);
+    add(&block.modal, &mut ends.bounds.displacement);
     if !low {
         let (size, modal) = (&block.size, &mut block.modal);
         modal_acceleration_overshoots(constants, size, block.largest, modal);
-        add(modal, &mut tall.deviation[1]);
+        add(modal, &mut ends.bounds.acceleration);
     }
-    let rows = &constants.rows;
+    bound_floors(constants, ends);
+    low
+}
+
+/// Bounds what floors may exceed the hull by, where the modes are bounded. Returns whether no
+/// acceleration can be a peak, under a ground that has these accelerations at the ends.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn bound_all(
+    constants: &ContactFree,
+    ground: (f64, f64),
+    peak: &[Lane],
+    ends: &mut BlockEnds,
+) -> bool {
+    bound_floors(constants, ends);
+    // Under the line a building moves as the ground does.
+    let line = ground.0.abs().max(ground.1.abs());
+    let mut low = true;
     for building in &constants.shapes {
         let range = building.first_mode..building.first_mode + building.modes;
-        let quantities = [(&rows.size, 0), (&rows.drift_size, 0), (&rows.size, 1)];
-        for ((size, of), beyond) in quantities.into_iter().zip(&mut tall.beyond) {
-            let bound = sum_of_products(size, &tall.deviation[of], range.clone());
+        let most = sum_of_products(&constants.rows.size, &ends.bounds.most, range.clone());
+        for i in range {
+            low &= line + most <= at(peak, i);
+        }
+    }
+    low
+}
+
+/// What floors may exceed the hull by, for those of a building together.
+#[inline(always)]
+fn bound_floors(constants: &ContactFree, ends: &mut BlockEnds) {
+    let (rows, bounds) = (&constants.rows, &ends.bounds);
+    let quantities = [
+        (&rows.size, &bounds.displacement),
+        (&rows.drift_size, &bounds.displacement),
+        (&rows.size, &bounds.acceleration),
+    ];
+    for building in &constants.shapes {
+        let range = building.first_mode..building.first_mode + building.modes;
+        for ((size, bounds), beyond) in quantities.into_iter().zip(&mut ends.beyond) {
+            let bound = sum_of_products(size, bounds, range.clone());
             for i in range.clone() {
                 beyond[i / WIDTH][i % WIDTH] = bound;
             }
         }
     }
-    low
 }
 
 #[inline(always)]
@@ -278,11 +347,14 @@ fn deviate(
     (now, samples): (&Modal, &[f64; BLOCK + 1]),
     block: &Block,
     low: bool,
-    tall: &mut TallBlock,
+    ends: &mut BlockEnds,
 ) {
     let third = third(constants);
     let count = constants.modes.len();
-    let [displacement, acceleration] = &mut tall.deviation;
+    let (displacement, acceleration) = (
+        &mut ends.bounds.displacement,
+        &mut ends.bounds.acceleration,
+    );
     for (c, m) in constants.modes.iter().enumerate() {
         let ends = [
             (now.displacement[c], now.velocity[c], samples[0]),
@@ -415,10 +487,10 @@ fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), en
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn farthest(tall: &TallBlock) -> f64 {
-    let (start, end) = (&tall.start, &tall.end);
+fn farthest(ends: &BlockEnds) -> f64 {
+    let (start, end) = (&ends.start, &ends.end);
     let mut most = Lane::ZERO;
-    for (c, beyond) in tall.beyond[0].iter().enumerate() {
+    for (c, beyond) in ends.beyond[0].iter().enumerate() {
         let floors = cubic([&start[0][c], &start[1][c], &end[0][c], &end[1][c]]);
         let upper = upper(&floors, beyond);
         for l in 0..WIDTH {
@@ -443,11 +515,11 @@ fn farthest(tall: &TallBlock) -> f64 {
 ))]
 fn compare(
     constants: &ContactFree,
-    tall: &mut TallBlock,
+    ends: &mut BlockEnds,
     [displacement, drift, acceleration]: [&mut Track; 3],
     (time, low): (f64, bool),
 ) {
-    let (start, end, suspects) = (&tall.start, &tall.end, &mut tall.suspects);
+    let (start, end, suspects) = (&ends.start, &ends.end, &mut ends.suspects);
     suspects.clear();
     let mut last = [0.0; CUBIC];
     for (c, above) in constants.above.iter().enumerate() {
@@ -470,7 +542,7 @@ fn compare(
             }));
         };
         let [beyond, beyond_drift, beyond_acceleration] =
-            tall.beyond.each_ref().map(|beyond| &beyond[c]);
+            ends.beyond.each_ref().map(|beyond| &beyond[c]);
         suspect(
             Quantity::Displacement,
             take_end(&floors, beyond, (displacement, c), time),
@@ -484,7 +556,7 @@ fn compare(
         }
         let cubic = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
         let beyond = beyond_acceleration;
-        let upper = match &tall.bands {
+        let upper = match &ends.bands {
             None => take_end(&cubic, beyond, (acceleration, c), time),
             Some(bands) => {
                 let lost = bands.lost[0].max(bands.lost[1]);
@@ -558,8 +630,9 @@ fn unless_below(upper: Lane, peak: &Lane) -> Option<Lane> {
     (!all_below).then_some(upper)
 }
 
-/// The property that all of this rests on: peaks have the bits of evaluating every floor at every
-/// sample, in blocks of [`super::block`], which know nothing of hulls.
+/// The property that all of this rests on: peaks are those of evaluating every floor at every
+/// sample, in blocks of [`super::block`], which know nothing of hulls. They have the same bits where
+/// the modes go from sample to sample too.
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
@@ -578,16 +651,21 @@ mod tests {
     use crate::peaks::Peaks;
     use crate::system::{Floor, GroundAcceleration};
 
-    const STEP: f64 = 0.01;
-
-    /// Two towers of these storeys with storeys of random mass and stiffness. Where `ratio` is
-    /// one, all modes have the same damping ratio, so that its matrix is full.
-    fn towers(storeys: [usize; 2], seed: f64, ratio: bool, gap: f64, samples: usize) -> System {
+    /// Two towers of these storeys with storeys of random mass and stiffness under so many steps of
+    /// this length (s). Where `ratio` is one, all modes have the same damping ratio, so that its
+    /// matrix is full.
+    fn towers(
+        storeys: [usize; 2],
+        seed: f64,
+        ratio: bool,
+        gap: f64,
+        (samples, step): (usize, f64),
+    ) -> System {
         let vary = |i: usize, k: usize| libm::sin(seed + 12.9898 * i as f64 + 78.233 * k as f64);
         let building = |b: usize, count: usize| {
             let mass = (0..count).map(|i| 3.0e5 * (1.0 + 0.3 * vary(i, b)));
             let stiffness = (0..count).map(|i| 6.0e8 * (1.0 + 0.4 * vary(i, b + 2)));
-            let damping = if ratio {
+            let damping = if ratio || count == 1 {
                 Damping::Modal { ratios: vec![0.03] }
             } else {
                 Damping::RayleighRatio {
@@ -603,17 +681,17 @@ mod tests {
         let buildings = vec![building(0, storeys[0]), building(1, storeys[1])];
         // A swell of many frequencies that comes and goes.
         let ground = (0..=samples).map(|s| {
-            let t = STEP * s as f64;
+            let t = step * s as f64;
             let waves = (1..=12).map(|k| {
                 let frequency = 2.3 * f64::from(k) * (1.0 + 0.1 * vary(k as usize, 7));
                 libm::sin(frequency * t + 6.0 * vary(k as usize, 9))
             });
-            let swell = (STEP * (samples - s) as f64).min(t).min(1.0);
+            let swell = (step * (samples - s) as f64).min(t).min(1.0);
             swell * waves.sum::<f64>()
         });
         let ground = GroundAcceleration {
             samples: Arc::new(ground.collect()),
-            time_step: STEP,
+            time_step: step,
         };
         let mut system = System::new(buildings, ground);
         let parameters = [("stiffness", 2.0e9), ("restitution", 0.65)];
@@ -632,18 +710,36 @@ mod tests {
         count: usize,
         /// Values and times of all peaks.
         peaks: Vec<(f64, f64)>,
-        /// State, works and what the next phase begins with.
-        rest: String,
+        /// State with its works, and largest input and residual; penetrations; accelerations, if
+        /// they are known.
+        state: Vec<f64>,
+        penetration: Vec<f64>,
+        acceleration: Option<Vec<Lane>>,
     }
 
-    fn advanced(system: &System, tall: bool) -> Advanced {
-        let constants = system.contact_free().unwrap();
+    impl Advanced {
+        fn bits(&self) -> String {
+            format!(
+                "{:?} {:?} {:?} {:?}",
+                self.peaks, self.state, self.penetration, self.acceleration
+            )
+        }
+    }
+
+    /// Advances as far as no gap can close, with constants that have a step over the block or not,
+    /// by the ends of blocks or by all samples, and at most this far.
+    fn advanced(system: &System, by_step: bool, by_ends: bool, to: usize) -> Advanced {
+        let mut constants = system.contact_free().unwrap().clone();
+        if !by_step {
+            constants.block_step = None;
+        }
+        let constants = &constants;
         let mut phase = ContactFreePhase::new(constants, system);
-        assert!(phase.tall.is_some());
-        if !tall {
-            phase.tall = None;
-            let dofs = system.degrees_of_freedom();
-            phase.candidates = Candidates::new(constants.modes.len(), 3 * dofs, false);
+        assert!(phase.ends.is_some() || !by_ends);
+        if !by_ends {
+            phase.ends = None;
+            let functions = 3 * system.degrees_of_freedom();
+            phase.candidates = Candidates::new((constants.modes.len(), functions), false, false);
         }
         let contacts = Contacts::all_open(system);
         let layout = Layout::of(system);
@@ -654,7 +750,7 @@ mod tests {
             system,
             contacts: &contacts,
             from: 0,
-            to: system.ground().samples.len() - 1,
+            to,
         };
         let mut largest_input = 0.0;
         let mut accounts = EnergyAccounts {
@@ -671,7 +767,6 @@ mod tests {
         let acceleration = phase.acceleration.now.clone();
         phase.return_state(constants, system, &mut peaks, &mut state);
         phase.finish(constants, system, &mut peaks);
-        let known = phase.acceleration_known.then_some(acceleration);
         let storeys = peaks.storeys.iter().flat_map(|s| {
             [
                 s.displacement,
@@ -680,11 +775,18 @@ mod tests {
                 s.acceleration_absolute,
             ]
         });
+        state.extend([largest_input, residual]);
         Advanced {
             count: count.unwrap(),
             peaks: storeys.map(|peak| (peak.value, peak.time)).collect(),
-            rest: format!("{state:?} {largest_input:?} {residual:?} {penetration:?} {known:?}"),
+            state,
+            penetration,
+            acceleration: phase.acceleration_known.then_some(acceleration),
         }
+    }
+
+    fn largest(values: &[f64]) -> f64 {
+        values.iter().fold(0.0, |m, x| m.max(x.abs()))
     }
 
     proptest! {
@@ -697,13 +799,16 @@ mod tests {
             gap in prop_oneof![Just(1.0e3), 0.05..0.4],
             samples in 60_usize..700,
         ) {
-            let system = towers(storeys, seed, ratio, gap, samples);
+            const STEP: f64 = 0.01;
+            let system = towers(storeys, seed, ratio, gap, (samples, STEP));
             prop_assert_eq!(system.contact_free().unwrap().bands.is_some(), !ratio);
-            let expected = advanced(&system, false);
-            let seen = advanced(&system, true);
+            let expected = advanced(&system, false, false, samples);
+            let seen = advanced(&system, false, true, samples);
             prop_assert_eq!(seen.count, expected.count);
             prop_assert!(gap < 1.0 || seen.count == samples);
-            prop_assert_eq!(seen.rest, expected.rest);
+            prop_assert_eq!(&seen.state, &expected.state);
+            prop_assert_eq!(&seen.penetration, &expected.penetration);
+            prop_assert_eq!(&seen.acceleration, &expected.acceleration);
             let end = STEP * seen.count as f64 * (1.0 - 1.0e-12);
             let all = &expected.peaks;
             for (i, (seen, expected)) in seen.peaks.iter().zip(all).enumerate() {
@@ -717,6 +822,57 @@ mod tests {
                     // are the same but for round-off.
                     let error = (seen.0 - expected.0).abs();
                     prop_assert!(error <= 1.0e-11 * largest, "{seen:?} {expected:?}");
+                }
+            }
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(64))]
+        #[test]
+        fn one_step_over_a_block_leads_to_where_samples_lead(
+            storeys in [1_usize..60, 1_usize..40],
+            seed in 0.0..100.0,
+            ratio in any::<bool>(),
+            gap in prop_oneof![Just(1.0e3), 0.01..0.4],
+            samples in 5_usize..700,
+            step in prop_oneof![Just(0.005), Just(0.01), Just(0.02)],
+        ) {
+            let system = towers(storeys, seed, ratio, gap, (samples, step));
+            // Which sample is left to contacts depends on where blocks begin.
+            let counts = [true, false].map(|ends| advanced(&system, ends, ends, samples).count);
+            prop_assert!(counts[0].abs_diff(counts[1]) <= 1);
+            let count = counts[0].min(counts[1]);
+            prop_assert!(gap < 1.0 || count == samples);
+            let expected = advanced(&system, false, false, count);
+            let seen = advanced(&system, true, true, count);
+            prop_assert_eq!([seen.count, expected.count], [count; 2]);
+            // Loads at hand change no bit.
+            prop_assert_eq!(system.loads().is_made(), samples >= BLOCK);
+            let fresh = towers(storeys, seed, ratio, gap, (samples, step));
+            prop_assert_eq!(seen.bits(), advanced(&fresh, true, true, count).bits());
+            prop_assert!(!fresh.loads().is_made());
+            let n = system.degrees_of_freedom();
+            for part in [0..n, n..2 * n, 2 * n..seen.state.len() - 1] {
+                let (seen, expected) = (&seen.state[part.clone()], &expected.state[part]);
+                let largest = largest(expected);
+                for (seen, expected) in seen.iter().zip(expected) {
+                    let error = (seen - expected).abs();
+                    prop_assert!(error <= 1.0e-12 * largest, "{seen} {expected}");
+                }
+            }
+            let [input, residual] = seen.state[seen.state.len() - 2..] else { unreachable!() };
+            prop_assert!(residual <= 1.0e-13 * input, "{residual} of {input}");
+            let all = &expected.peaks;
+            let end = step * seen.count as f64 * (1.0 - 1.0e-12);
+            for (i, (seen, expected)) in seen.peaks.iter().zip(all).enumerate() {
+                let largest = all.iter().skip(i % 4).step_by(4).map(|peak| peak.0);
+                let largest = largest.fold(0.0, f64::max);
+                let error = (seen.0 - expected.0).abs();
+                prop_assert!(error <= 1.0e-12 * largest, "{seen:?} {expected:?}");
+                if expected.1 < end && expected.0 > 1.0e-3 * largest {
+                    let late = (seen.1 - expected.1).abs();
+                    prop_assert!(late <= 1.0e-6, "{seen:?} {expected:?}");
                 }
             }
         }

@@ -1,0 +1,531 @@
+//! The modes over a block of samples by one exact step.
+//!
+//! Ground acceleration over a block is the straight line through both ends, and what it departs from that at the samples
+//! inside. Under the line a mode has a motion that is linear in time; the difference from it swings
+//! freely, and under the departures. So the state at the end, and the work of the ground, are linear in the
+//! state at the start and in the accelerations at the samples, the work of the damping is quadratic, and how
+//! far a mode departs inside from the cubic with its values and rates at both ends is at most
+//! a sum of multiples of magnitudes, as the cubic follows a line. All factors are made from the step over one
+//! sample, once for a set of buildings.
+//!
+//! What the accelerations alone contribute is the *load* of the block. It depends on record and
+//! buildings, not on the motion: runs that have both in common share it ([`Loads`]).
+
+use std::sync::OnceLock;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use multiversion::multiversion;
+
+use super::block::BLOCK;
+use super::constants::ContactFree;
+use super::lanes::{Lane, Modal, ModeLanes, WIDTH};
+use crate::system::System;
+
+/// Samples of a block, with both ends.
+const TIMES: usize = BLOCK + 1;
+/// Samples inside.
+const INSIDE: usize = BLOCK - 1;
+/// What works are quadratic in: displacement and velocity at the start, and the accelerations.
+const INPUTS: usize = 2 + TIMES;
+/// Products of two accelerations.
+const PAIRS: usize = TIMES * (TIMES + 1) / 2;
+/// Points of a sample at which the factors of bounds are worked out.
+const POINTS: usize = 4;
+/// Part of the largest terms of a function that may be lost in round-off: some thousand
+/// units in the last place.
+const ROUND_OFF: f64 = 1.0e-12;
+/// Bytes that the loads of one record and set of buildings may take.
+const BYTES: usize = 8 << 20;
+
+/// Factors of the state at the start, of eight modes.
+#[derive(Debug, Clone, Copy)]
+struct Start {
+    /// Of displacement and velocity, in displacement and velocity at the end.
+    displacement: [Lane; 2],
+    velocity: [Lane; 2],
+    /// Of the square of the displacement, its product with the velocity, and the square of that, in
+    /// the work of the damping.
+    viscous: [Lane; 3],
+    /// Of magnitudes of displacement and velocity less those of the motion under the line, in
+    /// [`Bounds`].
+    bounds: [[Lane; 2]; 3],
+}
+
+/// Factors of the accelerations.
+#[derive(Debug, Clone)]
+struct Weights {
+    /// Of every acceleration: in displacement and velocity at the end; in what multiplies displacement and
+    /// velocity at the start in the work of the ground, and in that of the damping.
+    linear: [[Lane; TIMES]; 6],
+    /// Of products of two accelerations in both works.
+    pairs: [[Lane; PAIRS]; 2],
+    /// Of magnitudes of departures from the line in [`Bounds`].
+    bounds: [[Lane; INSIDE]; 3],
+    /// What round-off adds to them: of the largest acceleration, and of the line's slope.
+    round_off: [[Lane; 2]; 3],
+}
+
+/// What the accelerations of a block do to eight modes.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Load {
+    linear: [Lane; 6],
+    works: [Lane; 2],
+    bounds: [Lane; 3],
+}
+
+/// Bounds of the modes over a block, all magnitudes.
+#[derive(Debug, Clone)]
+pub(super) struct Bounds {
+    /// What displacement and absolute acceleration depart from the cubic through both ends by.
+    pub displacement: Vec<Lane>,
+    pub acceleration: Vec<Lane>,
+    /// Absolute acceleration beside that under the line, which is the ground's.
+    pub most: Vec<Lane>,
+}
+
+/// All modes of a set of buildings.
+#[derive(Debug, Clone)]
+pub(crate) struct BlockStep {
+    start: Vec<Start>,
+    weights: Vec<Weights>,
+    /// Length of a block (s).
+    length: f64,
+}
+
+/// Loads of all whole blocks of a record on a set of buildings, made by the second run that asks for
+/// them: a run by itself works them out as it goes.
+#[derive(Debug, Default)]
+pub(crate) struct Loads {
+    asked: AtomicBool,
+    all: OnceLock<Vec<Load>>,
+}
+
+impl Loads {
+    /// Asks for those of a run to come. The results are the same with and without.
+    pub(super) fn ask(&self, system: &System) {
+        let Some(step) = system.contact_free().and_then(|c| c.block_step.as_ref()) else {
+            return;
+        };
+        let samples = &system.ground().samples;
+        let blocks = samples.len().saturating_sub(1) / BLOCK;
+        let bytes = blocks * step.start.len() * size_of::<Load>();
+        if bytes > BYTES || !self.asked.swap(true, Ordering::Relaxed) {
+            return;
+        }
+        self.all.get_or_init(|| {
+            let mut loads = vec![Load::default(); blocks * step.start.len()];
+            for (block, loads) in loads.chunks_exact_mut(step.start.len()).enumerate() {
+                step.load(&samples[block * BLOCK..], loads);
+            }
+            loads
+        });
+    }
+
+    /// Whether they are at hand.
+    #[cfg(test)]
+    pub(super) fn is_made(&self) -> bool {
+        self.all.get().is_some()
+    }
+
+    /// That of the block from this sample on; none where it is not at hand.
+    pub(super) fn of(&self, constants: &ContactFree, sample: usize) -> &[Load] {
+        let lanes = constants.modes.len();
+        let first = sample / BLOCK * lanes;
+        match self.all.get() {
+            Some(all) if sample.is_multiple_of(BLOCK) => {
+                all.get(first..first + lanes).unwrap_or(&[])
+            }
+            _ => &[],
+        }
+    }
+}
+
+impl Bounds {
+    pub(super) fn new(lanes: usize) -> Self {
+        let zeros = || vec![Lane::ZERO; lanes];
+        Self {
+            displacement: zeros(),
+            acceleration: zeros(),
+            most: zeros(),
+        }
+    }
+}
+
+impl BlockStep {
+    /// For these modes over one sample of this length (s), and over a part of it, one of
+    /// [`BlockStep::parts`].
+    pub(super) fn new(modes: &[ModeLanes], parts: &[ModeLanes], step: f64) -> Self {
+        let made = modes.iter().zip(parts).map(|(m, part)| lanes(m, part, step));
+        let (start, weights) = made.unzip();
+        Self {
+            start,
+            weights,
+            length: BLOCK as f64 * step,
+        }
+    }
+
+    /// Length of the parts (s) of a sample of this length (s).
+    pub(super) fn parts(step: f64) -> f64 {
+        step / POINTS as f64
+    }
+
+    /// What a block does whose accelerations are the first of these.
+    pub(super) fn load(&self, samples: &[f64], loads: &mut [Load]) {
+        let mut block = [0.0; TIMES];
+        block.copy_from_slice(&samples[..TIMES]);
+        load_all(&self.weights, &block, self.length, loads);
+    }
+
+    /// Takes the motion over a block to its end, and bounds it inside. `ends` are the accelerations
+    /// there.
+    pub(super) fn advance(
+        &self,
+        modes: &[ModeLanes],
+        (now, ends): (&Modal, (f64, f64)),
+        loads: &[Load],
+        (end, bounds): (&mut Modal, &mut Bounds),
+    ) {
+        let slope = (ends.1 - ends.0) / self.length;
+        let steps = (modes, self.start.as_slice(), loads);
+        advance_all(steps, (now, ends.0, slope), end, bounds);
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn advance_all(
+    (modes, starts, loads): (&[ModeLanes], &[Start], &[Load]),
+    (now, ground, slope): (&Modal, f64, f64),
+    end: &mut Modal,
+    bounds: &mut Bounds,
+) {
+    for (c, ((m, k), load)) in modes.iter().zip(starts).zip(loads).enumerate() {
+        let (q, p) = (&now.displacement[c], &now.velocity[c]);
+        let (input, viscous) = (&now.input[c], &now.viscous[c]);
+        let [q_load, p_load, by_q, by_p, damped_by_q, damped_by_p] = &load.linear;
+        let [by_value, by_slope] = &m.steady;
+        for l in 0..WIDTH {
+            let (x, v) = (q[l], p[l]);
+            end.displacement[c][l] =
+                k.displacement[0][l] * x + k.displacement[1][l] * v + q_load[l];
+            end.velocity[c][l] = k.velocity[0][l] * x + k.velocity[1][l] * v + p_load[l];
+            end.input[c][l] = input[l] + (by_q[l] * x + by_p[l] * v + load.works[0][l]);
+            end.viscous[c][l] = viscous[l]
+                + (x * (k.viscous[0][l] * x + k.viscous[1][l] * v + damped_by_q[l])
+                    + v * (k.viscous[2][l] * v + damped_by_p[l])
+                    + load.works[1][l]);
+            let place = (x + (by_value[l] * ground - by_slope[l] * slope)).abs();
+            let speed = (v + by_value[l] * slope).abs();
+            let bound = |b: usize| {
+                k.bounds[b][0][l] * place + k.bounds[b][1][l] * speed + load.bounds[b][l]
+            };
+            bounds.displacement[c][l] = bound(0);
+            bounds.acceleration[c][l] = bound(1);
+            bounds.most[c][l] = bound(2);
+        }
+    }
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn load_all(weights: &[Weights], samples: &[f64; TIMES], length: f64, loads: &mut [Load]) {
+    let mut pairs = [0.0; PAIRS];
+    let mut place = 0;
+    for i in 0..TIMES {
+        for j in i..TIMES {
+            pairs[place] = samples[i] * samples[j];
+            place += 1;
+        }
+    }
+    let rise = (samples[BLOCK] - samples[0]) / BLOCK as f64;
+    let departures: [f64; INSIDE] =
+        std::array::from_fn(|k| (samples[k + 1] - (samples[0] + rise * (k + 1) as f64)).abs());
+    let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    let slope = (samples[BLOCK] - samples[0]).abs() / length;
+    for (weights, load) in weights.iter().zip(loads) {
+        for (out, weights) in load.linear.iter_mut().zip(&weights.linear) {
+            *out = weighted(weights, samples);
+        }
+        for (out, weights) in load.works.iter_mut().zip(&weights.pairs) {
+            *out = weighted(weights, &pairs);
+        }
+        let bounds = weights.bounds.iter().zip(&weights.round_off);
+        for (out, (weights, [by_value, by_slope])) in load.bounds.iter_mut().zip(bounds) {
+            let mut sum = weighted(weights, &departures);
+            for l in 0..WIDTH {
+                sum[l] += by_value[l] * largest + by_slope[l] * slope;
+            }
+            *out = sum;
+        }
+    }
+}
+
+#[inline(always)]
+fn weighted<const COUNT: usize>(weights: &[Lane; COUNT], values: &[f64; COUNT]) -> Lane {
+    let mut sum = Lane::ZERO;
+    for (weights, value) in weights.iter().zip(values) {
+        for l in 0..WIDTH {
+            sum[l] += weights[l] * value;
+        }
+    }
+    sum
+}
+
+/// A linear function of the state at the start and the accelerations.
+type Row = [Lane; INPUTS];
+
+/// Adds a multiple of a row.
+#[inline(always)]
+fn add_row(factor: &Lane, row: &Row, to: &mut Row) {
+    for (to, row) in to.iter_mut().zip(row) {
+        for l in 0..WIDTH {
+            to[l] += factor[l] * row[l];
+        }
+    }
+}
+
+#[inline(always)]
+fn add_to(value: Lane, to: &mut Lane) {
+    for l in 0..WIDTH {
+        to[l] += value[l];
+    }
+}
+
+/// Sum of so many multiples of two rows and two accelerations.
+#[inline(always)]
+fn combined(factors: &[Lane; 4], [x, v]: [&Row; 2], sample: usize) -> Row {
+    let mut out = [Lane::ZERO; INPUTS];
+    add_row(&factors[0], x, &mut out);
+    add_row(&factors[1], v, &mut out);
+    add_to(factors[2], &mut out[2 + sample]);
+    add_to(factors[3], &mut out[3 + sample]);
+    out
+}
+
+/// Adds the product of two rows to a quadratic form.
+#[inline(always)]
+fn add_product(a: &Row, b: &Row, form: &mut [Row; INPUTS]) {
+    for (a, row) in a.iter().zip(form) {
+        add_row(a, b, row);
+    }
+}
+
+/// The coefficient of the product of two inputs.
+#[inline(always)]
+fn coefficient(form: &[Row; INPUTS], i: usize, j: usize) -> Lane {
+    let (a, b) = (&form[i][j], &form[j][i]);
+    Lane::from_fn(|l| if i == j { a[l] } else { a[l] + b[l] })
+}
+
+/// All factors of eight modes.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights) {
+    let mut x = [Lane::ZERO; INPUTS];
+    let mut v = [Lane::ZERO; INPUTS];
+    x[0] = Lane::from_fn(|_| 1.0);
+    v[1] = Lane::from_fn(|_| 1.0);
+    let mut input = [[Lane::ZERO; INPUTS]; INPUTS];
+    let mut viscous = [[Lane::ZERO; INPUTS]; INPUTS];
+    for sample in 0..BLOCK {
+        let (a, b) = (2 + sample, 3 + sample);
+        let integral = combined(&m.integral, [&x, &v], sample);
+        let k = &m.viscous;
+        add_product(&x, &combined(&[k[0], k[1], k[2], k[3]], [&x, &v], sample), &mut viscous);
+        let by_speed = [Lane::ZERO, k[4], k[5], k[6]];
+        add_product(&v, &combined(&by_speed, [&x, &v], sample), &mut viscous);
+        add_to(k[7], &mut viscous[a][a]);
+        add_to(k[8], &mut viscous[a][b]);
+        add_to(k[9], &mut viscous[b][b]);
+        let end = combined(&m.displacement, [&x, &v], sample);
+        let speed = combined(&m.velocity, [&x, &v], sample);
+        let gamma = &m.participation;
+        let faster = gamma.map(|gamma| gamma / step);
+        let slower = faster.map(|faster| -faster);
+        let minus = gamma.map(|gamma| -gamma);
+        // - gamma (x(1) b - x(0) a - (b - a) / h int x)
+        add_row(&minus, &end, &mut input[b]);
+        add_row(gamma, &x, &mut input[a]);
+        add_row(&faster, &integral, &mut input[b]);
+        add_row(&slower, &integral, &mut input[a]);
+        (x, v) = (end, speed);
+    }
+    let bounds = bounds(m, part, step, [&x, &v]);
+    let by = |form: &[Row; INPUTS], start: usize| {
+        std::array::from_fn(|k| coefficient(form, start, 2 + k))
+    };
+    let pairs = |form: &[Row; INPUTS]| {
+        let mut pairs = [Lane::ZERO; PAIRS];
+        let both = (0..TIMES).flat_map(|i| (i..TIMES).map(move |j| (i, j)));
+        for (pair, (i, j)) in pairs.iter_mut().zip(both) {
+            *pair = coefficient(form, 2 + i, 2 + j);
+        }
+        pairs
+    };
+    let loads = |row: &Row| std::array::from_fn(|k| row[2 + k]);
+    let length = BLOCK as f64 * step;
+    // What round-off takes is a part of the motion itself, not of what it departs by.
+    let still = [
+        [m.steady[0], Lane::from_fn(|l| m.steady[1][l] + m.steady[0][l] * length)],
+        [
+            m.participation,
+            Lane::from_fn(|l| m.stiffness[l] * m.steady[1][l] + m.damping[l] * m.steady[0][l]),
+        ],
+    ];
+    let lost = |of: usize| still[of].map(|factor| factor.map(|x| ROUND_OFF * x.abs()));
+    let start = Start {
+        displacement: [x[0], x[1]],
+        velocity: [v[0], v[1]],
+        viscous: [
+            coefficient(&viscous, 0, 0),
+            coefficient(&viscous, 0, 1),
+            coefficient(&viscous, 1, 1),
+        ],
+        bounds: std::array::from_fn(|b| {
+            std::array::from_fn(|k| {
+                Lane::from_fn(|l| {
+                    let scale = if b == 0 { 1.0 } else { m.stiffness[l] };
+                    let speed = if b == 0 { length } else { m.damping[l] + m.stiffness[l] * length };
+                    bounds[b][k][l] + ROUND_OFF * if k == 0 { scale } else { speed }
+                })
+            })
+        }),
+    };
+    let weights = Weights {
+        linear: [
+            loads(&x),
+            loads(&v),
+            by(&input, 0),
+            by(&input, 1),
+            by(&viscous, 0),
+            by(&viscous, 1),
+        ],
+        pairs: [pairs(&input), pairs(&viscous)],
+        bounds: std::array::from_fn(|b| std::array::from_fn(|k| bounds[b][2 + k])),
+        round_off: [lost(0), lost(1), lost(1)],
+    };
+    (start, weights)
+}
+
+/// A Bernstein polynomial of degree 3 at each of the points of a block.
+fn bernstein(point: usize) -> [f64; 4] {
+    let x = point as f64 / (BLOCK * POINTS) as f64;
+    let y = 1.0 - x;
+    [y * y * y, 3.0 * x * y * y, 3.0 * x * x * y, x * x * x]
+}
+
+/// Maximum magnitudes, over the block, of what displacement (0) and absolute acceleration (1) depart
+/// from their cubics by, and of absolute acceleration itself (2): for unit displacement and velocity at the
+/// start without ground acceleration, then for a unit departure from the line at each sample inside, between
+/// whose neighbours it is linear. At the points by the exact step from one to the next; between them
+/// a function exceeds its values at both by at most an eighth of the square of their distance
+/// times its second derivative.
+#[inline(always)]
+fn bounds(m: &ModeLanes, part: &ModeLanes, step: f64, [x, v]: [&Row; 2]) -> [[Lane; 2 + INSIDE]; 3] {
+    let third = BLOCK as f64 * step / 3.0;
+    let between = step / POINTS as f64;
+    let eighth = 0.125 * between * between;
+    let curve = 6.0 / (9.0 * third * third);
+    let mut out = [[Lane::ZERO; 2 + INSIDE]; 3];
+    for column in 0..2 + INSIDE {
+        // The departure at the first sample is that of the second row of accelerations.
+        let end = if column < 2 { column } else { column + 1 };
+        let ground = |point: usize| -> f64 {
+            let Some(sample) = column.checked_sub(1).filter(|_| column >= 2) else {
+                return 0.0;
+            };
+            (1.0 - (point as f64 / POINTS as f64 - sample as f64).abs()).max(0.0)
+        };
+        let slope = if column < 2 { 0.0 } else { 1.0 / step };
+        let mut q = Lane::from_fn(|_| if column == 0 { 1.0 } else { 0.0 });
+        let mut p = Lane::from_fn(|_| if column == 1 { 1.0 } else { 0.0 });
+        let (restoring, rate) = (restoring(m, &q, &p), |s: &Lane, p: &Lane| {
+            Lane::from_fn(|l| -(m.damping[l] * s[l] + m.stiffness[l] * p[l]))
+        });
+        let cubic = |a: &Lane, va: &Lane, b: &Lane, vb: &Lane| -> [Lane; 4] {
+            [
+                *a,
+                Lane::from_fn(|l| a[l] + third * va[l]),
+                Lane::from_fn(|l| b[l] - third * vb[l]),
+                *b,
+            ]
+        };
+        let (q_end, p_end) = (&x[end], &v[end]);
+        let restoring_end = self::restoring(m, q_end, p_end);
+        let cubics = [
+            cubic(&q, &p, q_end, p_end),
+            cubic(
+                &restoring,
+                &rate(&restoring, &p),
+                &restoring_end,
+                &rate(&restoring_end, p_end),
+            ),
+        ];
+        let mut bend = [Lane::ZERO; 3];
+        let mut most = [Lane::ZERO; 3];
+        for point in 0..BLOCK * POINTS {
+            let (a, b) = (ground(point), ground(point + 1));
+            let (force, rise) = (a.max(b), if a == b { 0.0 } else { slope });
+            for l in 0..WIDTH {
+                let gamma = m.participation[l].abs();
+                let (omega, damping) = (m.circular_frequency[l], m.damping[l]);
+                let size = p[l].abs() + omega * q[l].abs() + gamma * between * force;
+                let second = (omega + damping) * size + gamma * force;
+                let snap = (m.stiffness[l] + damping * damping) * second
+                    + damping * (m.stiffness[l] * size + gamma * rise);
+                bend[0][l] = bend[0][l].max(second);
+                bend[1][l] = bend[1][l].max(snap);
+            }
+            let after = |k: &[Lane; 4]| {
+                Lane::from_fn(|l| k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * a + k[3][l] * b))
+            };
+            (q, p) = (after(&part.displacement), after(&part.velocity));
+            let absolute = self::restoring(m, &q, &p);
+            let weights = bernstein(point + 1);
+            for (of, (value, cubic)) in [&q, &absolute].into_iter().zip(&cubics).enumerate() {
+                for l in 0..WIDTH {
+                    let (first, last) = (
+                        weights[0] * cubic[0][l] + weights[1] * cubic[1][l],
+                        weights[2] * cubic[2][l] + weights[3] * cubic[3][l],
+                    );
+                    most[of][l] = most[of][l].max((value[l] - (first + last)).abs());
+                }
+            }
+            for l in 0..WIDTH {
+                most[2][l] = most[2][l].max(absolute[l].abs());
+            }
+        }
+        for l in 0..WIDTH {
+            most[2][l] = most[2][l].max(restoring[l].abs());
+        }
+        bend[2] = bend[1];
+        for (bend, cubic) in bend.iter_mut().zip(&cubics) {
+            for l in 0..WIDTH {
+                let ends = [0, 1].map(|k| cubic[k][l] - 2.0 * cubic[k + 1][l] + cubic[k + 2][l]);
+                bend[l] += curve * ends[0].abs().max(ends[1].abs());
+            }
+        }
+        for ((out, most), bend) in out.iter_mut().zip(&most).zip(&bend) {
+            out[column] = Lane::from_fn(|l| most[l] + eighth * bend[l]);
+        }
+    }
+    out
+}
+
+/// Absolute accelerations.
+#[inline(always)]
+fn restoring(m: &ModeLanes, q: &Lane, p: &Lane) -> Lane {
+    Lane::from_fn(|l| -(m.damping[l] * p[l] + m.stiffness[l] * q[l]))
+}

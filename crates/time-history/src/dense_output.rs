@@ -181,6 +181,12 @@ impl<'a, 'b> Observers<'a, 'b> {
         self.recorders.iter().any(|r| r.next_time() < end)
     }
 
+    /// Whether a step that ends at this time (s) is to be shown to anybody.
+    pub(crate) fn want_until(&self, end: f64) -> bool {
+        let (end, last) = (end * (1.0 + CLOSE), self.is_last(end));
+        self.recorders.iter().any(|r| wants(&**r, end, last))
+    }
+
     /// Whether the run ends at this time (s).
     fn is_last(&self, end: f64) -> bool {
         end >= self.end * (1.0 - 1.0e-12)

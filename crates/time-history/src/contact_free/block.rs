@@ -335,6 +335,24 @@ pub(crate) fn step_over(
     (input.0.iter().sum(), viscous.0.iter().sum())
 }
 
+/// Follows a block from this state on for those who watch it, and bounds what the displacements of
+/// floors do between samples.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn follow(
+    constants: &ContactFree,
+    start: &Modal,
+    samples: &[f64; BLOCK + 1],
+    block: &mut Block,
+) {
+    advance_all(constants, start, samples, block);
+    bound_overshoots(constants, block, [0], true);
+}
+
 /// All modes over the block, whose ground accelerations are `samples`.
 #[inline(always)]
 pub(super) fn advance_all(

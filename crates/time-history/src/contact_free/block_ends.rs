@@ -8,6 +8,8 @@
 //! block. The rest is put off, eight floors together, and looked at from the state at the start of
 //! the block ([`super::lane_candidates`]).
 
+use std::ops::Range;
+
 use multiversion::multiversion;
 
 use super::block::{BLOCK, Block, advance_all, bound_overshoots};
@@ -15,7 +17,7 @@ use super::block_step::{BlockStep, Bounds, Load};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Lane, Modal, Track, WIDTH, at, is_low, modal_acceleration_overshoots, spread, sum_of_products,
+    Lane, Modal, Track, WIDTH, at, is_low, modal_acceleration_overshoots, mul, spread,
 };
 use super::transform::{transform_four, transform_two};
 use crate::bands::Bands;
@@ -33,6 +35,34 @@ const CUBIC: usize = 4;
 /// block times its rate.
 type End = [Vec<Lane>; 4];
 
+/// What is bounded.
+const QUANTITIES: usize = 4;
+
+/// How far the modes of a building move its floors at most.
+#[derive(Debug, Clone)]
+struct Reach {
+    /// First lane of its floors.
+    lane: usize,
+    /// Maximum magnitudes of its mode shapes, and of their differences from floor to floor, by modes; and one for
+    /// every floor. All are zero for other buildings.
+    sizes: Vec<[Lane; 3]>,
+}
+
+impl Reach {
+    fn new(constants: &ContactFree, floors: Range<usize>) -> Self {
+        let rows = &constants.rows;
+        let (lane, end) = (floors.start / WIDTH, floors.end.div_ceil(WIDTH));
+        let sizes = (lane..end).map(|c| {
+            let own = Lane::from_fn(|l| f64::from(floors.contains(&(c * WIDTH + l))));
+            [mul(own, rows.size[c]), mul(own, rows.drift_size[c]), own]
+        });
+        Self {
+            lane,
+            sizes: sizes.collect(),
+        }
+    }
+}
+
 /// Work space.
 #[derive(Debug, Clone)]
 pub(super) struct BlockEnds {
@@ -46,8 +76,10 @@ pub(super) struct BlockEnds {
     bounds: Bounds,
     /// What the accelerations of a block do to the modes, where it is not at hand.
     loads: Vec<Load>,
-    /// What displacement, drift and absolute acceleration of every floor may exceed the hull by.
-    beyond: [Vec<Lane>; 3],
+    /// What displacement, drift and absolute acceleration of every floor may exceed the hull by, and
+    /// absolute acceleration what the ground's is at the ends.
+    beyond: [Vec<Lane>; QUANTITIES],
+    buildings: Vec<Reach>,
     /// What could have a peak in the block.
     suspects: Vec<Suspect>,
     bands: Option<ByBands>,
@@ -103,6 +135,11 @@ impl BlockEnds {
             bounds: Bounds::new(lanes),
             loads: vec![Load::default(); constants.block_step.as_ref().map_or(0, |_| lanes)],
             beyond: std::array::from_fn(|_| zeros()),
+            buildings: constants
+                .shapes
+                .iter()
+                .map(|b| Reach::new(constants, b.first_mode..b.first_mode + b.modes))
+                .collect(),
             suspects: Vec::with_capacity(3 * lanes),
             bands: constants.bands.as_ref().map(|bands| ByBands {
                 displacement: vec![0.0; dofs + 2],
@@ -135,7 +172,7 @@ impl BlockEnds {
         let low = match &constants.block_step {
             Some(step) => {
                 self.step_over(constants, (step, now), (samples, loads), &mut block.end);
-                bound_all(constants, (samples[0], samples[BLOCK]), peak, self)
+                bound_all((samples[0], samples[BLOCK]), peak, self)
             }
             None => advance_modes(constants, (now, samples), peak, block, self),
         };
@@ -266,7 +303,7 @@ fn advance_modes(
         modal_acceleration_overshoots(constants, size, block.largest, modal);
         add(modal, &mut ends.bounds.acceleration);
     }
-    bound_floors(constants, ends);
+    bound_floors(ends);
     low
 }
 
@@ -278,21 +315,14 @@ fn advance_modes(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn bound_all(
-    constants: &ContactFree,
-    ground: (f64, f64),
-    peak: &[Lane],
-    ends: &mut BlockEnds,
-) -> bool {
-    bound_floors(constants, ends);
+fn bound_all(ground: (f64, f64), peak: &[Lane], ends: &mut BlockEnds) -> bool {
+    bound_floors(ends);
     // Under the line a building moves as the ground does.
     let line = ground.0.abs().max(ground.1.abs());
     let mut low = true;
-    for building in &constants.shapes {
-        let range = building.first_mode..building.first_mode + building.modes;
-        let most = sum_of_products(&constants.rows.size, &ends.bounds.most, range.clone());
-        for i in range {
-            low &= line + most <= at(peak, i);
+    for (most, peak) in ends.beyond[3].iter().zip(peak) {
+        for l in 0..WIDTH {
+            low &= line + most[l] <= peak[l];
         }
     }
     low
@@ -300,19 +330,33 @@ fn bound_all(
 
 /// What floors may exceed the hull by, for those of a building together.
 #[inline(always)]
-fn bound_floors(constants: &ContactFree, ends: &mut BlockEnds) {
-    let (rows, bounds) = (&constants.rows, &ends.bounds);
-    let quantities = [
-        (&rows.size, &bounds.displacement),
-        (&rows.drift_size, &bounds.displacement),
-        (&rows.size, &bounds.acceleration),
-    ];
-    for building in &constants.shapes {
-        let range = building.first_mode..building.first_mode + building.modes;
-        for ((size, bounds), beyond) in quantities.into_iter().zip(&mut ends.beyond) {
-            let bound = sum_of_products(size, bounds, range.clone());
-            for i in range.clone() {
-                beyond[i / WIDTH][i % WIDTH] = bound;
+fn bound_floors(ends: &mut BlockEnds) {
+    let bounds = &ends.bounds;
+    for beyond in &mut ends.beyond {
+        beyond.fill(Lane::ZERO);
+    }
+    for building in &ends.buildings {
+        let lanes = building.lane..building.lane + building.sizes.len();
+        let modes = bounds.displacement[lanes.clone()].iter();
+        let modes = modes.zip(&bounds.acceleration[lanes.clone()]);
+        let modes = modes.zip(&bounds.most[lanes.clone()]);
+        let mut sums = [Lane::ZERO; QUANTITIES];
+        for (sizes, ((displacement, acceleration), most)) in building.sizes.iter().zip(modes) {
+            let [size, drift_size, _] = sizes;
+            for l in 0..WIDTH {
+                sums[0][l] += size[l] * displacement[l];
+                sums[1][l] += drift_size[l] * displacement[l];
+                sums[2][l] += size[l] * acceleration[l];
+                sums[3][l] += size[l] * most[l];
+            }
+        }
+        for (sum, beyond) in sums.iter().zip(&mut ends.beyond) {
+            let [a, b, c, d, e, f, g, h] = sum.0;
+            let bound = ((a + b) + (c + d)) + ((e + f) + (g + h));
+            for (beyond, [_, _, own]) in beyond[lanes.clone()].iter_mut().zip(&building.sizes) {
+                for l in 0..WIDTH {
+                    beyond[l] += own[l] * bound;
+                }
             }
         }
     }
@@ -351,10 +395,8 @@ fn deviate(
 ) {
     let third = third(constants);
     let count = constants.modes.len();
-    let (displacement, acceleration) = (
-        &mut ends.bounds.displacement,
-        &mut ends.bounds.acceleration,
-    );
+    let (displacement, acceleration) =
+        (&mut ends.bounds.displacement, &mut ends.bounds.acceleration);
     for (c, m) in constants.modes.iter().enumerate() {
         let ends = [
             (now.displacement[c], now.velocity[c], samples[0]),
@@ -432,16 +474,20 @@ fn derive_end(
     modes: &mut End,
 ) {
     let third = third(constants);
-    let [_, rates, absolutes, absolute_rates] = modes;
+    let count = constants.modes.len();
+    let [_, rates, absolutes, absolute_rates] = modes.each_mut().map(|modes| &mut modes[..count]);
+    let (displacement, velocity) = (&displacement[..count], &velocity[..count]);
     for (c, m) in constants.modes.iter().enumerate() {
         let (q, p) = (&displacement[c], &velocity[c]);
+        let mut out = [Lane::ZERO; 3];
         for l in 0..WIDTH {
             let absolute = -(m.damping[l] * p[l] + m.stiffness[l] * q[l]);
             let relative = absolute - m.participation[l] * ground;
-            rates[c][l] = third * p[l];
-            absolutes[c][l] = absolute;
-            absolute_rates[c][l] = third * -(m.damping[l] * relative + m.stiffness[l] * p[l]);
+            out[0][l] = third * p[l];
+            out[1][l] = absolute;
+            out[2][l] = third * -(m.damping[l] * relative + m.stiffness[l] * p[l]);
         }
+        [rates[c], absolutes[c], absolute_rates[c]] = out;
     }
 }
 
@@ -541,7 +587,7 @@ fn compare(
                 upper,
             }));
         };
-        let [beyond, beyond_drift, beyond_acceleration] =
+        let [beyond, beyond_drift, beyond_acceleration, _] =
             ends.beyond.each_ref().map(|beyond| &beyond[c]);
         suspect(
             Quantity::Displacement,

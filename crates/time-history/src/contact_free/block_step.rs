@@ -155,7 +155,10 @@ impl BlockStep {
     /// For these modes over one sample of this length (s), and over a part of it, one of
     /// [`BlockStep::parts`].
     pub(super) fn new(modes: &[ModeLanes], parts: &[ModeLanes], step: f64) -> Self {
-        let made = modes.iter().zip(parts).map(|(m, part)| lanes(m, part, step));
+        let made = modes
+            .iter()
+            .zip(parts)
+            .map(|(m, part)| lanes(m, part, step));
         let (start, weights) = made.unzip();
         Self {
             start,
@@ -203,30 +206,50 @@ fn advance_all(
     end: &mut Modal,
     bounds: &mut Bounds,
 ) {
-    for (c, ((m, k), load)) in modes.iter().zip(starts).zip(loads).enumerate() {
-        let (q, p) = (&now.displacement[c], &now.velocity[c]);
-        let (input, viscous) = (&now.input[c], &now.viscous[c]);
+    let count = modes.len();
+    let now = [
+        &now.displacement[..count],
+        &now.velocity[..count],
+        &now.input[..count],
+        &now.viscous[..count],
+    ];
+    let (starts, loads) = (&starts[..count], &loads[..count]);
+    let ends = [
+        &mut end.displacement[..count],
+        &mut end.velocity[..count],
+        &mut end.input[..count],
+        &mut end.viscous[..count],
+    ];
+    let [end_q, end_p, end_input, end_viscous] = ends;
+    let departures = &mut bounds.displacement[..count];
+    let (faster, most) = (&mut bounds.acceleration[..count], &mut bounds.most[..count]);
+    for (c, m) in modes.iter().enumerate() {
+        let (k, load) = (&starts[c], &loads[c]);
+        let [x, v, input, viscous] = now.map(|now| now[c]);
         let [q_load, p_load, by_q, by_p, damped_by_q, damped_by_p] = &load.linear;
         let [by_value, by_slope] = &m.steady;
+        let mut motion = [Lane::ZERO; 4];
+        let mut bounds = [Lane::ZERO; 3];
         for l in 0..WIDTH {
-            let (x, v) = (q[l], p[l]);
-            end.displacement[c][l] =
-                k.displacement[0][l] * x + k.displacement[1][l] * v + q_load[l];
-            end.velocity[c][l] = k.velocity[0][l] * x + k.velocity[1][l] * v + p_load[l];
-            end.input[c][l] = input[l] + (by_q[l] * x + by_p[l] * v + load.works[0][l]);
-            end.viscous[c][l] = viscous[l]
+            let (x, v) = (x[l], v[l]);
+            motion[0][l] = k.displacement[0][l] * x + k.displacement[1][l] * v + q_load[l];
+            motion[1][l] = k.velocity[0][l] * x + k.velocity[1][l] * v + p_load[l];
+            motion[2][l] = input[l] + (by_q[l] * x + by_p[l] * v + load.works[0][l]);
+            motion[3][l] = viscous[l]
                 + (x * (k.viscous[0][l] * x + k.viscous[1][l] * v + damped_by_q[l])
                     + v * (k.viscous[2][l] * v + damped_by_p[l])
                     + load.works[1][l]);
-            let place = (x + (by_value[l] * ground - by_slope[l] * slope)).abs();
-            let speed = (v + by_value[l] * slope).abs();
-            let bound = |b: usize| {
-                k.bounds[b][0][l] * place + k.bounds[b][1][l] * speed + load.bounds[b][l]
-            };
-            bounds.displacement[c][l] = bound(0);
-            bounds.acceleration[c][l] = bound(1);
-            bounds.most[c][l] = bound(2);
         }
+        for l in 0..WIDTH {
+            let place = (x[l] + (by_value[l] * ground - by_slope[l] * slope)).abs();
+            let speed = (v[l] + by_value[l] * slope).abs();
+            for b in 0..3 {
+                bounds[b][l] =
+                    k.bounds[b][0][l] * place + k.bounds[b][1][l] * speed + load.bounds[b][l];
+            }
+        }
+        [end_q[c], end_p[c], end_input[c], end_viscous[c]] = motion;
+        [departures[c], faster[c], most[c]] = bounds;
     }
 }
 
@@ -343,7 +366,11 @@ fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights) {
         let (a, b) = (2 + sample, 3 + sample);
         let integral = combined(&m.integral, [&x, &v], sample);
         let k = &m.viscous;
-        add_product(&x, &combined(&[k[0], k[1], k[2], k[3]], [&x, &v], sample), &mut viscous);
+        add_product(
+            &x,
+            &combined(&[k[0], k[1], k[2], k[3]], [&x, &v], sample),
+            &mut viscous,
+        );
         let by_speed = [Lane::ZERO, k[4], k[5], k[6]];
         add_product(&v, &combined(&by_speed, [&x, &v], sample), &mut viscous);
         add_to(k[7], &mut viscous[a][a]);
@@ -378,7 +405,10 @@ fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights) {
     let length = BLOCK as f64 * step;
     // What round-off takes is a part of the motion itself, not of what it departs by.
     let still = [
-        [m.steady[0], Lane::from_fn(|l| m.steady[1][l] + m.steady[0][l] * length)],
+        [
+            m.steady[0],
+            Lane::from_fn(|l| m.steady[1][l] + m.steady[0][l] * length),
+        ],
         [
             m.participation,
             Lane::from_fn(|l| m.stiffness[l] * m.steady[1][l] + m.damping[l] * m.steady[0][l]),
@@ -397,7 +427,11 @@ fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights) {
             std::array::from_fn(|k| {
                 Lane::from_fn(|l| {
                     let scale = if b == 0 { 1.0 } else { m.stiffness[l] };
-                    let speed = if b == 0 { length } else { m.damping[l] + m.stiffness[l] * length };
+                    let speed = if b == 0 {
+                        length
+                    } else {
+                        m.damping[l] + m.stiffness[l] * length
+                    };
                     bounds[b][k][l] + ROUND_OFF * if k == 0 { scale } else { speed }
                 })
             })
@@ -433,7 +467,12 @@ fn bernstein(point: usize) -> [f64; 4] {
 /// a function exceeds its values at both by at most an eighth of the square of their distance
 /// times its second derivative.
 #[inline(always)]
-fn bounds(m: &ModeLanes, part: &ModeLanes, step: f64, [x, v]: [&Row; 2]) -> [[Lane; 2 + INSIDE]; 3] {
+fn bounds(
+    m: &ModeLanes,
+    part: &ModeLanes,
+    step: f64,
+    [x, v]: [&Row; 2],
+) -> [[Lane; 2 + INSIDE]; 3] {
     let third = BLOCK as f64 * step / 3.0;
     let between = step / POINTS as f64;
     let eighth = 0.125 * between * between;

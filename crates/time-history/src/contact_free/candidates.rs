@@ -6,12 +6,12 @@
 //! look.
 
 use super::block::{self, BLOCK};
+use super::block_ends::Suspect;
 use super::closer_look::CloserLook;
 use super::constants::ContactFree;
 use super::lane_candidates::{BlockLook, Interval, LaneCandidate};
 use super::lanes::{Ground, Lane, Modal, Track, WIDTH};
 use super::sample_bound::SampleBound;
-use super::block_ends::Suspect;
 use crate::polynomial::absolute_maximum;
 use crate::system::System;
 

@@ -3,10 +3,10 @@
 use pounding_shear_building::ShearBuilding;
 
 use super::block::Rows;
-use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
-use super::mode_step::{ModeStep, Oscillator};
 use super::block_ends::is_tall;
 use super::block_step::BlockStep;
+use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
+use super::mode_step::{ModeStep, Oscillator};
 use crate::bands::Bands;
 use crate::contact_episode::{FloorRows, ModalRow};
 use crate::rates::fastest_rate;

@@ -3,12 +3,12 @@
 use std::ops::Range;
 
 use super::block::{self, BLOCK, Block, Extremes};
+use super::block_ends::{BlockEnds, is_tall};
 use super::candidates::{Candidates, Quantity};
 use super::constants::ContactFree;
 use super::lanes::{
     Lane, Modal, ModalState, Track, WIDTH, at, balance, drifts, gather, restoring, spread,
 };
-use super::block_ends::{BlockEnds, is_tall};
 use super::transform::transform;
 use crate::contact::Contacts;
 use crate::contact_episode::{LevelRows, Tracks};
@@ -322,20 +322,19 @@ impl ContactFreePhase {
                 self.block.watch();
                 self.block_start.copy_from(&self.now);
             }
-            let advanced = if count == BLOCK && self.propagate_by_ends(constants, range, sample)
-            {
-                BLOCK
-            } else {
-                self.propagate_block(constants, range, (sample, count))
+            let by_ends = count == BLOCK && self.propagate_by_ends(constants, range, sample);
+            let advanced = match by_ends {
+                true => BLOCK,
+                false => self.propagate_block(constants, range, (sample, count)),
             };
-            if !observers.is_empty() {
+            let end = (sample + advanced) as f64 * constants.step;
+            if advanced > 0 && observers.want_until(end) {
                 let samples = sample..sample + advanced;
-                self.show(
-                    constants,
-                    range,
-                    samples,
-                    (accounts.state, rows, &mut *observers),
-                )?;
+                if by_ends && by_loads {
+                    self.follow(constants, range, sample);
+                }
+                let watched = (&*accounts.state, rows, &mut *observers);
+                self.show(constants, range, samples, watched)?;
             }
             if advanced > 0 {
                 self.moved = true;
@@ -361,6 +360,13 @@ impl ContactFreePhase {
         Ok(sample - range.from)
     }
 
+    /// Works out the samples of a block that was advanced by one step.
+    fn follow(&mut self, constants: &ContactFree, range: &SampleRange<'_>, sample: usize) {
+        let mut samples = [0.0; BLOCK + 1];
+        samples.copy_from_slice(&range.system.ground().samples[sample..=sample + BLOCK]);
+        block::follow(constants, &self.block_start, &samples, &mut self.block);
+    }
+
     /// Shows samples that were advanced to observers.
     fn show(
         &self,
@@ -369,9 +375,6 @@ impl ContactFreePhase {
         samples: Range<usize>,
         (state, rows, observers): (&[f64], &LevelRows, &mut Observers<'_, '_>),
     ) -> Result<(), TimeHistoryError> {
-        if samples.is_empty() {
-            return Ok(());
-        }
         let ground = &range.system.ground().samples[samples.start..=samples.end];
         observers.show(&ModalStep {
             system: range.system,

@@ -349,7 +349,40 @@ pub(super) fn follow(
     samples: &[f64; BLOCK + 1],
     block: &mut Block,
 ) {
-    advance_all(constants, start, samples, block);
+    let count = constants.modes.len();
+    let Some([velocities, inputs, dampings]) = &mut block.watched else {
+        return;
+    };
+    let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    let length = BLOCK as f64 * constants.step;
+    for (c, m) in constants.modes.iter().enumerate() {
+        let mut state = [
+            start.displacement[c],
+            start.velocity[c],
+            start.input[c],
+            start.viscous[c],
+        ];
+        // No larger at a later sample than what the ground can add until then.
+        block.size[c] = Lane::from_fn(|l| {
+            state[1][l].abs()
+                + m.circular_frequency[l] * state[0][l].abs()
+                + m.participation[l].abs() * length * largest
+        });
+        for (s, pair) in samples.windows(2).enumerate() {
+            let ground = Ground {
+                start: pair[0],
+                end: pair[1],
+                slope: (pair[1] - pair[0]) / constants.step,
+            };
+            (state, _) = step_modes::<false>(m, state, ground);
+            let place = s * count + c;
+            block.displacement[place] = state[0];
+            velocities[place] = state[1];
+            inputs[place] = state[2];
+            dampings[place] = state[3];
+        }
+    }
+    block.largest.0 = largest;
     bound_overshoots(constants, block, [0], true);
 }
 

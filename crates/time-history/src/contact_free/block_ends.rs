@@ -17,9 +17,9 @@ use super::block_step::{BlockStep, Bounds, Load};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Lane, Modal, Track, WIDTH, at, is_low, modal_acceleration_overshoots, mul, spread,
+    Lane, Modal, Track, WIDTH, add, at, is_low, modal_acceleration_overshoots, mul, scale, spread,
 };
-use super::transform::{transform_four, transform_two};
+use super::transform::{STRIP, rows_of_four, rows_of_two, transform_four, transform_two};
 use crate::bands::Bands;
 use crate::contact::Contacts;
 use crate::system::System;
@@ -45,27 +45,42 @@ struct Reach {
     lane: usize,
     /// Maximum magnitudes of its mode shapes, and of their differences from floor to floor, by modes; and one for
     /// every floor. All are zero for other buildings.
-    sizes: Vec<[Lane; 3]>,
+    size: Vec<Lane>,
+    drift_size: Vec<Lane>,
+    own: Vec<Lane>,
 }
 
 impl Reach {
     fn new(constants: &ContactFree, floors: Range<usize>) -> Self {
         let rows = &constants.rows;
         let (lane, end) = (floors.start / WIDTH, floors.end.div_ceil(WIDTH));
-        let sizes = (lane..end).map(|c| {
-            let own = Lane::from_fn(|l| f64::from(floors.contains(&(c * WIDTH + l))));
-            [mul(own, rows.size[c]), mul(own, rows.drift_size[c]), own]
-        });
+        let own = |c: usize| Lane::from_fn(|l| f64::from(floors.contains(&(c * WIDTH + l))));
+        let part = |of: &[Lane]| (lane..end).map(|c| mul(own(c), of[c])).collect();
         Self {
             lane,
-            sizes: sizes.collect(),
+            size: part(&rows.size),
+            drift_size: part(&rows.drift_size),
+            own: (lane..end).map(own).collect(),
         }
     }
+}
+
+/// Sum of the products of sizes of modes with their bounds.
+#[inline(always)]
+fn sum_of(sizes: &[Lane], bounds: &[Lane]) -> f64 {
+    let mut sum = Lane::ZERO;
+    for (size, bound) in sizes.iter().zip(bounds) {
+        sum = add(sum, mul(*size, *bound));
+    }
+    let half: [f64; 4] = std::array::from_fn(|l| sum[l] + sum[l + 4]);
+    (half[0] + half[2]) + (half[1] + half[3])
 }
 
 /// Work space.
 #[derive(Debug, Clone)]
 pub(super) struct BlockEnds {
+    /// Whether the mode shapes stay in the cache by themselves.
+    small: bool,
     /// Of the modes at one end, and of the floors at both.
     modes: End,
     start: End,
@@ -128,6 +143,7 @@ impl BlockEnds {
         let zeros = || vec![Lane::ZERO; lanes];
         let end = || std::array::from_fn(|_| zeros());
         Self {
+            small: constants.bands.is_none() && constants.shapes.iter().all(|b| b.modes <= STRIP),
             modes: end(),
             start: end(),
             end: end(),
@@ -216,8 +232,12 @@ impl BlockEnds {
     ) {
         derive_end(constants, (q, p, ground), &mut self.modes);
         let [_, rate, absolute, absolute_rate] = &self.modes;
-        let shapes = &constants.shapes;
+        let (shapes, rows) = (&constants.shapes, &constants.floor_rows);
         match (&constants.bands, &mut self.bands) {
+            _ if self.small && low => rows_of_two(rows, [q, rate], &mut self.end),
+            _ if self.small => {
+                rows_of_four(rows, [q, rate, absolute, absolute_rate], &mut self.end)
+            }
             _ if low => transform_two(shapes, [q, rate], &mut self.end),
             (Some(bands), Some(by_bands)) => {
                 transform_two(shapes, [q, rate], &mut self.end);
@@ -297,11 +317,11 @@ fn advance_modes(
     bound_overshoots(constants, block, [0], true);
     let low = is_low(constants, (&block.over[0], block.largest.0), peak);
     deviate(constants, (now, samples), block, low, ends);
-    add(&block.modal, &mut ends.bounds.displacement);
+    add_all(&block.modal, &mut ends.bounds.displacement);
     if !low {
         let (size, modal) = (&block.size, &mut block.modal);
         modal_acceleration_overshoots(constants, size, block.largest, modal);
-        add(modal, &mut ends.bounds.acceleration);
+        add_all(modal, &mut ends.bounds.acceleration);
     }
     bound_floors(ends);
     low
@@ -319,13 +339,15 @@ fn bound_all(ground: (f64, f64), peak: &[Lane], ends: &mut BlockEnds) -> bool {
     bound_floors(ends);
     // Under the line a building moves as the ground does.
     let line = ground.0.abs().max(ground.1.abs());
-    let mut low = true;
+    let mut excess = Lane::from_fn(|_| f64::NEG_INFINITY);
     for (most, peak) in ends.beyond[3].iter().zip(peak) {
         for l in 0..WIDTH {
-            low &= line + most[l] <= peak[l];
+            let above = line + most[l] - peak[l];
+            // A NaN is passed on.
+            excess[l] = if above <= excess[l] { excess[l] } else { above };
         }
     }
-    low
+    excess.0.iter().all(|above| *above <= 0.0)
 }
 
 /// What floors may exceed the hull by, for those of a building together.
@@ -336,34 +358,24 @@ fn bound_floors(ends: &mut BlockEnds) {
         beyond.fill(Lane::ZERO);
     }
     for building in &ends.buildings {
-        let lanes = building.lane..building.lane + building.sizes.len();
-        let modes = bounds.displacement[lanes.clone()].iter();
-        let modes = modes.zip(&bounds.acceleration[lanes.clone()]);
-        let modes = modes.zip(&bounds.most[lanes.clone()]);
-        let mut sums = [Lane::ZERO; QUANTITIES];
-        for (sizes, ((displacement, acceleration), most)) in building.sizes.iter().zip(modes) {
-            let [size, drift_size, _] = sizes;
-            for l in 0..WIDTH {
-                sums[0][l] += size[l] * displacement[l];
-                sums[1][l] += drift_size[l] * displacement[l];
-                sums[2][l] += size[l] * acceleration[l];
-                sums[3][l] += size[l] * most[l];
-            }
-        }
-        for (sum, beyond) in sums.iter().zip(&mut ends.beyond) {
-            let [a, b, c, d, e, f, g, h] = sum.0;
-            let bound = ((a + b) + (c + d)) + ((e + f) + (g + h));
-            for (beyond, [_, _, own]) in beyond[lanes.clone()].iter_mut().zip(&building.sizes) {
-                for l in 0..WIDTH {
-                    beyond[l] += own[l] * bound;
-                }
+        let lanes = building.lane..building.lane + building.own.len();
+        let displacement = &bounds.displacement[lanes.clone()];
+        let bounds = [
+            sum_of(&building.size, displacement),
+            sum_of(&building.drift_size, displacement),
+            sum_of(&building.size, &bounds.acceleration[lanes.clone()]),
+            sum_of(&building.size, &bounds.most[lanes.clone()]),
+        ];
+        for (bound, beyond) in bounds.into_iter().zip(&mut ends.beyond) {
+            for (beyond, own) in beyond[lanes.clone()].iter_mut().zip(&building.own) {
+                *beyond = add(*beyond, scale(bound, *own));
             }
         }
     }
 }
 
 #[inline(always)]
-fn add(more: &[Lane], to: &mut [Lane]) {
+fn add_all(more: &[Lane], to: &mut [Lane]) {
     for (to, more) in to.iter_mut().zip(more) {
         for l in 0..WIDTH {
             to[l] += more[l];
@@ -877,7 +889,7 @@ mod tests {
         #![proptest_config(ProptestConfig::with_cases(64))]
         #[test]
         fn one_step_over_a_block_leads_to_where_samples_lead(
-            storeys in [1_usize..60, 1_usize..40],
+            storeys in [1_usize..70, 1_usize..50],
             seed in 0.0..100.0,
             ratio in any::<bool>(),
             gap in prop_oneof![Just(1.0e3), 0.01..0.4],
@@ -885,6 +897,7 @@ mod tests {
             step in prop_oneof![Just(0.005), Just(0.01), Just(0.02)],
         ) {
             let system = towers(storeys, seed, ratio, gap, (samples, step));
+            prop_assume!(system.contact_free().unwrap().block_step.is_some());
             // Which sample is left to contacts depends on where blocks begin.
             let counts = [true, false].map(|ends| advanced(&system, ends, ends, samples).count);
             prop_assert!(counts[0].abs_diff(counts[1]) <= 1);
@@ -894,7 +907,7 @@ mod tests {
             let seen = advanced(&system, true, true, count);
             prop_assert_eq!([seen.count, expected.count], [count; 2]);
             // Loads at hand change no bit.
-            prop_assert_eq!(system.loads().is_made(), samples >= BLOCK);
+            prop_assert!(system.loads().is_made());
             let fresh = towers(storeys, seed, ratio, gap, (samples, step));
             prop_assert_eq!(seen.bits(), advanced(&fresh, true, true, count).bits());
             prop_assert!(!fresh.loads().is_made());

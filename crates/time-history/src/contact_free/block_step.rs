@@ -34,6 +34,9 @@ const POINTS: usize = 4;
 /// Part of the largest terms of a function that may be lost in round-off: some thousand
 /// units in the last place.
 const ROUND_OFF: f64 = 1.0e-12;
+/// What the first mode of a building may depart from its cubic by, in parts of its amplitude: blocks are then
+/// at most some 0.4 periods long. In longer ones most would have to be looked at.
+const CLOSE: f64 = 0.1;
 /// Bytes that the loads of one record and set of buildings may take.
 const BYTES: usize = 8 << 20;
 
@@ -152,6 +155,10 @@ impl Bounds {
 }
 
 impl BlockStep {
+    /// Lanes of modes up to which this costs less than to go from sample to sample: the factors of
+    /// more are larger than the cache, and mode shapes are most of the work by then.
+    pub(super) const LANES: usize = 16;
+
     /// For these modes over one sample of this length (s), and over a part of it, one of
     /// [`BlockStep::parts`].
     pub(super) fn new(modes: &[ModeLanes], parts: &[ModeLanes], step: f64) -> Self {
@@ -165,6 +172,21 @@ impl BlockStep {
             weights,
             length: BLOCK as f64 * step,
         }
+    }
+
+    /// Whether the cubics tell much: whether the first modes of all buildings, which are these, depart
+    /// little from their own when they swing freely.
+    pub(super) fn is_close(
+        &self,
+        modes: &[ModeLanes],
+        mut first: impl Iterator<Item = usize>,
+    ) -> bool {
+        first.all(|j| {
+            let (c, l) = (j / WIDTH, j % WIDTH);
+            let [by_place, by_speed] = self.start[c].bounds[0].map(|bound| bound[l]);
+            let by_speed = modes[c].circular_frequency[l] * by_speed;
+            by_place * by_place + by_speed * by_speed <= CLOSE * CLOSE
+        })
     }
 
     /// Length of the parts (s) of a sample of this length (s).

@@ -43,7 +43,8 @@ pub(crate) struct ContactFree {
     /// Stiffness and damping of tall buildings by the masses of the floors, where both are
     /// tridiagonal.
     pub bands: Option<Bands>,
-    /// The step over a block of samples, where its bounds are good.
+    /// The step over a block of samples: not for many modes, nor for blocks that are long beside the
+    /// periods, nor for walls and frames with full matrices.
     pub block_step: Option<BlockStep>,
     /// Steps so short that displacements are polynomials of degree 7 over each.
     pub fine: Fine,
@@ -78,9 +79,12 @@ impl ContactFree {
         if let Some(bands) = &mut this.bands {
             bands.divide(system.mass());
         }
-        if !this.swings && system.sections().is_empty() {
+        let few = this.modes.len() <= BlockStep::LANES;
+        if few && !this.swings && system.sections().is_empty() {
             let parts = this.modes_over(system, BlockStep::parts(step));
-            this.block_step = Some(BlockStep::new(&this.modes, &parts, step));
+            let made = BlockStep::new(&this.modes, &parts, step);
+            let first_modes = this.shapes.iter().map(|b| b.first_mode);
+            this.block_step = Some(made).filter(|made| made.is_close(&this.modes, first_modes));
         }
         let parts = (this.fastest * step / FINE).ceil().max(1.0);
         this.fine = Fine {

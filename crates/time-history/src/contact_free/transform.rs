@@ -123,6 +123,60 @@ fn add_tile<const COUNT: usize, const TILE: usize>(
     }
 }
 
+/// The first two of four transformations by rows, which cost less where mode shapes are small.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn rows_of_two(rows: &[Rows], modal: [&[Lane]; 2], floors: &mut [Vec<Lane>; 4]) {
+    let [first, second, _, _] = floors;
+    by_rows::<2>(rows, modal, [first, second]);
+}
+
+/// All four of them.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn rows_of_four(rows: &[Rows], modal: [&[Lane]; 4], floors: &mut [Vec<Lane>; 4]) {
+    let floors = floors.each_mut().map(Vec::as_mut_slice);
+    by_rows::<4>(rows, modal, floors);
+}
+
+#[inline(always)]
+fn by_rows<const COUNT: usize>(
+    rows: &[Rows],
+    modal: [&[Lane]; COUNT],
+    floors: [&mut [Lane]; COUNT],
+) {
+    let floors = floors.map(|floors| &mut floors[..rows.len()]);
+    for (c, row) in rows.iter().enumerate() {
+        let mut sums = [Lane::ZERO; COUNT];
+        let (mut lane, mut place) = (row.first_mode / WIDTH, row.first_mode % WIDTH);
+        let mut columns = row.columns.as_slice();
+        while !columns.is_empty() {
+            let (now, later) = columns.split_at(columns.len().min(WIDTH - place));
+            let modes = modal.map(|modal| &modal[lane].0[place..]);
+            for (j, column) in now.iter().enumerate() {
+                for v in 0..COUNT {
+                    let x = modes[v][j];
+                    for l in 0..WIDTH {
+                        sums[v][l] += column[l] * x;
+                    }
+                }
+            }
+            (columns, lane, place) = (later, lane + 1, 0);
+        }
+        for v in 0..COUNT {
+            floors[v][c] = sums[v];
+        }
+    }
+}
+
 /// One floor of eight transformations, with the bits of [`transform`], from eight values for
 /// every mode.
 #[multiversion(targets(

@@ -2,11 +2,11 @@
 //! shapes for every sample would cost the square of the storeys.
 //!
 //! Inside, a floor is the cubic through both ends, which lies within the hull of its Bernstein
-//! coefficients, and what its modes depart from theirs. That is bounded by the exact step over the block
-//! ([`super::block_step`]), or, where there is none, by the largest departure at a sample and the
-//! overshoot between samples. What stays below its peak by this bound has no higher one in the
-//! block. The rest is put off, eight floors together, and looked at from the state at the start of
-//! the block ([`super::lane_candidates`]).
+//! coefficients, and what its modes depart from theirs. That is bounded by the exact step over
+//! the block ([`super::block_step`]), or, where there is none, by the largest departure at a
+//! sample and the overshoot between samples. What stays below its peak by this bound has no
+//! higher one in the block. The rest is put off, eight floors together, and looked at from the
+//! state at the start of the block ([`super::lane_candidates`]).
 
 use std::ops::Range;
 
@@ -43,8 +43,8 @@ const QUANTITIES: usize = 4;
 struct Reach {
     /// First lane of its floors.
     lane: usize,
-    /// Maximum magnitudes of its mode shapes, and of their differences from floor to floor, by modes; and one for
-    /// every floor. All are zero for other buildings.
+    /// Maximum magnitudes of its mode shapes, and of their differences from floor to floor, by
+    /// modes; and one for every floor. All are zero for other buildings.
     size: Vec<Lane>,
     drift_size: Vec<Lane>,
     own: Vec<Lane>,
@@ -91,8 +91,8 @@ pub(super) struct BlockEnds {
     bounds: Bounds,
     /// What the accelerations of a block do to the modes, where it is not at hand.
     loads: Vec<Load>,
-    /// What displacement, drift and absolute acceleration of every floor may exceed the hull by, and
-    /// absolute acceleration what the ground's is at the ends.
+    /// What displacement, drift and absolute acceleration of every floor may exceed the hull by,
+    /// and absolute acceleration what the ground's is at the ends.
     beyond: [Vec<Lane>; QUANTITIES],
     buildings: Vec<Reach>,
     /// What could have a peak in the block.
@@ -689,8 +689,8 @@ fn unless_below(upper: Lane, peak: &Lane) -> Option<Lane> {
 }
 
 /// The property that all of this rests on: peaks are those of evaluating every floor at every
-/// sample, in blocks of [`super::block`], which know nothing of hulls. They have the same bits where
-/// the modes go from sample to sample too.
+/// sample, in blocks of [`super::block`], which know nothing of hulls. They have the same bits
+/// where the modes go from sample to sample too.
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {

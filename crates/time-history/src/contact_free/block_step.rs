@@ -1,12 +1,13 @@
 //! The modes over a block of samples by one exact step.
 //!
-//! Ground acceleration over a block is the straight line through both ends, and what it departs from that at the samples
-//! inside. Under the line a mode has a motion that is linear in time; the difference from it swings
-//! freely, and under the departures. So the state at the end, and the work of the ground, are linear in the
-//! state at the start and in the accelerations at the samples, the work of the damping is quadratic, and how
-//! far a mode departs inside from the cubic with its values and rates at both ends is at most
-//! a sum of multiples of magnitudes, as the cubic follows a line. All factors are made from the step over one
-//! sample, once for a set of buildings.
+//! Ground acceleration over a block is the straight line through both ends, and what it departs
+//! from that at the samples inside. Under the line a mode has a motion that is linear in time;
+//! the difference from it swings freely, and under the departures. So the state at the end, and
+//! the work of the ground, are linear in the state at the start and in the accelerations at the
+//! samples, the work of the damping is quadratic, and how far a mode departs inside from the
+//! cubic with its values and rates at both ends is at most a sum of multiples of magnitudes, as
+//! the cubic follows a line. All factors are made from the step over one sample, once for a set
+//! of buildings.
 //!
 //! What the accelerations alone contribute is the *load* of the block. It depends on record and
 //! buildings, not on the motion: runs that have both in common share it ([`Loads`]).
@@ -34,8 +35,8 @@ const POINTS: usize = 4;
 /// Part of the largest terms of a function that may be lost in round-off: some thousand
 /// units in the last place.
 const ROUND_OFF: f64 = 1.0e-12;
-/// What the first mode of a building may depart from its cubic by, in parts of its amplitude: blocks are then
-/// at most some 0.4 periods long. In longer ones most would have to be looked at.
+/// What the first mode of a building may depart from its cubic by, in parts of its amplitude:
+/// blocks are then at most some 0.4 periods long. In longer ones most would have to be looked at.
 const CLOSE: f64 = 0.1;
 /// Bytes that the loads of one record and set of buildings may take.
 const BYTES: usize = 8 << 20;
@@ -57,8 +58,9 @@ struct Start {
 /// Factors of the accelerations.
 #[derive(Debug, Clone)]
 struct Weights {
-    /// Of every acceleration: in displacement and velocity at the end; in what multiplies displacement and
-    /// velocity at the start in the work of the ground, and in that of the damping.
+    /// Of every acceleration: in displacement and velocity at the end; in what multiplies
+    /// displacement and velocity at the start in the work of the ground, and in that of the
+    /// damping.
     linear: [[Lane; TIMES]; 6],
     /// Of products of two accelerations in both works.
     pairs: [[Lane; PAIRS]; 2],
@@ -95,8 +97,8 @@ pub(crate) struct BlockStep {
     length: f64,
 }
 
-/// Loads of all whole blocks of a record on a set of buildings, made by the second run that asks for
-/// them: a run by itself works them out as it goes.
+/// Loads of all whole blocks of a record on a set of buildings, made by the second run that asks
+/// for them: a run by itself works them out as it goes.
 #[derive(Debug, Default)]
 pub(crate) struct Loads {
     asked: AtomicBool,
@@ -174,8 +176,8 @@ impl BlockStep {
         }
     }
 
-    /// Whether the cubics tell much: whether the first modes of all buildings, which are these, depart
-    /// little from their own when they swing freely.
+    /// Whether the cubics tell much: whether the first modes of all buildings, which are these,
+    /// depart little from their own when they swing freely.
     pub(super) fn is_close(
         &self,
         modes: &[ModeLanes],
@@ -482,12 +484,12 @@ fn bernstein(point: usize) -> [f64; 4] {
     [y * y * y, 3.0 * x * y * y, 3.0 * x * x * y, x * x * x]
 }
 
-/// Maximum magnitudes, over the block, of what displacement (0) and absolute acceleration (1) depart
-/// from their cubics by, and of absolute acceleration itself (2): for unit displacement and velocity at the
-/// start without ground acceleration, then for a unit departure from the line at each sample inside, between
-/// whose neighbours it is linear. At the points by the exact step from one to the next; between them
-/// a function exceeds its values at both by at most an eighth of the square of their distance
-/// times its second derivative.
+/// Maximum magnitudes, over the block, of what displacement (0) and absolute acceleration (1)
+/// depart from their cubics by, and of absolute acceleration itself (2): for unit displacement
+/// and velocity at the start without ground acceleration, then for a unit departure from the line
+/// at each sample inside, between whose neighbours it is linear. At the points by the exact step
+/// from one to the next; between them a function exceeds its values at both by at most an eighth
+/// of the square of their distance times its second derivative.
 #[inline(always)]
 fn bounds(
     m: &ModeLanes,

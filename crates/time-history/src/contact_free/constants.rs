@@ -43,8 +43,8 @@ pub(crate) struct ContactFree {
     /// Stiffness and damping of tall buildings by the masses of the floors, where both are
     /// tridiagonal.
     pub bands: Option<Bands>,
-    /// The step over a block of samples: not for many modes, nor for blocks that are long beside the
-    /// periods, nor for walls and frames with full matrices.
+    /// The step over a block of samples: not for many modes, nor for blocks that are long beside
+    /// the periods, nor for walls and frames with full matrices.
     pub block_step: Option<BlockStep>,
     /// Steps so short that displacements are polynomials of degree 7 over each.
     pub fine: Fine,

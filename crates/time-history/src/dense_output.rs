@@ -32,6 +32,8 @@ const CLOSE: f64 = 8.0 * f64::EPSILON;
 pub(crate) struct Observers<'a, 'b> {
     pub recorders: &'a mut [&'b mut dyn Recorder],
     workspace: Option<Workspace>,
+    /// Whether each wants the step that they were asked about last.
+    wanted: Vec<bool>,
     /// End of the run (s).
     end: f64,
 }
@@ -165,6 +167,7 @@ impl<'a, 'b> Observers<'a, 'b> {
     ) -> Self {
         Self {
             workspace: (!recorders.is_empty()).then(|| Workspace::new(system)),
+            wanted: vec![false; recorders.len()],
             recorders,
             end,
         }
@@ -181,10 +184,14 @@ impl<'a, 'b> Observers<'a, 'b> {
         self.recorders.iter().any(|r| r.next_time() < end)
     }
 
-    /// Whether a step that ends at this time (s) is to be shown to anybody.
-    pub(crate) fn want_until(&self, end: f64) -> bool {
-        let (end, last) = (end * (1.0 + CLOSE), self.is_last(end));
-        self.recorders.iter().any(|r| wants(&**r, end, last))
+    /// Asks all, once, whether they want a step that ends at this time (s). Returns whether one
+    /// does.
+    pub(crate) fn ask(&mut self, end: f64) -> bool {
+        let (end, last) = (end * (1.0 + CLOSE), self.is_last(end * (1.0 + CLOSE)));
+        for (wanted, recorder) in self.wanted.iter_mut().zip(&*self.recorders) {
+            *wanted = wants(&**recorder, end, last);
+        }
+        self.wanted.contains(&true)
     }
 
     /// Whether the run ends at this time (s).
@@ -192,13 +199,20 @@ impl<'a, 'b> Observers<'a, 'b> {
         end >= self.end * (1.0 - 1.0e-12)
     }
 
-    /// Shows a step to all.
+    /// Shows a step to all that want it.
     pub(crate) fn show(&mut self, step: &ModalStep<'_>) -> Result<(), TimeHistoryError> {
-        let end = step.end();
-        let last = self.is_last(end);
+        match self.ask(step.start + step.length) {
+            true => self.show_wanted(step),
+            false => Ok(()),
+        }
+    }
+
+    /// Shows a step to those that wanted it when they were asked.
+    pub(crate) fn show_wanted(&mut self, step: &ModalStep<'_>) -> Result<(), TimeHistoryError> {
+        let last = self.is_last(step.end());
         if let Some(workspace) = &mut self.workspace {
-            for recorder in self.recorders.iter_mut() {
-                if wants(&**recorder, end, last) {
+            for (recorder, wanted) in self.recorders.iter_mut().zip(&self.wanted) {
+                if *wanted {
                     recorder.step(&mut StepView::of_modes(step, workspace, last))?;
                 }
             }

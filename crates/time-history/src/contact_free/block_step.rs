@@ -35,9 +35,14 @@ const POINTS: usize = 4;
 /// Part of the largest terms of a function that may be lost in round-off: some thousand
 /// units in the last place.
 const ROUND_OFF: f64 = 1.0e-12;
-/// What the first mode of a building may depart from its cubic by, in parts of its amplitude:
-/// blocks are then at most some 0.4 periods long. In longer ones most would have to be looked at.
-const CLOSE: f64 = 0.1;
+/// Maximum product of block and first circular frequency of a building: the mode then departs from
+/// its cubic by a tenth of its amplitude, as `(omega L)^4 / 384`. Of longer blocks, which are more
+/// than 0.4 periods, most would have to be looked at.
+const LONGEST: f64 = 2.5;
+/// Maximum product of block and fastest rate: round-off of the cubics is some units in the last
+/// place of velocities times the block, `(omega + 2 zeta omega) L` of the amplitude, and
+/// [`ROUND_OFF`] is to be more.
+const FASTEST: f64 = 300.0;
 /// Bytes that the loads of one record and set of buildings may take.
 const BYTES: usize = 8 << 20;
 
@@ -176,19 +181,11 @@ impl BlockStep {
         }
     }
 
-    /// Whether the cubics tell much: whether the first modes of all buildings, which are these,
-    /// depart little from their own when they swing freely.
-    pub(super) fn is_close(
-        &self,
-        modes: &[ModeLanes],
-        mut first: impl Iterator<Item = usize>,
-    ) -> bool {
-        first.all(|j| {
-            let (c, l) = (j / WIDTH, j % WIDTH);
-            let [by_place, by_speed] = self.start[c].bounds[0].map(|bound| bound[l]);
-            let by_speed = modes[c].circular_frequency[l] * by_speed;
-            by_place * by_place + by_speed * by_speed <= CLOSE * CLOSE
-        })
+    /// Whether blocks of samples of this length (s) are worth a step of their own, for buildings
+    /// with these first circular frequencies (rad/s) whose fastest rate (1/s) is that.
+    pub(super) fn is_worth(step: f64, mut first: impl Iterator<Item = f64>, fastest: f64) -> bool {
+        let length = BLOCK as f64 * step;
+        first.all(|omega| omega * length <= LONGEST) && fastest * length <= FASTEST
     }
 
     /// Length of the parts (s) of a sample of this length (s).
@@ -339,6 +336,14 @@ fn add_row(factor: &Lane, row: &Row, to: &mut Row) {
     }
 }
 
+/// Adds a row.
+#[inline(always)]
+fn add_all(row: &Row, to: &mut Row) {
+    for (to, row) in to.iter_mut().zip(row) {
+        add_to(*row, to);
+    }
+}
+
 #[inline(always)]
 fn add_to(value: Lane, to: &mut Lane) {
     for l in 0..WIDTH {
@@ -402,15 +407,23 @@ fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights) {
         add_to(k[9], &mut viscous[b][b]);
         let end = combined(&m.displacement, [&x, &v], sample);
         let speed = combined(&m.velocity, [&x, &v], sample);
+        // The work of the ground, - gamma (x(1) b - x(0) a - (b - a) / h int x), from differences:
+        // what the motion has in common at both ends would cancel for every pair of accelerations.
         let gamma = &m.participation;
-        let faster = gamma.map(|gamma| gamma / step);
-        let slower = faster.map(|faster| -faster);
-        let minus = gamma.map(|gamma| -gamma);
-        // - gamma (x(1) b - x(0) a - (b - a) / h int x)
-        add_row(&minus, &end, &mut input[b]);
-        add_row(gamma, &x, &mut input[a]);
-        add_row(&faster, &integral, &mut input[b]);
-        add_row(&slower, &integral, &mut input[a]);
+        let (mut by_start, mut by_rise) = (end, end);
+        for k in 0..INPUTS {
+            for l in 0..WIDTH {
+                by_start[k][l] = -gamma[l] * (end[k][l] - x[k][l]);
+                by_rise[k][l] = -gamma[l] * (end[k][l] - integral[k][l] / step);
+            }
+        }
+        add_all(&by_start, &mut input[a]);
+        add_all(&by_rise, &mut input[b]);
+        for k in 0..INPUTS {
+            for l in 0..WIDTH {
+                input[a][k][l] -= by_rise[k][l];
+            }
+        }
         (x, v) = (end, speed);
     }
     let bounds = bounds(m, part, step, [&x, &v]);

@@ -80,11 +80,12 @@ impl ContactFree {
             bands.divide(system.mass());
         }
         let few = this.modes.len() <= BlockStep::LANES;
-        if few && !this.swings && system.sections().is_empty() {
+        let by_modes = few && !this.swings && system.sections().is_empty();
+        let first = system.buildings().iter();
+        let first = first.map(|b| b.modes().circular_frequency[0]);
+        if by_modes && BlockStep::is_worth(step, first, this.fastest) {
             let parts = this.modes_over(system, BlockStep::parts(step));
-            let made = BlockStep::new(&this.modes, &parts, step);
-            let first_modes = this.shapes.iter().map(|b| b.first_mode);
-            this.block_step = Some(made).filter(|made| made.is_close(&this.modes, first_modes));
+            this.block_step = Some(BlockStep::new(&this.modes, &parts, step));
         }
         let parts = (this.fastest * step / FINE).ceil().max(1.0);
         this.fine = Fine {

@@ -327,9 +327,10 @@ impl ContactFreePhase {
                 true => BLOCK,
                 false => self.propagate_block(constants, range, (sample, count)),
             };
-            let end = (sample + advanced) as f64 * constants.step;
-            if advanced > 0 && observers.want_until(end) {
-                let samples = sample..sample + advanced;
+            let samples = sample..sample + advanced;
+            let start = sample as f64 * constants.step;
+            let end = start + advanced as f64 * constants.step;
+            if advanced > 0 && observers.ask(end) {
                 if by_ends && by_loads {
                     self.follow(constants, range, sample);
                 }
@@ -367,7 +368,7 @@ impl ContactFreePhase {
         block::follow(constants, &self.block_start, &samples, &mut self.block);
     }
 
-    /// Shows samples that were advanced to observers.
+    /// Shows samples that were advanced to the observers that want them.
     fn show(
         &self,
         constants: &ContactFree,
@@ -376,7 +377,7 @@ impl ContactFreePhase {
         (state, rows, observers): (&[f64], &LevelRows, &mut Observers<'_, '_>),
     ) -> Result<(), TimeHistoryError> {
         let ground = &range.system.ground().samples[samples.start..=samples.end];
-        observers.show(&ModalStep {
+        observers.show_wanted(&ModalStep {
             system: range.system,
             constants,
             rows,

@@ -8,7 +8,8 @@ use crate::contact_episode::{
 };
 use crate::contact_free::{
     BlockMotion, ContactFree, Floors, Four, Ground, Lane, ModeLanes, STRIP, SampleMotion, WIDTH,
-    at as lane_at, gather, restoring, step_over, transform_fours, transform_free, transform_three,
+    at as lane_at, gather, restoring, step_over, sum, transform_fours, transform_free,
+    transform_three,
 };
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
@@ -698,15 +699,4 @@ impl Polynomials {
             *lane = Lane::from_fn(|l| value(&polynomials[l], theta));
         }
     }
-}
-
-/// Sum over all lanes.
-fn sum(lanes: &[Lane]) -> f64 {
-    let mut sum = 0.0;
-    for lane in lanes {
-        for l in 0..WIDTH {
-            sum += lane[l];
-        }
-    }
-    sum
 }

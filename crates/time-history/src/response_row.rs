@@ -1,8 +1,10 @@
 //! One row of responses from the motion of the floors.
 
+use multiversion::multiversion;
 use pounding_shear_building::{ResponseKind, StiffnessMatrix};
 
 use crate::contact::Contacts;
+use crate::contact_free::{Lane, WIDTH, sum};
 use crate::dynamics::Layout;
 use crate::ledger;
 use crate::recorder::History;
@@ -90,23 +92,26 @@ fn append_floors_and_levels(
     force
 }
 
-/// Rows of shear buildings on rigid ground without elements and without responses with names, in one
-/// pass over the floors. The bits are those of [`append_motion`] and of the ledger.
+/// Rows of shear buildings on rigid ground without elements and without responses with names, eight
+/// floors at once: as those of [`append_motion`] and of the ledger, but for the order of sums in
+/// energies.
 #[derive(Debug)]
 pub(crate) struct ShearRows {
-    floors: Vec<Storey>,
+    storeys: Vec<Storeys>,
+    /// Space for shears.
+    shear: Vec<f64>,
 }
 
-/// A floor with the storey below it.
-#[derive(Debug, Clone, Copy)]
-struct Storey {
-    /// Half of the mass (kg).
-    half_mass: f64,
-    /// Stiffness (N/m), and half of that with gravity.
-    stiffness: f64,
-    half_spring: f64,
-    /// Whether it is the first of its building.
-    is_first: bool,
+/// Eight floors with the storeys below them.
+#[derive(Debug, Clone, Copy, Default)]
+struct Storeys {
+    /// Halves of the masses (kg).
+    half_mass: Lane,
+    /// Stiffnesses (N/m), and halves of those with gravity.
+    stiffness: Lane,
+    half_spring: Lane,
+    /// One where a floor has another one below it.
+    above: Lane,
 }
 
 impl ShearRows {
@@ -122,34 +127,36 @@ impl ShearRows {
         if !plain {
             return None;
         }
+        let mut storeys = vec![Storeys::default(); system.floors().div_ceil(WIDTH)];
         let stiffnesses = system.buildings().iter().flat_map(|b| {
             let stiffness = b.stiffness().iter().enumerate();
-            stiffness.map(|(storey, k)| (storey == 0, *k))
+            stiffness.map(|(storey, k)| (f64::from(u8::from(storey > 0)), *k))
         });
         let floors = system.mass().iter().zip(system.springs()).zip(stiffnesses);
-        let floors = floors.map(|((mass, spring), (is_first, stiffness))| Storey {
-            half_mass: 0.5 * mass,
-            stiffness,
-            half_spring: 0.5 * spring,
-            is_first,
-        });
+        for (i, ((mass, spring), (above, stiffness))) in floors.enumerate() {
+            let (storeys, l) = (&mut storeys[i / WIDTH], i % WIDTH);
+            storeys.half_mass[l] = 0.5 * mass;
+            storeys.stiffness[l] = stiffness;
+            storeys.half_spring[l] = 0.5 * spring;
+            storeys.above[l] = above;
+        }
         Some(Self {
-            floors: floors.collect(),
+            shear: vec![0.0; storeys.len() * WIDTH],
+            storeys,
         })
     }
 
     /// Appends responses but for accelerations, from the displacements and velocities of the
-    /// floors, the works in the state, and the contact forces of all levels, of which those that
-    /// are closed count.
+    /// floors, eight after eight with zeros at the end, the works in the state, and the contact
+    /// forces of all levels, of which those that are closed count.
     pub(crate) fn append(
-        &self,
+        &mut self,
         (system, layout, contacts): (&System, Layout, &Contacts),
         (time, ground): (f64, f64),
         [u, v]: [&[f64]; 2],
         (state, forces): (&[f64], &[f64]),
         rows: &mut History,
     ) {
-        let (u, v) = (&u[..self.floors.len()], &v[..self.floors.len()]);
         append_floors_and_levels(
             (system, layout, contacts),
             (time, ground),
@@ -157,18 +164,42 @@ impl ShearRows {
             forces,
             rows,
         );
-        let (mut kinetic, mut strain, mut last) = (0.0, 0.0, 0.0);
-        for (floor, (u, v)) in self.floors.iter().zip(u.iter().zip(v)) {
-            let below = if floor.is_first { 0.0 } else { last };
-            last = *u;
-            let drift = u - below;
-            kinetic += floor.half_mass * v * v;
-            strain += floor.half_spring * drift * drift;
-            rows.storey_shear.push(floor.stiffness * drift);
-        }
+        let (kinetic, strain) = shears(&self.storeys, [u, v], &mut self.shear);
+        rows.storey_shear
+            .extend_from_slice(&self.shear[..system.floors()]);
         let stored = ledger::stored_energies(system, contacts, u);
         let energies = (kinetic, strain + stored, 0.0);
         let energy = ledger::balance(layout, state, energies, stored);
         rows.energy.push(energy);
     }
+}
+
+/// Works out storey shears. Returns kinetic energy and that of strain (J).
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn shears(storeys: &[Storeys], [u, v]: [&[f64]; 2], shear: &mut [f64]) -> (f64, f64) {
+    let (mut kinetic, mut strain) = (Lane::ZERO, Lane::ZERO);
+    let mut last = 0.0;
+    let motion = u
+        .as_chunks::<WIDTH>()
+        .0
+        .iter()
+        .zip(v.as_chunks::<WIDTH>().0);
+    let shear = shear.as_chunks_mut::<WIDTH>().0;
+    for ((storeys, (u, v)), shear) in storeys.iter().zip(motion).zip(shear) {
+        let mut below = [last; WIDTH];
+        below[1..].copy_from_slice(&u[..WIDTH - 1]);
+        last = u[WIDTH - 1];
+        for l in 0..WIDTH {
+            let drift = u[l] - storeys.above[l] * below[l];
+            kinetic[l] += storeys.half_mass[l] * v[l] * v[l];
+            strain[l] += storeys.half_spring[l] * drift * drift;
+            shear[l] = storeys.stiffness[l] * drift;
+        }
+    }
+    (sum(&[kinetic]), sum(&[strain]))
 }

@@ -66,6 +66,19 @@ pub(crate) fn gather(lanes: &[Lane], values: &mut [f64]) {
 /// Number of values in a lane.
 pub(crate) const WIDTH: usize = 8;
 
+/// Sum of all values.
+#[inline(always)]
+pub(crate) fn sum(lanes: &[Lane]) -> f64 {
+    let mut sum = Lane::ZERO;
+    for lane in lanes {
+        for l in 0..WIDTH {
+            sum[l] += lane[l];
+        }
+    }
+    let half: [f64; 4] = std::array::from_fn(|l| sum[l] + sum[l + 4]);
+    (half[0] + half[2]) + (half[1] + half[3])
+}
+
 /// Sum, place by place.
 #[inline(always)]
 pub(crate) fn add(a: Lane, b: Lane) -> Lane {

@@ -30,7 +30,7 @@ pub(crate) use constants::ContactFree;
 pub(crate) use free_sample::FreeSample;
 pub(crate) use lanes::{
     Ground, Lane, ModeLanes, Track, WIDTH, add, at, drifts, gather, mul, raise, raise_now,
-    restoring, scale, spread,
+    restoring, scale, spread, sum,
 };
 pub(crate) use part::{put_part, take_part};
 pub(crate) use phase::{BlockMotion, ContactFreePhase, EnergyAccounts, SampleMotion, SampleRange};

@@ -362,7 +362,8 @@ pub(super) fn follow(
             start.input[c],
             start.viscous[c],
         ];
-        // No larger at a later sample than what the ground can add until then.
+        // Accelerations are bounded by `sqrt(q'^2 + omega^2 q^2)`, which is no larger than this sum
+        // now, and later by no more than what the ground can add until then.
         block.size[c] = Lane::from_fn(|l| {
             state[1][l].abs()
                 + m.circular_frequency[l] * state[0][l].abs()

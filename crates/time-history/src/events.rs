@@ -40,6 +40,8 @@ pub(crate) struct Candidate {
 #[derive(Debug)]
 pub(crate) struct Finder {
     pub candidates: Vec<Candidate>,
+    /// Those of the search before, while they may still be wanted.
+    pub others: Vec<Candidate>,
     nodes: [f64; COEFFICIENTS],
     state: Vec<f64>,
     acceleration: Vec<f64>,
@@ -49,6 +51,7 @@ impl Finder {
     pub(crate) fn new(layout: Layout) -> Self {
         Self {
             candidates: Vec::with_capacity(2 * layout.levels),
+            others: Vec::with_capacity(2 * layout.levels),
             nodes: fit_nodes(),
             state: vec![0.0; layout.motion()],
             acceleration: vec![0.0; layout.dofs],

@@ -156,8 +156,8 @@ impl<'a> Flight<'a> {
         let [delta, velocity, _] = self.state;
         let (mass, pressing) = (self.collision.effective_mass, self.pressing);
         if self.phase == Phase::Released && pressing == 0.0 {
-            // Nothing acts, and they do not part.
-            return velocity >= 0.0;
+            // Nothing acts, and they do not part: slower velocities are the error of steps.
+            return velocity >= -TOLERANCE * self.collision.approach_velocity;
         }
         if velocity > CREEP * self.collision.approach_velocity {
             return false;

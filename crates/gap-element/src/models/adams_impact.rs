@@ -11,7 +11,8 @@ use crate::descriptor::{
 };
 use crate::error::GapElementError;
 use crate::model::{
-    ClosedForm, Collision, Force, ImpactModel, Memory, Phase, SeparationRule, Transition,
+    ClosedForm, Collision, Direction, Force, Guard, ImpactModel, Memory, Phase, SeparationRule,
+    Target, Transition,
 };
 use crate::parameters::{EXPONENT, ModelParameters, POWER_STIFFNESS, optional_non_negative};
 
@@ -70,6 +71,35 @@ const FULL_DAMPING_PENETRATION: ParameterDescriptor = ParameterDescriptor {
     )
 };
 
+/// The dashpot is fully on: the second derivative of the force jumps where it comes to be.
+const FULL: Phase = Phase::Branch(0);
+/// `delta - d`.
+const FULL_DAMPING: Guard = Guard::Model(0);
+const PULLS: Transition = Transition {
+    guard: Guard::RawForce,
+    direction: Direction::Falling,
+    target: Target::Phase(Phase::Released),
+};
+
+/// The dashpot is on in part. A force that returns beyond `d` begins here too, and goes over with
+/// the next approach.
+const APPROACH: [Transition; 2] = [
+    PULLS,
+    Transition {
+        guard: FULL_DAMPING,
+        direction: Direction::Rising,
+        target: Target::Phase(FULL),
+    },
+];
+const FULLY_DAMPED: [Transition; 2] = [
+    PULLS,
+    Transition {
+        guard: FULL_DAMPING,
+        direction: Direction::Falling,
+        target: Target::Phase(Phase::Approach),
+    },
+];
+
 #[derive(Debug)]
 struct AdamsImpact {
     stiffness: f64,
@@ -108,7 +138,10 @@ fn build(parameters: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElemen
 impl AdamsImpact {
     /// Dashpot coefficient and its derivative: the function STEP. Its slope is
     /// continuous at both ends.
-    fn step(&self, delta: f64) -> (f64, f64) {
+    fn step(&self, phase: Phase, delta: f64) -> (f64, f64) {
+        if phase == FULL {
+            return (self.damping, 0.0);
+        }
         let s = (delta / self.depth).clamp(0.0, 1.0);
         (
             self.damping * s * s * (3.0 - 2.0 * s),
@@ -116,9 +149,9 @@ impl AdamsImpact {
         )
     }
 
-    fn uncut(&self, delta: f64, velocity: f64) -> Force {
+    fn uncut(&self, phase: Phase, delta: f64, velocity: f64) -> Force {
         let (spring, slope) = elastic(self.stiffness, self.exponent, delta);
-        let (coefficient, rate) = self.step(delta);
+        let (coefficient, rate) = self.step(phase, delta);
         Force {
             value: spring + coefficient * velocity,
             by_penetration: slope + rate * velocity,
@@ -145,22 +178,29 @@ impl ImpactModel for AdamsImpact {
         if phase == Phase::Released {
             return Force::default();
         }
-        self.uncut(delta, velocity)
+        self.uncut(phase, delta, velocity)
     }
     /// The force over `delta^n`, which has no zero at closure: up to the exponent
     /// two the dashpot's share grows like `delta^(2 - n)` there.
-    fn raw_force(&self, _: &Collision, _: &Memory, _: Phase, delta: f64, velocity: f64) -> f64 {
+    fn raw_force(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64, velocity: f64) -> f64 {
         if delta <= 0.0 {
             return self.stiffness;
         }
-        let (coefficient, _) = self.step(delta);
+        let (coefficient, _) = self.step(phase, delta);
         self.stiffness + coefficient / libm::pow(delta, self.exponent) * velocity
     }
     fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         hunt_crossley::stored_energy(self.stiffness, self.exponent, delta)
     }
     fn transitions(&self, phase: Phase) -> &'static [Transition] {
-        no_tension(phase)
+        match phase {
+            Phase::Approach => &APPROACH,
+            FULL => &FULLY_DAMPED,
+            other => no_tension(other),
+        }
+    }
+    fn guard(&self, _: u8, _: &Collision, _: &Memory, delta: f64, _velocity: f64) -> f64 {
+        delta - self.depth
     }
     fn closed_form(&self, _approach_velocity: f64, _effective_mass: f64) -> Option<ClosedForm> {
         None

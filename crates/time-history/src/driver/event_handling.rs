@@ -59,6 +59,51 @@ impl Driver<'_> {
         Ok((taken, taken >= step && !missed))
     }
 
+    /// The first event inside a trial step that was cut at this one, or before any, if it is clearly
+    /// over at the end. The interpolant of the whole step may have put events in another order, as
+    /// where a law has a kink in it, and that of the cut one knows better. Its events are then those
+    /// of the finder.
+    pub(super) fn stepped_over(
+        &mut self,
+        segment: &Segment,
+        tau: f64,
+        step: f64,
+        event: Option<Candidate>,
+    ) -> Option<Candidate> {
+        std::mem::swap(&mut self.finder.candidates, &mut self.finder.others);
+        self.find(segment, tau, step);
+        let mut first: Option<Candidate> = None;
+        for number in 0..self.finder.candidates.len() {
+            let other = self.finder.candidates[number];
+            let is_inside = other.theta * step > SIMULTANEOUS
+                && (1.0 - other.theta) * step > SIMULTANEOUS
+                && first.is_none_or(|first| other.theta < first.theta);
+            let same = event.is_some_and(|e| e.level == other.level && e.kind == other.kind);
+            if is_inside && !same && self.is_over(segment, tau, step, other) {
+                first = Some(other);
+            }
+        }
+        if first.is_none() {
+            std::mem::swap(&mut self.finder.candidates, &mut self.finder.others);
+        }
+        first
+    }
+
+    /// Whether the function of an event is positive at the end of the trial step, by more than
+    /// round-off.
+    fn is_over(&mut self, segment: &Segment, tau: f64, step: f64, event: Candidate) -> bool {
+        let mut context = Context {
+            dynamics: &mut self.dynamics,
+            contacts: &self.contacts,
+            segment,
+        };
+        let method = self.method.as_ref();
+        let guard = self
+            .finder
+            .guard(&mut context, method, event.level, event.kind, tau, step);
+        value(&guard, 1.0) > self.round_off(event, &self.new_state)
+    }
+
     /// Newton correction of the length of a step that should end at the event, and
     /// whether the event lies clearly, by more than round-off, neither within that step
     /// nor at its end.

@@ -365,7 +365,7 @@ impl<'a> Driver<'a> {
                     self.process(segment, tau, event, step)?;
                     continue;
                 }
-                let (whole, mut event) = (step, event);
+                let (mut whole, mut event) = (step, event);
                 let (mut cut, mut reached) = self.locate(segment, tau, whole, event)?;
                 for _ in 0..self.finder.candidates.len() {
                     let passed = self.passed_over(event, whole).filter(|_| reached);
@@ -373,6 +373,14 @@ impl<'a> Driver<'a> {
                         break;
                     };
                     event = earlier;
+                    (cut, reached) = self.locate(segment, tau, whole, event)?;
+                }
+                for _ in 0..LOCATION_STEPS {
+                    let place = reached.then_some(event);
+                    let Some(earlier) = self.stepped_over(segment, tau, cut, place) else {
+                        break;
+                    };
+                    (whole, event) = (cut, earlier);
                     (cut, reached) = self.locate(segment, tau, whole, event)?;
                 }
                 step = cut;

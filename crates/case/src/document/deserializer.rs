@@ -5,7 +5,6 @@
 //! what does not depend on the type stands in functions of its own.
 
 use std::borrow::Cow;
-use std::marker::PhantomData;
 use std::num::IntErrorKind;
 use std::ops::Range;
 
@@ -36,7 +35,13 @@ pub(super) fn read<T: DeserializeOwned>(
         wanted: "",
         held: Held::Given(value),
     };
-    value.recorded(PhantomData).ok()
+    match T::deserialize(value) {
+        Ok(read) => Some(read),
+        Err(error) => {
+            value.settled(error, true);
+            None
+        }
+    }
 }
 
 /// A value with the name of its key, or something else about it.
@@ -123,28 +128,70 @@ impl<'r> Value<'r> {
         }
     }
 
-    /// What a type that is no table of the file asks for.
-    fn facts(self, name: &str) -> Result<Option<Parts<'r>>, Error> {
-        let facts = match (name, self.held) {
-            (ask::LOCATED, held) => {
-                let (value, span) = match held {
-                    Held::Key(key) => (Held::Text(key.get_ref()), key.span()),
-                    _ => (held, self.given()?.span()),
-                };
-                vec![value, Held::Span(span.start, span.end)]
+    /// What a type asks for that holds more than what stands in the file, or the entries of a
+    /// list; `None` where nothing of it is there.
+    fn facts(self, name: &str, expecting: &dyn Expected) -> Result<Option<Parts<'r>>, Error> {
+        let held = |held| Part::Value(Self { held, ..self });
+        Ok(Some(match (name, self.held) {
+            (ask::FIELD, Held::Given(value)) => {
+                let span = value.span();
+                let (start, end) = (Held::Index(span.start), Held::Index(span.end));
+                parts([Part::Recorded(self), held(start), held(end)])
             }
-            (ask::TABLE, held) => {
-                let places = match held {
+            (ask::FIELD, _) => {
+                self.given().map_err(|error| self.record(error)).err();
+                return Ok(None);
+            }
+            (ask::LOCATED, Held::Key(key)) => {
+                let (start, end) = (Held::Index(key.span().start), Held::Index(key.span().end));
+                parts([Held::Text(key.get_ref()), start, end].map(held))
+            }
+            (ask::LOCATED, value) => {
+                let span = self.given()?.span();
+                parts([value, Held::Index(span.start), Held::Index(span.end)].map(held))
+            }
+            (ask::TABLE, value) => {
+                let places = match value {
                     Held::Given(table) => Held::Places(table),
-                    _ => held,
+                    _ => value,
                 };
-                vec![held, Held::Whole(self.reader.errors.count()), places]
+                let whole = Held::Whole(self.reader.errors.count());
+                parts([value, whole, places].map(held))
             }
-            (_, Held::Span(start, end)) => vec![Held::Index(start), Held::Index(end)],
-            _ => return Ok(None),
-        };
-        let value = |held| Part::Value(Self { held, ..self });
-        Ok(Some(parts(facts.into_iter().map(value))))
+            _ => match self.given()?.get_ref() {
+                DeValue::Array(_) => self.entries()?,
+                _ => return Err(self.wrong_type(&expecting.to_string())),
+            },
+        }))
+    }
+
+    /// What a newtype holds. `text` keeps what is written on the way.
+    fn asked(
+        self,
+        name: &str,
+        visitor: &dyn Expected,
+        text: &'r mut String,
+    ) -> Result<Asked<'r>, Error> {
+        Ok(match name {
+            ask::ONE_OR_EACH => match self.given()?.get_ref() {
+                DeValue::Array(_) => Asked::Parts(self.entries()?),
+                _ => Asked::Value(self),
+            },
+            ask::WRITTEN => match self.written(visitor)? {
+                Cow::Borrowed(text) => Asked::Text(text),
+                Cow::Owned(digits) => {
+                    *text = digits;
+                    let held = Held::Text(text);
+                    Asked::Value(Self { held, ..self })
+                }
+            },
+            _ => {
+                *text = visitor.to_string();
+                let is_derived = text.starts_with("tuple struct ");
+                let wanted = if is_derived { "" } else { text.as_str() };
+                Asked::Value(Self { wanted, ..self })
+            }
+        })
     }
 
     /// The entries of a list, or of the keys that a table does not name. Errors of the entries
@@ -161,16 +208,21 @@ impl<'r> Value<'r> {
         }
     }
 
-    /// A key with its place, and its value.
+    /// A key with its place, and its value; or where a place begins and ends.
     fn entry(self) -> Option<Parts<'r>> {
-        let Held::Entry(key, value) = self.held else {
-            return None;
+        let (first, second) = match self.held {
+            Held::Entry(key, value) => {
+                let value = value.map_or(Held::Lost, Held::Given);
+                let key_itself = self.with(self.key, Held::Key(key));
+                (key_itself, self.with(key.get_ref(), value))
+            }
+            Held::Span(start, end) => {
+                let index = |index| self.with(self.key, Held::Index(index));
+                (index(start), index(end))
+            }
+            _ => return None,
         };
-        let value = value.map_or(Held::Lost, Held::Given);
-        Some(parts([
-            Part::Value(self.with(self.key, Held::Key(key))),
-            Part::Value(self.with(key.get_ref(), value)),
-        ]))
+        Some(parts([Part::Value(first), Part::Value(second)]))
     }
 
     /// A text, or the digits of a number.
@@ -198,12 +250,18 @@ impl<'r> Value<'r> {
 
     /// Reads the value; errors come with their place.
     fn read<'de, S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {
-        seed.deserialize(self).map_err(|error| self.placed(error))
+        match seed.deserialize(self) {
+            Ok(value) => Ok(value),
+            Err(error) => Err(self.placed(error)),
+        }
     }
 
-    /// The same; errors are recorded.
-    fn recorded<'de, S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {
-        self.read(seed).map_err(|error| self.record(error))
+    /// An error with its place, which may be recorded.
+    fn settled(self, error: Error, is_recorded: bool) -> Error {
+        match (self.placed(error), is_recorded) {
+            (error, true) => self.record(error),
+            (error, false) => error,
+        }
     }
 
     fn record(self, error: Error) -> Error {
@@ -432,33 +490,22 @@ impl<'de> Deserializer<'de> for Value<'_> {
         name: &'static str,
         visitor: V,
     ) -> Result<V::Value, Error> {
-        match name {
-            ask::FIELD => match self.held {
-                Held::Given(_) | Held::Free(_) => visitor.visit_seq(parts([Part::Recorded(self)])),
-                _ => {
-                    self.given().map_err(|error| self.record(error)).err();
-                    visitor.visit_unit()
-                }
-            },
-            ask::ONE_OR_EACH => match self.given()?.get_ref() {
-                DeValue::Array(_) => self.deserialize_seq(visitor),
-                _ => visitor.visit_newtype_struct(self),
-            },
-            ask::WRITTEN => match self.written(&visitor)? {
-                Cow::Borrowed(text) => visitor.visit_str(text),
-                Cow::Owned(digits) => visitor.visit_newtype_struct(Value {
-                    held: Held::Text(&digits),
-                    ..self
-                }),
-            },
-            _ => {
-                let wanted = expected(&visitor);
-                let is_derived = wanted.starts_with("tuple struct ");
-                visitor.visit_newtype_struct(Value {
-                    wanted: if is_derived { "" } else { &wanted },
-                    ..self
-                })
-            }
+        match self.asked(name, &visitor, &mut String::new())? {
+            Asked::Value(value) => visitor.visit_newtype_struct(value),
+            Asked::Text(text) => visitor.visit_str(text),
+            Asked::Parts(parts) => visitor.visit_seq(parts),
+        }
+    }
+
+    fn deserialize_tuple_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        _: usize,
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        match self.facts(name, &visitor)? {
+            Some(facts) => visitor.visit_seq(facts),
+            None => visitor.visit_unit(),
         }
     }
 
@@ -468,9 +515,6 @@ impl<'de> Deserializer<'de> for Value<'_> {
         fields: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Error> {
-        if let Some(facts) = self.facts(name)? {
-            return visitor.visit_seq(facts);
-        }
         let keys = self.named_table(name, fields, &visitor)?;
         visitor.visit_map(Fields {
             table: self,
@@ -540,9 +584,16 @@ impl<'de> Deserializer<'de> for Value<'_> {
     }
 
     forward_to_deserialize_any! {
-        i8 i16 i32 i128 u8 u16 u32 u128 f32 f64 char bytes byte_buf unit unit_struct tuple_struct
+        i8 i16 i32 i128 u8 u16 u32 u128 f32 f64 char bytes byte_buf unit unit_struct
         identifier
     }
+}
+
+/// What the visitor of a newtype is given.
+enum Asked<'r> {
+    Value(Value<'r>),
+    Text(&'r str),
+    Parts(Parts<'r>),
 }
 
 /// One of several values.
@@ -558,22 +609,29 @@ fn parts<'r>(parts: impl IntoIterator<Item = Part<'r>>) -> Parts<'r> {
     Parts(parts.into_iter().collect::<Vec<_>>().into_iter())
 }
 
+impl<'r> Parts<'r> {
+    /// The next value, and whether its errors are recorded.
+    fn next(&mut self) -> Option<(Value<'r>, bool)> {
+        Some(match self.0.next()? {
+            Part::Value(value) => (value, false),
+            Part::Recorded(value) => (value, true),
+        })
+    }
+}
+
 impl<'de> SeqAccess<'de> for Parts<'_> {
     type Error = Error;
     fn next_element_seed<S: DeserializeSeed<'de>>(
         &mut self,
         seed: S,
     ) -> Result<Option<S::Value>, Error> {
-        let (value, is_recorded) = match self.0.next() {
-            None => return Ok(None),
-            Some(Part::Value(value)) => (value, false),
-            Some(Part::Recorded(value)) => (value, true),
+        let Some((value, is_recorded)) = self.next() else {
+            return Ok(None);
         };
-        let read = value.read(seed).map(Some);
-        read.map_err(|error| match is_recorded {
-            true => value.record(error),
-            false => error,
-        })
+        match seed.deserialize(value) {
+            Ok(value) => Ok(Some(value)),
+            Err(error) => Err(value.settled(error, is_recorded)),
+        }
     }
 }
 
@@ -727,21 +785,34 @@ struct Fields<'r> {
     next: usize,
 }
 
+impl<'r> Fields<'r> {
+    /// The next field.
+    fn field(&mut self) -> Option<StrDeserializer<'r, Error>> {
+        let field = self.keys.fields.get(self.next)?;
+        self.next += 1;
+        Some(StrDeserializer::new(field))
+    }
+
+    /// The value of the last field.
+    fn value(&self) -> Value<'r> {
+        let field = self.keys.fields[self.next - 1];
+        self.table.with(field, self.keys.held(field))
+    }
+}
+
 impl<'de> MapAccess<'de> for Fields<'_> {
     type Error = Error;
     fn next_key_seed<S: DeserializeSeed<'de>>(
         &mut self,
         seed: S,
     ) -> Result<Option<S::Value>, Error> {
-        let field = self.keys.fields.get(self.next);
-        self.next += 1;
-        field
-            .map(|field| seed.deserialize(StrDeserializer::new(field)))
-            .transpose()
+        match self.field() {
+            Some(field) => Ok(Some(seed.deserialize(field)?)),
+            None => Ok(None),
+        }
     }
     fn next_value_seed<S: DeserializeSeed<'de>>(&mut self, seed: S) -> Result<S::Value, Error> {
-        let field = self.keys.fields[self.next - 1];
-        self.table.with(field, self.keys.held(field)).read(seed)
+        self.value().read(seed)
     }
 }
 

@@ -108,8 +108,7 @@ impl<T> Entry<T> for Optional<T> {
 }
 
 /// A table with the places of its keys.
-#[derive(Debug, Clone, PartialEq, Default, Deserialize)]
-#[serde(rename = "$table")]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct Table<T> {
     /// What it holds.
     pub value: T,
@@ -214,7 +213,7 @@ struct Of<T>(PhantomData<T>);
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Field<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer.deserialize_newtype_struct(ask::FIELD, Of::<Self>(PhantomData))
+        deserializer.deserialize_tuple_struct(ask::FIELD, 3, Of::<Self>(PhantomData))
     }
 }
 
@@ -226,9 +225,68 @@ impl<'de, T: Deserialize<'de>> Visitor<'de> for Of<Field<T>> {
     fn visit_unit<E>(self) -> Result<Self::Value, E> {
         Ok(Field::Wrong)
     }
-    fn visit_seq<A: SeqAccess<'de>>(self, mut value: A) -> Result<Self::Value, A::Error> {
-        let value = value.next_element().ok().flatten();
-        Ok(value.map_or(Field::Wrong, Field::Given))
+    fn visit_seq<A: SeqAccess<'de>>(self, mut parts: A) -> Result<Self::Value, A::Error> {
+        Ok(match located(&mut parts) {
+            Ok(located) => Field::Given(located),
+            Err(_) => Field::Wrong,
+        })
+    }
+}
+
+/// The next of several parts that are all there.
+fn part<'de, T: Deserialize<'de>, A: SeqAccess<'de>>(parts: &mut A) -> Result<T, A::Error> {
+    match parts.next_element()? {
+        Some(part) => Ok(part),
+        None => Err(de::Error::custom(" is not whole")),
+    }
+}
+
+/// A value, and where it begins and ends.
+fn located<'de, T: Deserialize<'de>, A: SeqAccess<'de>>(
+    parts: &mut A,
+) -> Result<Located<T>, A::Error> {
+    Ok(Located {
+        value: part(parts)?,
+        span: part(parts)?..part(parts)?,
+    })
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Located<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_tuple_struct(ask::LOCATED, 3, Of::<Self>(PhantomData))
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for Of<Located<T>> {
+    type Value = Located<T>;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a value")
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut parts: A) -> Result<Self::Value, A::Error> {
+        located(&mut parts)
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Table<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_tuple_struct(ask::TABLE, 3, Of::<Self>(PhantomData))
+    }
+}
+
+impl<'de, T: Deserialize<'de>> Visitor<'de> for Of<Table<T>> {
+    type Value = Table<T>;
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("a table")
+    }
+    fn visit_seq<A: SeqAccess<'de>>(self, mut parts: A) -> Result<Self::Value, A::Error> {
+        let (value, whole) = (part(&mut parts)?, part(&mut parts)?);
+        let places: BTreeMap<String, (usize, usize)> = part(&mut parts)?;
+        let place = |(key, (start, end))| (key, start..end);
+        Ok(Table {
+            value,
+            whole,
+            places: places.into_iter().map(place).collect(),
+        })
     }
 }
 

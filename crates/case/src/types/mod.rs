@@ -11,7 +11,6 @@ use std::path::{Path, PathBuf};
 use pounding_ground_motion::Offset;
 use pounding_ground_motion::processing::{ProcessingStep, Scale};
 use pounding_ground_motion::spectra::design::CodeSpectrum;
-use serde::Deserialize;
 
 use crate::error::CaseError;
 use crate::files::GivenFiles;
@@ -24,8 +23,7 @@ pub use pounding_shear_building::{
 pub use rule::{RuleText, TableText};
 
 /// A value and where it stands in the source (bytes).
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(rename = "$located")]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Located<T> {
     /// Value.
     pub value: T,

@@ -236,6 +236,7 @@ impl Driver<'_> {
             self.held.leaving.clear();
         }
         self.settle_held(segment, tau)?;
+        self.settle_stuck(segment, tau);
         self.method.restart(smooth);
         if self.stalled > CHATTER {
             return Err(TimeHistoryError::Chatter {

@@ -13,6 +13,7 @@ mod result;
 mod rigid_impacts;
 mod series_events;
 mod stepped_impacts;
+mod stuck_contacts;
 mod watch;
 mod whole_intervals;
 
@@ -317,6 +318,7 @@ impl<'a> Driver<'a> {
             self.bring_to_rest();
             self.held.leaving.clear();
             self.settle_held(segment, from)?;
+            self.settle_stuck(segment, from);
         }
         self.last_ground = Some(segment.ground(segment.length));
         let mut tau = from;

@@ -155,26 +155,33 @@ fn by_rows<const COUNT: usize>(
 ) {
     let floors = floors.map(|floors| &mut floors[..rows.len()]);
     for (c, row) in rows.iter().enumerate() {
-        let mut sums = [Lane::ZERO; COUNT];
-        let (mut lane, mut place) = (row.first_mode / WIDTH, row.first_mode % WIDTH);
-        let mut columns = row.columns.as_slice();
-        while !columns.is_empty() {
-            let (now, later) = columns.split_at(columns.len().min(WIDTH - place));
-            let modes = modal.map(|modal| &modal[lane].0[place..]);
-            for (j, column) in now.iter().enumerate() {
-                for v in 0..COUNT {
-                    let x = modes[v][j];
-                    for l in 0..WIDTH {
-                        sums[v][l] += column[l] * x;
-                    }
-                }
-            }
-            (columns, lane, place) = (later, lane + 1, 0);
-        }
+        let sums = sums_of_row(row, modal);
         for v in 0..COUNT {
             floors[v][c] = sums[v];
         }
     }
+}
+
+/// Eight floors from the modes, of so many transformations.
+#[inline(always)]
+fn sums_of_row<const COUNT: usize>(row: &Rows, modal: [&[Lane]; COUNT]) -> [Lane; COUNT] {
+    let mut sums = [Lane::ZERO; COUNT];
+    let (mut lane, mut place) = (row.first_mode / WIDTH, row.first_mode % WIDTH);
+    let mut columns = row.columns.as_slice();
+    while !columns.is_empty() {
+        let (now, later) = columns.split_at(columns.len().min(WIDTH - place));
+        let modes = modal.map(|modal| &modal[lane].0[place..]);
+        for (j, column) in now.iter().enumerate() {
+            for v in 0..COUNT {
+                let x = modes[v][j];
+                for l in 0..WIDTH {
+                    sums[v][l] += column[l] * x;
+                }
+            }
+        }
+        (columns, lane, place) = (later, lane + 1, 0);
+    }
+    sums
 }
 
 /// One floor of eight transformations, with the bits of [`transform`], from eight values for
@@ -240,23 +247,7 @@ fn three(rows: &[Rows], modal: [&[Lane]; 3], [u, v, w]: &mut Floors) {
     let out = out.zip(v.as_chunks_mut::<WIDTH>().0);
     let out = out.zip(w.as_chunks_mut::<WIDTH>().0);
     for (row, ((u, v), w)) in rows.iter().zip(out) {
-        let mut sums = [Lane::ZERO; 3];
-        let (mut lane, mut place) = (row.first_mode / WIDTH, row.first_mode % WIDTH);
-        let mut columns = row.columns.as_slice();
-        while !columns.is_empty() {
-            let (now, later) = columns.split_at(columns.len().min(WIDTH - place));
-            let modes = modal.map(|modal| &modal[lane].0[place..]);
-            for (j, column) in now.iter().enumerate() {
-                for q in 0..3 {
-                    let x = modes[q][j];
-                    for l in 0..WIDTH {
-                        sums[q][l] += column[l] * x;
-                    }
-                }
-            }
-            (columns, lane, place) = (later, lane + 1, 0);
-        }
-        (*u, *v, *w) = (sums[0].0, sums[1].0, sums[2].0);
+        [*u, *v, *w] = sums_of_row(row, modal).map(|sums| sums.0);
     }
 }
 

@@ -18,7 +18,7 @@ use crate::events::{Candidate, EventKind};
 use crate::impacts::TOUCH;
 use crate::methods::Context;
 use crate::outcome::Peak;
-use crate::polynomial::{derivative, first_rise, value};
+use crate::polynomial::{Polynomial, derivative, first_rise, value};
 
 /// Round-off of a displacement or a velocity, as a part of the maximum one.
 const ROUND_OFF: f64 = 1.0e-14;
@@ -92,16 +92,20 @@ impl Driver<'_> {
     /// Whether the function of an event is positive at the end of the trial step, by more than
     /// round-off.
     fn is_over(&mut self, segment: &Segment, tau: f64, step: f64, event: Candidate) -> bool {
+        let guard = self.function(segment, tau, step, event);
+        value(&guard, 1.0) > self.round_off(event, &self.new_state)
+    }
+
+    /// The function of an event over the trial step.
+    fn function(&mut self, segment: &Segment, tau: f64, step: f64, event: Candidate) -> Polynomial {
         let mut context = Context {
             dynamics: &mut self.dynamics,
             contacts: &self.contacts,
             segment,
         };
         let method = self.method.as_ref();
-        let guard = self
-            .finder
-            .guard(&mut context, method, event.level, event.kind, tau, step);
-        value(&guard, 1.0) > self.round_off(event, &self.new_state)
+        self.finder
+            .guard(&mut context, method, event.level, event.kind, tau, step)
     }
 
     /// Newton correction of the length of a step that should end at the event, and
@@ -114,15 +118,7 @@ impl Driver<'_> {
         step: f64,
         event: Candidate,
     ) -> (f64, bool) {
-        let mut context = Context {
-            dynamics: &mut self.dynamics,
-            contacts: &self.contacts,
-            segment,
-        };
-        let method = self.method.as_ref();
-        let guard = self
-            .finder
-            .guard(&mut context, method, event.level, event.kind, tau, step);
+        let guard = self.function(segment, tau, step, event);
         // Floors that were let be may have closed by a trifle: they meet again where
         // they set out, not at a zero that they never reach.
         let start = match event.kind {

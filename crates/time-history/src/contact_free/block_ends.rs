@@ -18,6 +18,7 @@ use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
     Lane, Modal, Track, WIDTH, add, at, is_low, modal_acceleration_overshoots, mul, scale, spread,
+    sum,
 };
 use super::transform::{STRIP, rows_of_four, rows_of_two, transform_four, transform_two};
 use crate::bands::Bands;
@@ -68,12 +69,11 @@ impl Reach {
 /// Sum of the products of sizes of modes with their bounds.
 #[inline(always)]
 fn sum_of(sizes: &[Lane], bounds: &[Lane]) -> f64 {
-    let mut sum = Lane::ZERO;
+    let mut products = Lane::ZERO;
     for (size, bound) in sizes.iter().zip(bounds) {
-        sum = add(sum, mul(*size, *bound));
+        products = add(products, mul(*size, *bound));
     }
-    let half: [f64; 4] = std::array::from_fn(|l| sum[l] + sum[l + 4]);
-    (half[0] + half[2]) + (half[1] + half[3])
+    sum(&[products])
 }
 
 /// Work space.

@@ -32,7 +32,8 @@ const CLOSE: f64 = 8.0 * f64::EPSILON;
 /// What observers of a run need beside the step: space, and who they are.
 pub(crate) struct Observers<'a, 'b> {
     pub recorders: &'a mut [&'b mut dyn Recorder],
-    workspace: Option<Workspace>,
+    /// Large, and left out where there is nobody: parts of a row are followed for nobody.
+    workspace: Option<Box<Workspace>>,
     /// Whether each wants the step that they were asked about last.
     wanted: Vec<bool>,
     /// End of the run (s).
@@ -167,7 +168,7 @@ impl<'a, 'b> Observers<'a, 'b> {
         end: f64,
     ) -> Self {
         Self {
-            workspace: (!recorders.is_empty()).then(|| Workspace::new(system)),
+            workspace: (!recorders.is_empty()).then(|| Box::new(Workspace::new(system))),
             wanted: vec![false; recorders.len()],
             recorders,
             end,

@@ -14,7 +14,7 @@ struct Packages(BTreeMap<String, BTreeSet<String>>);
 
 impl Packages {
     fn resolved() -> Self {
-        // What this machine builds is here; other platforms would be downloaded.
+        // What other platforms need would be downloaded.
         let rustc = Command::new("rustc").arg("-vV").output().unwrap();
         let rustc = String::from_utf8(rustc.stdout).unwrap();
         let host = rustc.lines().find_map(|l| l.strip_prefix("host: "));

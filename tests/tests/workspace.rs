@@ -13,10 +13,11 @@ fn root() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// What cargo tells of the workspace with these arguments.
+/// What cargo tells of the workspace with these arguments. It downloads what no test has needed, as the
+/// packages of the book, which is tested after all others.
 fn metadata(arguments: &[&str]) -> Value {
     let output = Command::new(env!("CARGO"))
-        .args(["metadata", "--format-version=1", "--offline"])
+        .args(["metadata", "--format-version=1"])
         .args(arguments)
         .current_dir(root())
         .output()

@@ -14,6 +14,8 @@ use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::failure::Failure;
+#[cfg(unix)]
+use crate::separate::{OUT_OF_PROCESSOR_TIME, is_child};
 
 /// Exit code of a command that was interrupted.
 pub const EXIT_CODE: u8 = 5;
@@ -65,7 +67,11 @@ pub fn listen() -> Result<(), Failure> {
         let mut signals = signal_hook::iterator::Signals::new(awaited).map_err(failed)?;
         let thread = std::thread::Builder::new().name("signals".to_owned());
         let listener = thread.spawn(move || {
-            for _ in signals.forever() {
+            for signal in signals.forever() {
+                if signal == SIGXCPU && is_child() {
+                    pounding_files::remove_part_files();
+                    signal_hook::low_level::exit(OUT_OF_PROCESSOR_TIME);
+                }
                 received();
             }
         });

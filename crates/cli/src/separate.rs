@@ -19,12 +19,18 @@ pub const OPTION: &str = "accept-without-checksum";
 /// Time that reading takes at most, and what is added for each byte.
 const TIME: Duration = Duration::from_secs(30);
 const BYTES_PER_SECOND: u64 = 1_000_000;
+/// Processor time (s) that reading takes at most, with the same addition: where the library gets
+/// lost it keeps a processor busy, while a slow disk only takes time.
+#[cfg(unix)]
+const PROCESSOR_TIME: u64 = 5;
 /// Memory that reading takes at most (bytes), and what is added for each byte: results
 /// are compressed.
 #[cfg(unix)]
 const MEMORY: u64 = 4 << 30;
 #[cfg(unix)]
 const MEMORY_PER_BYTE: u64 = 16;
+/// How a child ends that has reached the limit: what it listens to says so by a signal.
+pub const OUT_OF_PROCESSOR_TIME: i32 = 9;
 /// How often the child is looked at.
 const INTERVAL: Duration = Duration::from_millis(10);
 /// Exit codes that say what they say everywhere; a panic has another.
@@ -42,7 +48,7 @@ pub enum Reading {
 /// `child` says that this process is that child.
 pub fn reading(files: &[PathBuf], child: bool) -> Result<Reading, Failure> {
     if child {
-        limit_memory(files);
+        limit_resources(files);
         return Ok(Reading::Here(WithoutChecksum::Accept));
     }
     // Files that cannot be read are reported by the reader.
@@ -68,6 +74,9 @@ pub fn reading(files: &[PathBuf], child: bool) -> Result<Reading, Failure> {
                     Ok(0) | Err(_) => Ok(Reading::Done),
                     Ok(code) => Err(Failure::Reported(code)),
                 };
+            }
+            Some(OUT_OF_PROCESSOR_TIME) => {
+                "reading it took too much time of the processor".to_owned()
             }
             _ => format!("reading it ended without an answer ({status})"),
         },
@@ -137,13 +146,20 @@ fn run(command: &mut Command, time: Duration) -> std::io::Result<(Ending, Vec<u8
     Ok((ending, said.join().unwrap_or_default()))
 }
 
-/// Keeps a damaged size from taking the memory of the machine, and crashes from leaving
-/// their memory on the disk.
+/// Keeps a damaged size from taking the memory of the machine or its processor for long, and
+/// crashes from leaving their memory on the disk.
 #[cfg(unix)]
-fn limit_memory(files: &[PathBuf]) {
+fn limit_resources(files: &[PathBuf]) {
     use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
-    let bytes = MEMORY.saturating_add(size(files).saturating_mul(MEMORY_PER_BYTE));
-    for (resource, most) in [(Resource::As, bytes), (Resource::Core, 0)] {
+    let size = size(files);
+    let bytes = MEMORY.saturating_add(size.saturating_mul(MEMORY_PER_BYTE));
+    let seconds = PROCESSOR_TIME + size / BYTES_PER_SECOND;
+    let all = [
+        (Resource::As, bytes),
+        (Resource::Core, 0),
+        (Resource::Cpu, seconds),
+    ];
+    for (resource, most) in all {
         let maximum = getrlimit(resource).maximum;
         let most = Some(maximum.map_or(most, |m| m.min(most)));
         // Without a limit it is read all the same.
@@ -158,7 +174,7 @@ fn limit_memory(files: &[PathBuf]) {
 }
 
 #[cfg(not(unix))]
-fn limit_memory(_files: &[PathBuf]) {}
+fn limit_resources(_files: &[PathBuf]) {}
 
 #[cfg(all(test, unix))]
 mod tests {

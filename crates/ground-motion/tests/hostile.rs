@@ -97,6 +97,42 @@ fn truncated_at_every_64th_byte() {
     }
 }
 
+/// What is left of `1.494E-02` is a number of another size.
+#[test]
+fn a_last_value_cut_before_its_exponent() {
+    let file = |values: &str| {
+        format!(
+            "PEER\nEL CENTRO\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS=   4, DT=   .0100 SEC\n{values}"
+        )
+    };
+    let mut options = ReadOptions::default();
+    for (values, is_cut) in [
+        (" .600E-02 -.200E-01\n .370E-01 .149E-01\n", false),
+        (" .600E-02 -.200E-01\n .370E-01 .149E-01", false),
+        (" .600E-02 -.200E-01\n .370E-01 .149", true),
+        (" .600E-02 -.200E-01 .370E-01\n .1", true),
+        (" .600E-02 -.200E-01 .370E-01\n .149E-0", true),
+        (" .600E-02 -.200E-01\n .370E-01 .149\n", false),
+        (" 6e-05 -2.15e-05\n 3.7e-05 0.000149", false),
+        (" .006 -.02\n .037 .149", false),
+    ] {
+        options.lenient = false;
+        let read = read_all_bytes("file", file(values).as_bytes(), &options);
+        match read {
+            Err(error) => {
+                let told = error.to_string();
+                assert!(
+                    is_cut && told.contains("ends within its last value"),
+                    "{told}"
+                );
+            }
+            Ok(_) => assert!(!is_cut, "{values:?}"),
+        }
+        options.lenient = true;
+        assert!(read_all_bytes("file", file(values).as_bytes(), &options).is_ok());
+    }
+}
+
 /// Bytes changed, doubled, swapped and taken out, 300 times a file.
 #[test]
 fn corrupted() {

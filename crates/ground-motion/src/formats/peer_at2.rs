@@ -70,6 +70,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             samples.push(source.number(line, column, field)?);
         }
     }
+    source.ends_whole()?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
     draft.times = Times::Step(header.step);
     draft.header_count = Some(header.count);

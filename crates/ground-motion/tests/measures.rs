@@ -4,8 +4,8 @@
 use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::measures::{GroundMotion, Husid, IntensityMeasures, MeasureOptions};
-use pounding_ground_motion::spectra::Evaluation;
-use pounding_ground_motion::{AccelerationUnit, Accelerogram};
+use pounding_ground_motion::spectra::{Evaluation, response_spectrum};
+use pounding_ground_motion::{AccelerationUnit, Accelerogram, ReadOptions};
 use proptest::prelude::*;
 
 const G: f64 = 9.80665;
@@ -187,6 +187,27 @@ fn spectrum_intensities() {
     let m = IntensityMeasures::of(&ground, options).unwrap();
     near(m.housner_intensity, 1.5 * (6.25 - 0.01) / TAU, 1e-10);
     near(m.acceleration_spectrum_intensity, 2.0 * 1.5 * 0.4, 1e-10);
+}
+
+/// The same integrals over a step of 0.1 ms, which are 2e-8 off theirs over 0.05 ms.
+#[test]
+fn spectrum_intensities_of_a_record() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let file = folder.join("../../ground_motions/el_centro_1940_ns.csv");
+    let ground = pounding_ground_motion::read(&file, &ReadOptions::default()).unwrap();
+    let options = MeasureOptions::default();
+    let periods: Vec<f64> = (0..=24_000).map(|i| 0.1 + 1e-4 * i as f64).collect();
+    let spectrum =
+        response_spectrum(&ground, &periods, options.damping, options.evaluation).unwrap();
+    let integral = |values: &[f64]| 0.5e-4 * values.windows(2).map(|v| v[0] + v[1]).sum::<f64>();
+    let m = IntensityMeasures::of(&ground, options).unwrap();
+    let acceleration = integral(&spectrum.pseudo_acceleration[..=4000]);
+    near(m.acceleration_spectrum_intensity, acceleration, 3e-5);
+    near(
+        m.housner_intensity,
+        integral(&spectrum.pseudo_velocity),
+        1e-5,
+    );
 }
 
 #[test]

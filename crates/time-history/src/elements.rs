@@ -167,16 +167,24 @@ impl Elements {
         }
     }
 
-    /// Puts the elements where the buildings start. Laws that depend on the path were
-    /// led there straight; what a law that depends on the rate did before is not known,
-    /// so that it starts unloaded.
+    /// Puts the elements where the buildings start. Laws that hold a lasting load were led there
+    /// straight and infinitely slowly, those whose force also depends on the rate too; what is
+    /// due to the rate alone has relaxed, so that viscous elements start unloaded.
     pub(crate) fn begin(&mut self, system: &System, layout: Layout, state: &mut [f64]) {
         let n = layout.dofs;
         for (element, history) in system.elements().iter().zip(&mut self.histories) {
             let motion = element.motion(&state[..n], &state[n..2 * n]);
-            if !element.law.descriptor().rate_dependent && motion.deformation != 0.0 {
+            if element.law.holds_static_load() && motion.deformation != 0.0 {
                 let mut led = history.clone();
-                element.law.trial(history, &mut led, motion, 1.0);
+                let end = if element.law.descriptor().rate_dependent {
+                    Motion {
+                        velocity: 0.0,
+                        ..motion
+                    }
+                } else {
+                    motion
+                };
+                element.law.trial(history, &mut led, end, 1.0);
                 history.commit(&mut led);
             }
             let variables: Vec<f64> = history.variables().to_vec();

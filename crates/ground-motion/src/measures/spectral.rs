@@ -4,12 +4,14 @@ use crate::accelerogram::Accelerogram;
 use crate::error::GroundMotionError;
 use crate::spectra::{Evaluation, fourier_spectrum, logarithmic_periods, response_spectrum};
 
-/// Periods of the integrals are this far apart (s).
-const PERIOD_STEP: f64 = 0.01;
 const FIRST_PERIOD: f64 = 0.1;
-/// Steps from 0.1 to 0.5 s and to 2.5 s.
-const ACCELERATION_STEPS: usize = 40;
-const VELOCITY_STEPS: usize = 240;
+/// Steps of the integrals from 0.1 to 0.5 s, where spectra are rugged, and their length (s): the
+/// spectrum intensity of El Centro 1940 is off by 0.14 % with 0.01 s.
+const ACCELERATION_STEPS: usize = 400;
+const SHORT_STEP: f64 = 0.001;
+/// Steps from there to 2.5 s.
+const FURTHER_STEPS: usize = 400;
+const LONG_STEP: f64 = 0.005;
 /// Frequencies of the mean period (Hz).
 const LEAST_FREQUENCY: f64 = 0.25;
 const GREATEST_FREQUENCY: f64 = 20.0;
@@ -29,10 +31,13 @@ pub(crate) fn measures(
     damping: f64,
     evaluation: Evaluation,
 ) -> Result<SpectralMeasures, GroundMotionError> {
-    let even: Vec<f64> = (0..=VELOCITY_STEPS)
-        .map(|i| FIRST_PERIOD + PERIOD_STEP * i as f64)
-        .collect();
-    let spectrum = response_spectrum(record, &even, damping, evaluation)?;
+    let short = |i| FIRST_PERIOD + SHORT_STEP * i as f64;
+    let long = |i| short(ACCELERATION_STEPS) + LONG_STEP * i as f64;
+    let periods = (0..=ACCELERATION_STEPS)
+        .map(short)
+        .chain((1..=FURTHER_STEPS).map(long))
+        .collect::<Vec<_>>();
+    let spectrum = response_spectrum(record, &periods, damping, evaluation)?;
     // Not shorter than the recurrence allows, for records with long steps.
     let least = 0.01_f64.max(1.0e-3 * record.time_step());
     let spread = logarithmic_periods(least, 10.0_f64.max(2.0 * least), 200)?;
@@ -44,19 +49,22 @@ pub(crate) fn measures(
         }
     }
     Ok(SpectralMeasures {
-        housner_intensity: trapezoid(&spectrum.pseudo_velocity),
+        housner_intensity: trapezoid(&periods, &spectrum.pseudo_velocity),
         acceleration_spectrum_intensity: trapezoid(
-            &spectrum.pseudo_acceleration[..=ACCELERATION_STEPS],
+            &periods[..=ACCELERATION_STEPS],
+            &spectrum.pseudo_acceleration,
         ),
         mean_period: mean_period(record),
         predominant_period,
     })
 }
 
-fn trapezoid(values: &[f64]) -> f64 {
-    values
+/// Integral of the values over these periods (s), straight between them.
+fn trapezoid(periods: &[f64], values: &[f64]) -> f64 {
+    periods
         .windows(2)
-        .map(|v| 0.5 * PERIOD_STEP * (v[0] + v[1]))
+        .zip(values.windows(2))
+        .map(|(t, v)| 0.5 * (t[1] - t[0]) * (v[0] + v[1]))
         .sum()
 }
 

@@ -21,7 +21,7 @@ use std::process::ExitCode;
 use pounding_time_history::GroundAcceleration;
 use verification::{Failure, ReferenceCases, reference_cases, synthetic_motion};
 
-const USAGE: &str = "quick | full | prototype | scaling | recording | python INTERPRETER | sweeps | sweep RUNS | cases FOLDER";
+const USAGE: &str = "quick | full | prototype | scaling | towers STOREYS... | recording | python INTERPRETER | sweeps | sweep RUNS | cases FOLDER";
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -54,6 +54,7 @@ fn answer(words: &[&str]) -> Result<String, Failure> {
         ["prototype"] => report::prototype(&reference, &ground),
         ["scaling"] => report::only_scaling(reference, &ground),
         ["recording", only @ ..] => recording::ratios(&reference, &ground, only),
+        ["towers", storeys @ ..] => recording::towers(&ground, storeys),
         ["recorded", case, model, kind] => {
             recording::child(&reference, &ground, [case, model, kind])
         }

@@ -9,12 +9,19 @@ use pounding_time_history::{
 };
 use verification::{Failure, REFERENCE_MODELS, ReferenceCases, reference_system};
 
+use crate::cases::uniform_row;
 use crate::clock::{median, thread_seconds};
+use crate::scaling::{MODEL, WIDE};
 
 /// Interleaved runs of each kind.
 const RUNS: usize = 15;
 /// Step of the output grid (s): that of the examples.
 const GRID: f64 = 0.01;
+
+/// Name of two towers that never touch, before the number of their storeys; and what tells apart a
+/// run on buildings on which others were before.
+const TOWERS: &str = "towers-";
+const AGAIN: &str = "again";
 
 /// Takes blocks of responses where a file would be written.
 struct Nowhere;
@@ -118,26 +125,63 @@ pub(crate) fn child(
     ground: &GroundAcceleration,
     [case, model, kind]: [&str; 3],
 ) -> Result<String, Failure> {
-    let case = reference.cases.get(case).ok_or("no such case")?;
+    let case = match case.strip_prefix(TOWERS) {
+        Some(storeys) => &uniform_row(2, storeys.parse()?, WIDE),
+        None => reference.cases.get(case).ok_or("no such case")?,
+    };
     let system = reference_system(case, model, ground.clone(), 1.0)?;
+    if kind == AGAIN {
+        // What runs on the same buildings share is made by the second one.
+        one_run(&system)?;
+        one_run(&system)?;
+    }
     once(&system, kind)?;
     Ok(String::new())
+}
+
+/// One more run of two towers that never touch, of each of these numbers of storeys: instructions
+/// and least processor time (ns) a floor and sample.
+pub(crate) fn towers(ground: &GroundAcceleration, storeys: &[&str]) -> Result<String, Failure> {
+    let mut text = "| storeys of each | instructions | ns |\n|---|---|---|\n".to_owned();
+    for storeys in storeys {
+        let case = format!("{TOWERS}{storeys}");
+        let count: usize = storeys.parse()?;
+        let floor_samples = (2 * count * (ground.samples.len() - 1)) as f64;
+        let counted = 1e6 * instructions([&case, MODEL, AGAIN])?;
+        let system = reference_system(&uniform_row(2, count, WIDE), MODEL, ground.clone(), 1.0)?;
+        let mut least = f64::INFINITY;
+        for _ in 0..RUNS {
+            let start = thread_seconds();
+            one_run(&system)?;
+            least = least.min(1e9 * (thread_seconds() - start));
+        }
+        let (counted, least) = (counted / floor_samples, least / floor_samples);
+        writeln!(text, "| {count} | {counted:.0} | {least:.2} |")?;
+    }
+    Ok(text)
+}
+
+fn one_run(system: &System) -> Result<(), Failure> {
+    run(system, &options(), &mut [], &mut |_| {})?;
+    Ok(())
 }
 
 /// A function of its own, by whose name callgrind counts.
 #[inline(never)]
 fn once(system: &System, kind: &str) -> Result<(), Failure> {
-    let options = RunOptions {
+    if kind == "recorded" {
+        let mut recorder = GridRecorder::into_sink(GRID, Nowhere)?;
+        run(system, &options(), &mut [&mut recorder], &mut |_| {})?;
+        return Ok(());
+    }
+    one_run(system)
+}
+
+fn options() -> RunOptions {
+    RunOptions {
         method: MethodChoice::EventDriven {
             relative_tolerance: 1e-10,
         },
         ..RunOptions::default()
-    };
-    if kind == "alone" {
-        run(system, &options, &mut [], &mut |_| {})?;
-        return Ok(());
     }
-    let mut recorder = GridRecorder::into_sink(GRID, Nowhere)?;
-    run(system, &options, &mut [&mut recorder], &mut |_| {})?;
-    Ok(())
 }

@@ -26,7 +26,7 @@ pub(crate) const MODEL: &str = "jank";
 /// Limits of the compiled peer: floors, levels, buildings.
 const PEER_LIMITS: (usize, usize, usize) = (64, 32, 8);
 /// A gap that never closes (m).
-const WIDE: f64 = 1.0e3;
+pub(crate) const WIDE: f64 = 1.0e3;
 
 /// Two towers of equal height, without and with contact.
 pub(crate) fn storeys(

@@ -16,7 +16,7 @@ use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
 use crate::recorder::{History, Recorder, StepView, wants};
-use crate::response_row::{ShearRows, append_motion};
+use crate::response_row::{FreeMotion, ShearRows, append_motion};
 use crate::system::System;
 
 /// Lengths of parts of a sample whose exact steps are kept.
@@ -61,10 +61,20 @@ pub(crate) struct Workspace {
     series: Series,
     free: Series,
     polynomials: Polynomials,
+    overshoots: Overshoots,
     /// Exact steps over parts of a sample: length (s) and constants of the modes.
     parts: Vec<(f64, Vec<ModeLanes>)>,
     /// Place of the part that is replaced next.
     oldest: usize,
+}
+
+/// What displacements of floors may exceed their values at samples by (m), in the contact-free step
+/// that starts at this time (s), with space for the modes.
+#[derive(Debug)]
+struct Overshoots {
+    start: Option<f64>,
+    floors: Vec<Lane>,
+    modes: [Vec<Lane>; 2],
 }
 
 /// Displacements and velocities of the modes over a step of the pair.
@@ -124,6 +134,11 @@ impl Workspace {
             polynomials: Polynomials {
                 displacement: vec![[Polynomial::default(); WIDTH]; lanes],
                 velocity: vec![[Polynomial::default(); WIDTH]; lanes],
+            },
+            overshoots: Overshoots {
+                start: None,
+                floors: zeros(),
+                modes: [zeros(), zeros()],
             },
             parts: Vec::with_capacity(PARTS),
             oldest: 0,
@@ -234,7 +249,7 @@ impl ModalStep<'_> {
         let works = workspace.layout.motion();
         workspace.state[works..].copy_from_slice(&self.state[works..]);
         if workspace.small {
-            for time in times {
+            for time in &times[self.append_free(times, workspace, rows)..] {
                 self.append_small(*time, workspace, rows);
             }
             return;
@@ -252,6 +267,24 @@ impl ModalStep<'_> {
                 self.append_row((*time, number), workspace, rows);
             }
         }
+    }
+
+    /// Appends rows at those of the first times that are ends of samples without contact, where that
+    /// is shorter. Returns how many they are.
+    fn append_free(&self, times: &[f64], workspace: &Workspace, rows: &mut History) -> usize {
+        let (Some(shear_rows), Motion::Free(block)) = (&workspace.shear_rows, &self.motion) else {
+            return 0;
+        };
+        let motion = FreeMotion {
+            system: self.system,
+            layout: workspace.layout,
+            contacts: self.contacts,
+            constants: self.constants,
+            block,
+            state: self.state,
+            close: CLOSE * (self.start + self.length),
+        };
+        shear_rows.append_free(&motion, times, rows)
     }
 
     /// The same of one time, where mode shapes stay in the cache by themselves.
@@ -411,7 +444,16 @@ impl ModalStep<'_> {
             Motion::Free(block) => {
                 let dot = |row: Option<&ModalRow>, q: &[Lane]| row.map_or(0.0, |r| r.dot(q));
                 let at = |q: &[Lane]| dot(left, q) - dot(right, q);
-                let over = |i: Option<usize>| i.map_or(0.0, |i| lane_at(block.over(), i));
+                let Overshoots {
+                    start,
+                    floors: all,
+                    modes: [size, modal],
+                } = &mut workspace.overshoots;
+                if *start != Some(self.start) {
+                    *start = Some(self.start);
+                    block.bound_displacements(self.constants, [all, size, modal]);
+                }
+                let over = |i: Option<usize>| i.map_or(0.0, |i| lane_at(all, i));
                 let over = over(floors.0) + over(floors.1);
                 let (mut best, mut floor) = (None, floor);
                 let mut before = at(block.sample(0).ends[0].displacement);

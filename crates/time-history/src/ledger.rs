@@ -26,26 +26,46 @@ pub(crate) fn energy(
     let stored = stored_energies(system, contacts, u);
     let kinetic = system.kinetic_energy(v);
     let strain = system.strain_energy(u) + stored + elastic;
-    balance(layout, state, (kinetic, strain, hysteretic), stored)
+    let works = Works::in_state(layout, state);
+    balance(works, (kinetic, strain, hysteretic), stored)
 }
 
-/// The ledger of works that stand in the state, and of kinetic energy, energy of strain and
-/// hysteresis; what contacts store counts as strain, not as impact.
+/// Works until now (J).
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Works {
+    /// Of the ground motion, of damping, and on all contacts.
+    pub input: f64,
+    pub viscous: f64,
+    pub contacts: f64,
+}
+
+impl Works {
+    /// Those that stand in a state.
+    #[inline]
+    pub(crate) fn in_state(layout: Layout, state: &[f64]) -> Self {
+        Self {
+            input: state[layout.input()],
+            viscous: state[layout.viscous()],
+            contacts: (0..layout.levels).map(|l| state[layout.work(l)]).sum(),
+        }
+    }
+}
+
+/// The ledger of works, and of kinetic energy, energy of strain and hysteresis; what contacts store
+/// counts as strain, not as impact.
 #[inline]
 pub(crate) fn balance(
-    layout: Layout,
-    state: &[f64],
+    works: Works,
     (kinetic, strain, hysteretic): (f64, f64, f64),
     stored: f64,
 ) -> Energy {
-    let work: f64 = (0..layout.levels).map(|l| state[layout.work(l)]).sum();
     let mut energy = Energy {
-        input: state[layout.input()],
+        input: works.input,
         kinetic,
         strain,
-        viscous: state[layout.viscous()],
+        viscous: works.viscous,
         hysteretic,
-        impact: work - stored,
+        impact: works.contacts - stored,
         residual: 0.0,
     };
     energy.residual =

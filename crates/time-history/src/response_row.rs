@@ -4,9 +4,9 @@ use multiversion::multiversion;
 use pounding_shear_building::{ResponseKind, StiffnessMatrix};
 
 use crate::contact::Contacts;
-use crate::contact_free::{Lane, WIDTH, sum};
+use crate::contact_free::{BlockMotion, ContactFree, Lane, WIDTH, restore, sum, sums_of_row};
 use crate::dynamics::Layout;
-use crate::ledger;
+use crate::ledger::{self, Works};
 use crate::recorder::History;
 use crate::system::{SectionPlace, System};
 
@@ -98,6 +98,8 @@ fn append_floors_and_levels(
 #[derive(Debug)]
 pub(crate) struct ShearRows {
     storeys: Vec<Storeys>,
+    /// Left and right floor of every level; beyond all floors for a wall.
+    between: Vec<[usize; 2]>,
     /// Space for shears.
     shear: Vec<f64>,
 }
@@ -140,10 +142,29 @@ impl ShearRows {
             storeys.half_spring[l] = 0.5 * spring;
             storeys.above[l] = above;
         }
+        let wall = storeys.len() * WIDTH;
+        let levels = system.levels().iter();
+        let between = levels.map(|l| [l.left, l.right].map(|floor| floor.unwrap_or(wall)));
         Some(Self {
-            shear: vec![0.0; storeys.len() * WIDTH],
+            shear: vec![0.0; wall],
+            between: between.collect(),
             storeys,
         })
+    }
+
+    /// Appends rows at those of the first times that are ends of samples, where all floors make one
+    /// lane and nothing touches: as [`Self::append`] does, one after another at a fraction of the
+    /// cost. Returns how many they are.
+    pub(crate) fn append_free(
+        &self,
+        motion: &FreeMotion<'_>,
+        times: &[f64],
+        rows: &mut History,
+    ) -> usize {
+        match (self.storeys.as_slice(), motion.contacts.closed()) {
+            ([storeys], []) => append_free((storeys, &self.between), motion, times, rows),
+            _ => 0,
+        }
     }
 
     /// Appends responses but for accelerations, from the displacements and velocities of the
@@ -169,8 +190,101 @@ impl ShearRows {
             .extend_from_slice(&self.shear[..system.floors()]);
         let stored = ledger::stored_energies(system, contacts, u);
         let energies = (kinetic, strain + stored, 0.0);
-        let energy = ledger::balance(layout, state, energies, stored);
+        let works = Works::in_state(layout, state);
+        let energy = ledger::balance(works, energies, stored);
         rows.energy.push(energy);
+    }
+}
+
+/// Motion without contact over some samples.
+pub(crate) struct FreeMotion<'a> {
+    pub system: &'a System,
+    pub layout: Layout,
+    pub contacts: &'a Contacts,
+    pub constants: &'a ContactFree,
+    pub block: &'a BlockMotion<'a>,
+    /// Works at the start.
+    pub state: &'a [f64],
+    /// Times (s) this far apart are one.
+    pub close: f64,
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn append_free(
+    (storeys, between): (&Storeys, &[[usize; 2]]),
+    motion: &FreeMotion<'_>,
+    times: &[f64],
+    rows: &mut History,
+) -> usize {
+    let [shapes] = motion.constants.floor_rows.as_slice() else {
+        return 0;
+    };
+    let (modes, floors) = (&motion.constants.modes[..1], motion.system.floors());
+    let start = Works::in_state(motion.layout, motion.state);
+    for (served, time) in times.iter().enumerate() {
+        let Some((modal, ground)) = motion.block.at_end_of_sample(*time, motion.close) else {
+            return served;
+        };
+        let (q, p) = (&modal.displacement[..1], &modal.velocity[..1]);
+        let mut absolute = [Lane::ZERO];
+        restore(modes, q, p, &mut absolute);
+        let [u, v, absolute] = sums_of_row(shapes, [q, p, &absolute]);
+        let mut energies = [Lane::ZERO; 2];
+        let shear = storeys.shear((0.0, &u.0, &v.0), &mut energies);
+        // Eight places at once, of which those that are no floors go again.
+        for (list, lane) in [
+            (&mut rows.displacement, u),
+            (&mut rows.velocity, v),
+            (&mut rows.acceleration_absolute, absolute),
+            (&mut rows.storey_shear, shear),
+        ] {
+            let end = list.len() + floors;
+            list.extend_from_slice(&lane.0);
+            list.truncate(end);
+        }
+        rows.time.push(*time);
+        rows.ground_acceleration.push(ground);
+        let at = |floor: usize| u.0.get(floor).copied().unwrap_or(0.0);
+        for ([left, right], width) in between.iter().zip(motion.contacts.widths()) {
+            rows.penetration.push(at(*left) - at(*right) - width);
+            rows.force.push(0.0);
+        }
+        let works = Works {
+            input: start.input + sum(modal.input),
+            viscous: start.viscous + sum(modal.viscous),
+            ..start
+        };
+        let [kinetic, strain] = energies.map(|lane| sum(&[lane]));
+        let energy = ledger::balance(works, (kinetic, strain, 0.0), 0.0);
+        rows.energy.push(energy);
+    }
+    times.len()
+}
+
+impl Storeys {
+    /// Shears of eight storeys from the displacement of the floor below them, and displacements
+    /// and velocities of the floors above each. Adds kinetic energy and that of strain (J).
+    #[inline(always)]
+    fn shear(
+        &self,
+        (last, u, v): (f64, &[f64; WIDTH], &[f64; WIDTH]),
+        [kinetic, strain]: &mut [Lane; 2],
+    ) -> Lane {
+        let mut below = [last; WIDTH];
+        below[1..].copy_from_slice(&u[..WIDTH - 1]);
+        let mut shear = Lane::ZERO;
+        for l in 0..WIDTH {
+            let drift = u[l] - self.above[l] * below[l];
+            kinetic[l] += self.half_mass[l] * v[l] * v[l];
+            strain[l] += self.half_spring[l] * drift * drift;
+            shear[l] = self.stiffness[l] * drift;
+        }
+        shear
     }
 }
 
@@ -182,7 +296,7 @@ impl ShearRows {
     "aarch64+neon"
 ))]
 fn shears(storeys: &[Storeys], [u, v]: [&[f64]; 2], shear: &mut [f64]) -> (f64, f64) {
-    let (mut kinetic, mut strain) = (Lane::ZERO, Lane::ZERO);
+    let mut energies = [Lane::ZERO; 2];
     let mut last = 0.0;
     let motion = u
         .as_chunks::<WIDTH>()
@@ -191,15 +305,9 @@ fn shears(storeys: &[Storeys], [u, v]: [&[f64]; 2], shear: &mut [f64]) -> (f64, 
         .zip(v.as_chunks::<WIDTH>().0);
     let shear = shear.as_chunks_mut::<WIDTH>().0;
     for ((storeys, (u, v)), shear) in storeys.iter().zip(motion).zip(shear) {
-        let mut below = [last; WIDTH];
-        below[1..].copy_from_slice(&u[..WIDTH - 1]);
+        *shear = storeys.shear((last, u, v), &mut energies).0;
         last = u[WIDTH - 1];
-        for l in 0..WIDTH {
-            let drift = u[l] - storeys.above[l] * below[l];
-            kinetic[l] += storeys.half_mass[l] * v[l] * v[l];
-            strain[l] += storeys.half_spring[l] * drift * drift;
-            shear[l] = storeys.stiffness[l] * drift;
-        }
     }
-    (sum(&[kinetic]), sum(&[strain]))
+    let [kinetic, strain] = energies.map(|lane| sum(&[lane]));
+    (kinetic, strain)
 }

@@ -6,8 +6,8 @@ use multiversion::multiversion;
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Ground, Lane, Modal, ModalState, ModeLanes, WIDTH, at, is_low, modal_acceleration_overshoots,
-    modal_overshoots, step_modes,
+    Ground, Lane, Modal, ModalState, ModeLanes, Shapes, WIDTH, at, is_low,
+    modal_acceleration_overshoots, modal_overshoots, step_modes,
 };
 use super::transform::to_floors;
 use crate::system::System;
@@ -249,13 +249,19 @@ pub(super) fn bound_overshoots<const COUNT: usize>(
             to_floors(shapes, modal, over);
             continue;
         }
-        for building in shapes {
-            let range = building.first_mode..building.first_mode + building.modes;
-            let terms = range.clone().map(|j| at(entries, j) * at(modal, j));
-            let bound = terms.sum::<f64>();
-            for i in range {
-                over[i / WIDTH][i % WIDTH] = bound;
-            }
+        bound_together(shapes, entries, modal, over);
+    }
+}
+
+/// A bound for all floors of a building together, from those of the modes.
+#[inline(always)]
+fn bound_together(shapes: &[Shapes], entries: &[Lane], modal: &[Lane], over: &mut [Lane]) {
+    for building in shapes {
+        let range = building.first_mode..building.first_mode + building.modes;
+        let terms = range.clone().map(|j| at(entries, j) * at(modal, j));
+        let bound = terms.sum::<f64>();
+        for i in range {
+            over[i / WIDTH][i % WIDTH] = bound;
         }
     }
 }
@@ -335,8 +341,7 @@ pub(crate) fn step_over(
     (input.0.iter().sum(), viscous.0.iter().sum())
 }
 
-/// Follows a block from this state on for those who watch it, and bounds what the displacements of
-/// floors do between samples.
+/// Follows a block from this state on for those who watch it.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -353,8 +358,6 @@ pub(super) fn follow(
     let Some([velocities, inputs, dampings]) = &mut block.watched else {
         return;
     };
-    let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-    let length = BLOCK as f64 * constants.step;
     for (c, m) in constants.modes.iter().enumerate() {
         let mut state = [
             start.displacement[c],
@@ -362,13 +365,6 @@ pub(super) fn follow(
             start.input[c],
             start.viscous[c],
         ];
-        // Accelerations are bounded by `sqrt(q'^2 + omega^2 q^2)`, which is no larger than this sum
-        // now, and later by no more than what the ground can add until then.
-        block.size[c] = Lane::from_fn(|l| {
-            state[1][l].abs()
-                + m.circular_frequency[l] * state[0][l].abs()
-                + m.participation[l].abs() * length * largest
-        });
         for (s, pair) in samples.windows(2).enumerate() {
             let ground = Ground {
                 start: pair[0],
@@ -383,8 +379,35 @@ pub(super) fn follow(
             dampings[place] = state[3];
         }
     }
-    block.largest.0 = largest;
-    bound_overshoots(constants, block, [0], true);
+}
+
+/// Bounds what the displacement of every floor may exceed its values at samples by (m), from this
+/// motion on under these ground accelerations at samples; the others are space for the modes.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn bound_displacements(
+    constants: &ContactFree,
+    start: ModalState<'_>,
+    samples: &[f64],
+    [over, size, modal]: [&mut [Lane]; 3],
+) {
+    let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    let length = (samples.len() - 1) as f64 * constants.step;
+    // Accelerations are bounded by `sqrt(q'^2 + omega^2 q^2)`, which is no larger than this sum
+    // now, and later by no more than what the ground can add until then.
+    for (c, m) in constants.modes.iter().enumerate() {
+        size[c] = Lane::from_fn(|l| {
+            start.velocity[c][l].abs()
+                + m.circular_frequency[l] * start.displacement[c][l].abs()
+                + m.participation[l].abs() * length * largest
+        });
+    }
+    modal_overshoots(constants, size, largest, modal);
+    bound_together(&constants.magnitudes, &constants.rows.size, modal, over);
 }
 
 /// All modes over the block, whose ground accelerations are `samples`.

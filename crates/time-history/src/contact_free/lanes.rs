@@ -462,7 +462,7 @@ pub(crate) fn restoring(modes: &[ModeLanes], q: &[Lane], p: &[Lane], out: &mut [
 }
 
 #[inline(always)]
-pub(super) fn restore(modes: &[ModeLanes], q: &[Lane], p: &[Lane], out: &mut [Lane]) {
+pub(crate) fn restore(modes: &[ModeLanes], q: &[Lane], p: &[Lane], out: &mut [Lane]) {
     let count = modes.len().min(out.len());
     let (q, p, out) = (&q[..count], &p[..count], &mut out[..count]);
     for (c, m) in modes[..count].iter().enumerate() {

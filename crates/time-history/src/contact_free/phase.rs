@@ -108,9 +108,10 @@ impl<'a> BlockMotion<'a> {
         number
     }
 
-    /// What the displacement of every floor may exceed its values at samples by (m).
-    pub(crate) fn over(&self) -> &'a [Lane] {
-        &self.block.over[0]
+    /// Bounds what the displacement of every floor may exceed its values at samples by (m); beside
+    /// it stands space for the modes.
+    pub(crate) fn bound_displacements(&self, constants: &ContactFree, over: [&mut [Lane]; 3]) {
+        block::bound_displacements(constants, self.start, self.ground, over);
     }
 }
 

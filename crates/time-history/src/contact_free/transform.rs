@@ -164,7 +164,10 @@ fn by_rows<const COUNT: usize>(
 
 /// Eight floors from the modes, of so many transformations.
 #[inline(always)]
-fn sums_of_row<const COUNT: usize>(row: &Rows, modal: [&[Lane]; COUNT]) -> [Lane; COUNT] {
+pub(crate) fn sums_of_row<const COUNT: usize>(
+    row: &Rows,
+    modal: [&[Lane]; COUNT],
+) -> [Lane; COUNT] {
     let mut sums = [Lane::ZERO; COUNT];
     let (mut lane, mut place) = (row.first_mode / WIDTH, row.first_mode % WIDTH);
     let mut columns = row.columns.as_slice();

@@ -133,6 +133,23 @@ fn a_last_value_cut_before_its_exponent() {
     }
 }
 
+/// A sensitivity says that a SAC file holds counts, also beside a unit.
+#[test]
+fn sac_in_counts() {
+    let sac = &fixtures("sac", 0)[0].bytes;
+    let mut options = ReadOptions {
+        unit: Some(AccelerationUnit::MetrePerSecondSquared),
+        ..ReadOptions::default()
+    };
+    let peak = |options: &ReadOptions| read_bytes("file", sac, options).unwrap().peak().value.abs();
+    let in_unit = peak(&options);
+    options.sensitivity = Some(1000.0);
+    let counts = peak(&options);
+    assert!((counts * 1000.0 / in_unit - 1.0).abs() < 1e-12);
+    options.unit = None;
+    assert!(peak(&options) == counts);
+}
+
 /// Bytes changed, doubled, swapped and taken out, 300 times a file.
 #[test]
 fn corrupted() {

@@ -38,6 +38,11 @@ pub enum ResponseKind {
     Acceleration,
 }
 
+/// Names, before the number of the floor, of the displacements along the row of both ends of a floor
+/// that turns in plan: the lower and the upper one, by position across the row.
+pub const EDGE_DISPLACEMENTS: [&str; 2] =
+    ["displacement_of_lower_edge", "displacement_of_upper_edge"];
+
 /// A response of a building with a name: a sum over its coordinates.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ResponseRow {

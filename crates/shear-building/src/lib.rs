@@ -30,7 +30,9 @@ pub use column::{
     ColumnEnds, ColumnError, ColumnForceRows, ColumnForces, ColumnResponse, ForcedColumnResponse,
     HitColumn, HitLine, NEAR_FLOOR,
 };
-pub use coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseKind, ResponseRow};
+pub use coordinates::{
+    Coordinate, EDGE_DISPLACEMENTS, Excitation, GeneralBuilding, ResponseKind, ResponseRow,
+};
 pub use damping::{Damping, DampingMatrix};
 pub use elevation::{
     ELEVATION_TOLERANCE, are_level, decimal, elevations, floor_without_partner, level_pairs,

@@ -296,6 +296,60 @@ fn ground_that_moves_differently_widens_what_rules_ask_for() {
     assert_eq!(explained, Some(true));
 }
 
+/// Rules take the displacement of a floor that turns where it touches. The displacements at both
+/// edges, 7.4461 and 65.9336 mm, are those of a solution of its own of the two equations of motion;
+/// at the mass centre there are 35.6325 mm.
+#[test]
+fn floors_that_turn_count_where_they_touch() {
+    let text = "[[building]]
+name = \"A\"
+mass = [\"100 t\"]
+height = \"3 m\"
+damping = { stiffness_proportional = 0.05 }
+[building.plan]
+length = \"10 m\"
+width = \"20 m\"
+frames_along = [{ at = \"-10 m\", stiffness = \"40 MN/m\" }, { at = \"2 m\", stiffness = \"10 MN/m\" }]
+frames_across = [{ at = \"-5 m\", stiffness = \"25 MN/m\" }, { at = \"5 m\", stiffness = \"25 MN/m\" }]
+[[building]]
+name = \"B\"
+mass = [\"100 t\"]
+stiffness = \"40 GN/m\"
+height = \"3 m\"
+damping = { stiffness_proportional = 0.05 }
+[[gap]]
+between = [\"A\", \"B\"]
+width = \"45 mm\"
+model = \"linear_elastic\"
+stiffness = \"100 MN/m\"
+points = [\"-10 m\", \"0 m\", \"10 m\"]
+[ground_motion]
+file = \"ground_motions/el_centro_1940_ns.csv\"
+";
+    let case = Case::parse(text, &root().join("case.toml")).unwrap();
+    let check = check(&case, &[], &options());
+    let gap = &check.gaps[0];
+    let rule = gap.combinations.iter();
+    let sum = rule.clone().find(|c| c.rule.name() == "absolute_sum");
+    let at = |level: usize| sum.unwrap().records[0][level].left;
+    for (level, expected) in [(0, 0.007_446_1), (2, 0.065_933_6)] {
+        assert!(
+            (at(level) - expected).abs() < 1e-7,
+            "{level}: {}",
+            at(level)
+        );
+    }
+    // Between the edges no less than it is.
+    assert!((0.035_632_5..0.037).contains(&at(1)), "{}", at(1));
+    for level in 0..3 {
+        let (width, demand) = (
+            sum.unwrap().records[0][level].width,
+            check.records[0].demand[0][level].value,
+        );
+        assert!(width >= demand, "{level}: {width} {demand}");
+    }
+}
+
 #[test]
 fn mistakes() {
     let case = pair("\"20 mm\"");

@@ -3,8 +3,8 @@
 use nalgebra::DMatrix;
 use pounding_case::{Building, Case, CaseError, Frame, Gap, Located, Plan, Side};
 use pounding_shear_building::{
-    Coordinate, Excitation, GeneralBuilding, ResponseKind, ResponseRow, ShearBuilding,
-    ShearBuildingError,
+    Coordinate, EDGE_DISPLACEMENTS, Excitation, GeneralBuilding, ResponseKind, ResponseRow,
+    ShearBuilding, ShearBuildingError,
 };
 use pounding_time_history::{BuildingPoint, Floor, System};
 
@@ -145,13 +145,13 @@ fn responses(plan: &Plan, n: usize, floor: usize) -> Vec<ResponseRow> {
             &[(rotation, 1.0)],
         ),
         row(
-            "displacement_of_lower_edge",
+            EDGE_DISPLACEMENTS[0],
             "m",
             ResponseKind::Displacement,
             &edge(-half),
         ),
         row(
-            "displacement_of_upper_edge",
+            EDGE_DISPLACEMENTS[1],
             "m",
             ResponseKind::Displacement,
             &edge(half),

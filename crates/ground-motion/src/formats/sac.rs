@@ -132,7 +132,12 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         .float(0)
         .and_then(|delta| format!("{}", delta as f32).parse::<f64>().ok());
     let samples = values(source, &words, HEADER, count.min(present))?;
-    let mut draft = Draft::new(samples, DraftUnit::Unstated, (1, 1, 1));
+    // The header has no unit that can be relied on; a sensitivity says that there are counts.
+    let unit = match source.options.sensitivity {
+        Some(_) => DraftUnit::Counts,
+        None => DraftUnit::Unstated,
+    };
+    let mut draft = Draft::new(samples, unit, (1, 1, 1));
     draft.header_count = Some(count);
     draft.times = if uneven {
         Times::Each(values(source, &words, HEADER + 4 * count, count)?)

@@ -1,6 +1,6 @@
 //! The columns of a result: which quantities, of what, in which unit.
 
-use pounding_shear_building::OVERTURNING_RATIO;
+use pounding_shear_building::{EDGE_DISPLACEMENTS, OVERTURNING_RATIO};
 use pounding_time_history::{
     BuildingOutcome, COLUMN_SHEARS, LevelOutcome, LevelPlace, Outcome, System,
 };
@@ -269,7 +269,7 @@ pub static RESPONSES: [Response; 9] = [
     ),
     response(
         "edge_displacement",
-        &["displacement_of_lower_edge", "displacement_of_upper_edge"],
+        &EDGE_DISPLACEMENTS,
         quantity(
             Axis::Storey,
             "peak_edge_displacement",

@@ -176,11 +176,11 @@ fn answer_at(
     (ownership, rules): (Option<Ownership>, &Rules),
 ) -> Result<LevelAnswer, SeparationError> {
     let buildings = place.system.buildings();
-    let structures = sides.map(|side| {
-        side.map(|at| {
+    let structures = [0, 1].map(|side| {
+        sides[side].map(|at| {
             let peaks = records.iter();
             let peaks: Vec<f64> = peaks
-                .map(|r| r.isolated[at.0].storeys[at.1].displacement.value)
+                .map(|r| place.displacement((level, side), at, &r.isolated[at.0]))
                 .collect();
             let mut yields = records.iter().map(|r| &r.isolated[at.0]);
             let inelastic = yields.any(|b| !b.inelastic_storeys().is_empty());

@@ -9,8 +9,8 @@ use pounding_separation::{
     Structure, Verification, YieldingOscillator, choose_code, code_in_country, codes,
     correlation_coefficient, descriptors, find,
 };
-use pounding_shear_building::{ShearBuilding, are_level};
-use pounding_time_history::{Gap, System};
+use pounding_shear_building::{EDGE_DISPLACEMENTS, ShearBuilding, are_level};
+use pounding_time_history::{BuildingOutcome, Gap, System};
 
 use super::SAME;
 use super::demand::{GapLevel, RecordDemand};
@@ -158,6 +158,40 @@ impl GapPlace<'_> {
         levels
             .map(|l| l.between.map(|floor| self.system.storey_of(floor)))
             .collect()
+    }
+
+    /// Peak displacement (m) of an isolated building where it meets a level, on the left (0) or the
+    /// right (1), at this building and storey: of floors that turn, that at the contact point.
+    /// Exact at the edges of such a floor; between them no less than it, as the sum of the parts that
+    /// both edges have in it.
+    pub(super) fn displacement(
+        &self,
+        (level, side): (usize, usize),
+        (building, storey): (usize, usize),
+        isolated: &BuildingOutcome,
+    ) -> f64 {
+        let of_floor = isolated.storeys[storey].displacement.value;
+        let between = self.system.levels_of(self.gap())[level].between;
+        let Some(point) = self.system.point(between[side]) else {
+            return of_floor;
+        };
+        let edge = |name: &str| {
+            let name = format!("{name}_{}", storey + 1);
+            let rows = self.system.buildings()[building].responses().iter();
+            let row = rows.clone().find(|r| r.name == name)?;
+            let peak = isolated.responses.iter().find(|r| r.name == name)?;
+            Some((&row.weights, peak.peak.value))
+        };
+        let [Some((low, lower)), Some((high, upper))] = EDGE_DISPLACEMENTS.map(edge) else {
+            return of_floor;
+        };
+        let turns = low.iter().zip(high).position(|(a, b)| a != b);
+        let share = turns.map_or(0.0, |i| {
+            let weights = point.weights.iter();
+            let own: f64 = weights.filter(|w| w.0 == i).map(|w| w.1).sum();
+            (own - low[i]) / (high[i] - low[i])
+        });
+        (1.0 - share).abs() * lower + share.abs() * upper
     }
 
     pub(super) fn elevation(&self, level: usize) -> f64 {
@@ -508,10 +542,10 @@ pub(crate) fn by_code(
     records: &[RecordDemand],
 ) -> Vec<CodeGap> {
     let buildings = place.system.buildings();
-    let structure = |at: Option<(usize, usize)>, record: &RecordDemand| {
+    let structure = |at: Option<(usize, usize)>, place_of, record: &RecordDemand| {
         at.map(|(index, storey)| {
             let isolated = &record.isolated[index];
-            let displacement = isolated.storeys[storey].displacement.value;
+            let displacement = place.displacement(place_of, (index, storey), isolated);
             let inelastic = !isolated.inelastic_storeys().is_empty();
             inputs.structure(&buildings[index], index, (displacement, inelastic))
         })
@@ -519,7 +553,8 @@ pub(crate) fn by_code(
     let apply = |descriptor: &Provision, record: &RecordDemand, level: usize, sides: &[_; 2]| {
         let elevation = place.elevation(level);
         let site = inputs.site(place, record.ground_moves(place.gap, level));
-        match (structure(sides[0], record), structure(sides[1], record)) {
+        let [left, right] = [0, 1].map(|side| structure(sides[side], (level, side), record));
+        match (left, right) {
             (Some(left), Some(right)) => descriptor.between(&Situation {
                 left,
                 right,
@@ -570,12 +605,13 @@ pub(crate) fn combinations(
         } else {
             None
         };
-        let peak =
-            |r: &RecordDemand, (b, s): (usize, usize)| r.isolated[b].storeys[s].displacement.value;
+        let peak = |r: &RecordDemand, of, at: (usize, usize)| {
+            place.displacement(of, at, &r.isolated[at.0])
+        };
         let at_levels = |r: &RecordDemand| {
             let both = sides.iter().enumerate();
             let level = both.map(|(level, (a, b))| {
-                let (left, right) = (peak(r, *a), peak(r, *b));
+                let (left, right) = (peak(r, (level, 0), *a), peak(r, (level, 1), *b));
                 let by_rule = rule.gap(left, right, correlation.unwrap_or(0.0));
                 LevelCombination {
                     left,

@@ -74,6 +74,15 @@ impl System {
         }
     }
 
+    /// The point of a building that a place is; `None` for a floor or a wall.
+    #[must_use]
+    pub fn point(&self, floor: Floor) -> Option<&BuildingPoint> {
+        match floor {
+            Floor::Point(number) => self.points.get(number).map(|(point, _)| point),
+            Floor::Storey(..) | Floor::Wall | Floor::FixedWall => None,
+        }
+    }
+
     /// The displacement of one place relative to another. Fails with what is wrong.
     pub(super) fn row_between(&mut self, left: Floor, right: Floor) -> Result<Row, String> {
         let sides = [self.side(left)?, self.side(right)?];

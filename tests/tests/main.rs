@@ -20,6 +20,7 @@ mod rigid_held;
 mod rigid_impacts;
 mod separation_rules;
 mod sine_case;
+mod stiff_contacts;
 mod structures;
 mod towers;
 mod traps;

@@ -158,6 +158,18 @@ fn velocity_jumps_need_a_single_point() {
         assert_eq!(&text[error.span.clone()], "\"stereomechanical\"");
     }
     assert_eq!(with(&format!("{rigid}\npoints = [0]")).0.unwrap(), 2);
+    for friction in ["borovin_2014", "lapshin_yurin_2016"] {
+        let friction = format!("model = \"{friction}\"\nstiffness = 1e8\nfriction = 0.3");
+        assert_eq!(with(&friction).0.unwrap(), 4);
+        let (refused, text) = with(&format!("{friction}\npoints = [-4, 0, 4]"));
+        let AssemblyError::Case(error) = refused.unwrap_err() else {
+            panic!("{friction}");
+        };
+        let said = "holds floors by friction, which it cannot at 3 points";
+        assert!(error.message.contains(said), "{error}");
+        assert!(error.help.as_ref().unwrap().contains("two points"));
+        assert!(text[error.span.clone()].contains("[-4, 0, 4]"));
+    }
     let elastic = "model = \"linear_elastic\"\nstiffness = 1e8";
     assert_eq!(with(elastic).0.unwrap(), 4);
 }

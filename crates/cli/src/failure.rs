@@ -198,6 +198,7 @@ impl From<TimeHistoryError> for Failure {
             | TimeHistoryError::InitialState { .. }
             | TimeHistoryError::Force { .. }
             | TimeHistoryError::JumpsAtPoints { .. }
+            | TimeHistoryError::FrictionAtPoints { .. }
             | TimeHistoryError::CompliantModel { .. }
             | TimeHistoryError::NoClearance { .. }
             | TimeHistoryError::ContactTooShort { .. }

@@ -49,6 +49,22 @@ pub struct Modes {
     pub damping_ratio: Vec<f64>,
 }
 
+impl Modes {
+    /// Number of the fundamental mode along the row: that with the largest effective mass. Of a building that turns in
+    /// plan the longest period may be one across the row, of which motion along it knows nothing.
+    #[must_use]
+    pub fn fundamental(&self) -> usize {
+        let masses = self.effective_mass.iter().enumerate();
+        let largest = masses.fold(
+            (0, 0.0),
+            |best: (usize, f64), (mode, mass)| {
+                if *mass > best.1 { (mode, *mass) } else { best }
+            },
+        );
+        largest.0
+    }
+}
+
 /// Solves `K phi = omega^2 M phi` through `M^-1/2 K M^-1/2`.
 pub(crate) fn undamped(
     mass: &[f64],

@@ -4,7 +4,9 @@
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
+use pounding_assembly::assemble;
 use pounding_case::{Case, Separation};
+use pounding_separation::{Oscillator, correlation_coefficient};
 use pounding_study::gap_check::{
     CheckError, GapCheck, GapCheckOptions, SweepOptions, gap_check, under_records,
 };
@@ -348,6 +350,99 @@ file = \"ground_motions/el_centro_1940_ns.csv\"
         );
         assert!(width >= demand, "{level}: {width} {demand}");
     }
+}
+
+/// Two single storeys (MN/m along the row), each as it is and as a floor whose frames across the row
+/// are softer, which motion along the row does not see.
+fn along_the_row(in_plan: bool, scale: &str) -> Case {
+    let building = |name: &str, stiffness: f64| {
+        let holds = match in_plan {
+            false => format!("stiffness = \"{stiffness} MN/m\"\n"),
+            true => format!(
+                "[building.plan]\nlength = \"10 m\"\nwidth = \"10 m\"\nframes_along = [{{ at = \"-5 m\", stiffness = \"{half} MN/m\" }}, {{ at = \"5 m\", stiffness = \"{half} MN/m\" }}]\nframes_across = [{{ at = \"-5 m\", stiffness = \"1.2 MN/m\" }}, {{ at = \"5 m\", stiffness = \"1.2 MN/m\" }}]\n",
+                half = 0.5 * stiffness
+            ),
+        };
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = [\"100 t\"]\nheight = \"3 m\"\ndamping = {{ modal = 0.05 }}\n{holds}"
+        )
+    };
+    let text = format!(
+        "{}{}[[gap]]\nbetween = [\"a\", \"b\"]\nwidth = \"20 mm\"\nmodel = \"linear_elastic\"\nstiffness = \"100 MN/m\"\n[ground_motion]\nfile = \"ground_motions/el_centro_1940_ns.csv\"\n{scale}",
+        building("a", 16.0),
+        building("b", 4.0)
+    );
+    Case::parse(&text, &root().join("case.toml")).unwrap()
+}
+
+/// Combination rules and the band of a code take the period along the row: softer frames across it
+/// change nothing. Correlation by hand (Der Kiureghian 1981) for periods whose ratio is 2, both damped by 5 %.
+#[test]
+fn periods_across_the_row_do_not_count() {
+    let scale = "scale = { code = \"eurocode_8_2004\", ag = \"0.25 g\", ground_type = \"C\" }\n";
+    for scale in ["", scale] {
+        let [chains, plans] = [false, true].map(|in_plan| {
+            let check = check(&along_the_row(in_plan, scale), &[], &options());
+            let difference = check.gaps[0].combinations.last().unwrap();
+            let width = difference.records[0][0].width;
+            let factor = check.records[0].factor;
+            [difference.correlation.unwrap(), width, factor]
+        });
+        assert!((chains[0] - 0.018_486).abs() < 1e-6, "{chains:?}");
+        for (one, other) in chains.iter().zip(&plans) {
+            assert!((one / other - 1.0).abs() < 1e-9, "{chains:?} {plans:?}");
+        }
+    }
+}
+
+/// Isolators give their period and damping at the displacement of the record, not those before they yield,
+/// with which both buildings would move almost as one (0.992).
+#[test]
+fn isolators_that_yield_have_a_period_of_their_own() {
+    let text = "[[building]]
+name = \"isolated\"
+mass = [\"200 t\", \"200 t\"]
+height = \"3 m\"
+stiffness = \"800 MN/m\"
+damping = { modal = [0.05] }
+isolator = { model = \"lead_rubber\", post_yield_period = \"2.5 s\", strength = 0.05, stiffness_ratio = 10, damping = \"400 kN s/m\" }
+[[building]]
+name = \"fixed\"
+mass = [\"200 t\", \"200 t\"]
+height = \"3 m\"
+stiffness = [\"25.3 MN/m\", \"800 MN/m\"]
+damping = { modal = 0.08 }
+[[gap]]
+between = [\"isolated\", \"fixed\"]
+width = \"100 mm\"
+model = \"linear_elastic\"
+stiffness = \"100 MN/m\"
+[ground_motion]
+file = \"ground_motions/el_centro_1940_ns.csv\"
+";
+    let case = Case::parse(text, &root().join("case.toml")).unwrap();
+    let check = check(&case, &[], &options());
+    let isolator = check.records[0].isolated[0].isolator.unwrap();
+    let fixed = assemble(&case).unwrap().system;
+    let modes = fixed.buildings()[1].modes();
+    let expected = correlation_coefficient(
+        Oscillator {
+            period: isolator.effective_period,
+            damping_ratio: isolator.effective_damping_ratio,
+        },
+        Oscillator {
+            period: modes.period[0],
+            damping_ratio: modes.damping_ratio[0],
+        },
+    );
+    assert!(isolator.effective_period > 1.5 * modes.period[0]);
+    let gap = &check.gaps[0];
+    let difference = gap.combinations.last().unwrap();
+    assert_eq!(difference.correlation.unwrap(), expected.unwrap());
+    // 9.7 mm with the period before yield.
+    let width = difference.records[0][1].width;
+    let demand = check.records[0].demand[0][1].value;
+    assert!(width >= demand, "{width} {demand}");
 }
 
 #[test]

@@ -25,6 +25,19 @@ pub enum TimeHistoryError {
         /// Name of the model.
         model: &'static str,
     },
+    /// A model of dry friction at more than two points of one floor. Two forces decide how a rigid
+    /// floor is held; those at further points are not unique.
+    #[error(
+        "gap {gap}: model {model} holds floors by friction, which it cannot at {points} points of a floor that turns: two of the forces decide how the floor is held, and no rule says how they are shared"
+    )]
+    FrictionAtPoints {
+        /// Name of the gap.
+        gap: String,
+        /// Name of the model.
+        model: &'static str,
+        /// Points of the floor.
+        points: usize,
+    },
     /// A force on a floor that cannot be.
     #[error("force on a floor: {reason}")]
     Force {

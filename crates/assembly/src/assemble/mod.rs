@@ -163,11 +163,11 @@ impl Parts {
     }
 }
 
-/// The greatest period (s) of each building of a case, as it is before anything yields.
+/// The fundamental period (s) along the row of each building of a case, as it is before anything yields.
 pub(crate) fn fundamental_periods(case: &Case) -> Result<Vec<f64>, CaseError> {
     let buildings = Parts::of(case)?.buildings;
-    let longest = |b: &Arc<ShearBuilding>| b.modes().period.iter().copied().fold(0.0, f64::max);
-    Ok(buildings.iter().map(longest).collect())
+    let period = |b: &Arc<ShearBuilding>| b.modes().period[b.modes().fundamental()];
+    Ok(buildings.iter().map(period).collect())
 }
 
 /// Columns that are hit beside floors that turn, or in buildings on isolators.
@@ -253,6 +253,11 @@ fn with_gaps(
             TimeHistoryError::JumpsAtPoints { .. } => {
                 let help = "give one point, such as `points = [0]`, or a model with a contact stiffness, such as anagnostopoulos_2004".to_owned();
                 case.error(gap.model.span.clone(), e.to_string(), Some(help)).into()
+            }
+            TimeHistoryError::FrictionAtPoints { .. } => {
+                let place = gap.points.as_ref().map_or(&gap.model.span, |p| &p.span);
+                let help = "give two points, or a model without dry friction, such as jankowski_2005".to_owned();
+                case.error(place.clone(), e.to_string(), Some(help)).into()
             }
             e => AssemblyError::from(e),
         })?;

@@ -599,9 +599,13 @@ pub(crate) fn combinations(
     let mut gaps = Vec::new();
     for (rule, effective) in rules(inputs) {
         let correlation = if rule == CombinationRule::DoubleDifference {
-            let a = oscillator(place, inputs, left, effective)?;
-            let b = oscillator(place, inputs, right, effective)?;
-            Some(correlation_coefficient(a, b)?)
+            Some(correlation(
+                place,
+                inputs,
+                [left, right],
+                effective,
+                records,
+            )?)
         } else {
             None
         };
@@ -646,18 +650,46 @@ fn rules(inputs: &Inputs<'_>) -> Vec<(CombinationRule, Option<EffectivePropertie
     rules
 }
 
-/// Period and damping of a building's first mode, effective ones if it yields.
+/// The correlation of the motion of two buildings: the least over the records, where isolators give
+/// every record a period and a damping of its own.
+fn correlation(
+    place: &GapPlace<'_>,
+    inputs: &Inputs<'_>,
+    buildings: [usize; 2],
+    effective: Option<EffectiveProperties>,
+    records: &[RecordDemand],
+) -> Result<f64, CheckError> {
+    let mut least = f64::INFINITY;
+    for record in records {
+        let of = |b| oscillator(place, inputs, b, effective, &record.isolated[b]);
+        let [a, b] = buildings.map(of);
+        least = least.min(correlation_coefficient(a?, b?)?);
+    }
+    Ok(least)
+}
+
+/// Period and damping of a building's fundamental mode along the row, effective ones if it yields or
+/// stands on isolators.
 fn oscillator(
     place: &GapPlace<'_>,
     inputs: &Inputs<'_>,
     building: usize,
     effective: Option<EffectiveProperties>,
+    isolated: &BuildingOutcome,
 ) -> Result<Oscillator, CheckError> {
     let modes = place.system.buildings()[building].modes();
+    let mode = modes.fundamental();
     let first = Oscillator {
-        period: modes.period.first().copied().unwrap_or(f64::NAN),
-        damping_ratio: modes.damping_ratio.first().copied().unwrap_or(f64::NAN),
+        period: modes.period[mode],
+        damping_ratio: modes.damping_ratio[mode],
     };
+    let isolator = isolated.isolator.as_ref();
+    if let Some(isolator) = isolator.filter(|i| i.effective_period > first.period) {
+        return Ok(Oscillator {
+            period: isolator.effective_period,
+            damping_ratio: isolator.effective_damping_ratio,
+        });
+    }
     let list = inputs.separation.ductility.as_ref();
     let ductility = list.and_then(|l| l.get(building));
     match (effective, ductility) {

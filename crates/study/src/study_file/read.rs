@@ -291,7 +291,7 @@ fn base(source: &str, path: &Path, own_record: bool) -> Result<Base, StudyError>
     };
     let first = |b: &Arc<_>| {
         let building: &pounding_shear_building::ShearBuilding = b;
-        building.modes().period.iter().copied().fold(0.0, f64::max)
+        building.modes().period[building.modes().fundamental()]
     };
     let first_periods = system.buildings().iter().map(first).collect();
     Ok(Base {

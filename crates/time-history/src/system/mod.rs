@@ -11,7 +11,7 @@ mod under;
 mod unequal_floors;
 
 use nalgebra::DMatrix;
-use pounding_gap_element::ImpactModel;
+use pounding_gap_element::{ImpactModel, Phase, Target};
 use pounding_shear_building::{
     DampingMatrix, ELEVATION_TOLERANCE, ShearBuilding, StiffnessMatrix, SymmetricTridiagonal,
 };
@@ -326,6 +326,21 @@ impl System {
                 gap: name.to_owned(),
                 model: level.model.descriptor().name,
             });
+        }
+        let sticks = |l: &&ContactLevel| {
+            let mut transitions = l.model.transitions(Phase::Approach).iter();
+            transitions.any(|t| matches!(t.target, Target::StickOrSlip))
+        };
+        for level in own.iter().filter(turned).filter(sticks) {
+            let same = |other: &&ContactLevel| other.place.storeys == level.place.storeys;
+            let points = own.iter().filter(same).count();
+            if points > 2 {
+                return Err(TimeHistoryError::FrictionAtPoints {
+                    gap: name.to_owned(),
+                    model: level.model.descriptor().name,
+                    points,
+                });
+            }
         }
         self.gaps.push(Gap {
             name: name.to_owned(),

@@ -16,6 +16,7 @@ use std::time::{Duration, Instant};
 use crate::failure::Failure;
 #[cfg(unix)]
 use crate::separate::{OUT_OF_PROCESSOR_TIME, is_child};
+use crate::separate::{end_child, is_mark_of_child};
 
 /// Exit code of a command that was interrupted.
 pub const EXIT_CODE: u8 = 5;
@@ -128,6 +129,7 @@ fn received() {
 
 /// Ends the process: removes part files, prints how to go on, exits.
 pub fn leave(done: &str) -> ! {
+    end_child();
     // Nobody finishes a file from here on.
     pounding_files::remove_part_files();
     let mut text = String::from("interrupted");
@@ -141,15 +143,15 @@ pub fn leave(done: &str) -> ! {
     }
     // A terminal that is gone changes nothing.
     let _ = std::io::stderr().lock().write_all(text.as_bytes());
-    exit()
+    end_with(EXIT_CODE)
 }
 
 /// Ends the process without what libraries do at its end: other threads are still in them.
-fn exit() -> ! {
+pub fn end_with(code: u8) -> ! {
     #[cfg(unix)]
-    signal_hook::low_level::exit(i32::from(EXIT_CODE));
+    signal_hook::low_level::exit(i32::from(code));
     #[cfg(not(unix))]
-    std::process::exit(i32::from(EXIT_CODE))
+    std::process::exit(i32::from(code))
 }
 
 /// A word that a shell takes as it is.
@@ -172,7 +174,7 @@ pub fn this_command_resumed() -> String {
 
 /// The words of this command.
 pub fn this_command() -> Vec<String> {
-    let words = std::env::args_os();
+    let words = std::env::args_os().filter(|word| !is_mark_of_child(word));
     words
         .map(|word| word.to_string_lossy().into_owned())
         .collect()

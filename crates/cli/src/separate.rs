@@ -1,28 +1,41 @@
-//! Files without a checksum are read in a process of their own.
+//! Results that are read back are read in a process of their own.
 //!
-//! Versions before the checksum wrote results that look whole when they are damaged. Only
-//! the HDF5 library finds out, and may crash, hang or ask for all memory on the way: the
-//! program then runs the same command once more as a child, which may do all that, and
-//! reports what came of it.
+//! Anybody can write a file that looks like a result, with a checksum that matches. Only the
+//! HDF5 library finds out, and may crash, hang or ask for all memory on the way: the program
+//! runs the same command once more as a child, which may do all that, and reports what came of
+//! it. The child limits itself while the library is at work, and tells which file it reads.
 
-use std::io::{Read, Write};
+use std::ffi::OsString;
+use std::io::{IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, ExitStatus, Stdio};
+use std::sync::{Mutex, OnceLock, PoisonError};
+#[cfg(not(unix))]
 use std::time::{Duration, Instant};
 
 use pounding_files::checksum::{ABSENT, WithoutChecksum, is_absent};
+use pounding_files::{FileUse, remove_left_by};
+use pounding_results::watch::{Watcher, watch};
 
+use crate::arguments::ColorChoice;
+use crate::color;
 use crate::failure::Failure;
 
 /// The hidden option that tells the child that it is one.
-pub const OPTION: &str = "accept-without-checksum";
-/// Time that reading takes at most, and what is added for each byte.
-const TIME: Duration = Duration::from_secs(30);
+pub const OPTION: &str = "read-in-this-process";
+/// How the line begins by which a child tells the number of the file that it reads.
+const MARK: &[u8] = b"\0reads ";
+/// Time that a command takes at most where processor time has no limits, and what is added for
+/// each byte.
+#[cfg(not(unix))]
+const TIME: Duration = Duration::from_secs(600);
+/// Bytes that are read in a second by the slowest machine.
 const BYTES_PER_SECOND: u64 = 1_000_000;
-/// Processor time (s) that reading takes at most, with the same addition: where the library gets
-/// lost it keeps a processor busy, while a slow disk only takes time.
+/// Processor time (s) that reading a file, or a part of it, takes at most, with the same
+/// addition: where the library gets lost it keeps a processor busy, while a slow disk only takes
+/// time.
 #[cfg(unix)]
-const PROCESSOR_TIME: u64 = 5;
+const PROCESSOR_TIME: u64 = 2;
 /// Memory that reading takes at most (bytes), and what is added for each byte: results
 /// are compressed.
 #[cfg(unix)]
@@ -31,10 +44,15 @@ const MEMORY: u64 = 4 << 30;
 const MEMORY_PER_BYTE: u64 = 16;
 /// How a child ends that has reached the limit: what it listens to says so by a signal.
 pub const OUT_OF_PROCESSOR_TIME: i32 = 9;
-/// How often the child is looked at.
-const INTERVAL: Duration = Duration::from_millis(10);
-/// Exit codes that say what they say everywhere; a panic has another.
-const OWN_CODES: std::ops::RangeInclusive<i32> = 0..=5;
+/// How a child ends that was to read the result of a study, and finds runs that are to be made.
+pub const RUNS_ARE_LEFT: u8 = 6;
+/// Exit codes that say what they say everywhere, and that one; a panic has another.
+const OWN_CODES: std::ops::RangeInclusive<i32> = 0..=6;
+
+/// Files that this process reads for another one, in the order of its arguments.
+static FILES: OnceLock<Vec<PathBuf>> = OnceLock::new();
+/// The child of this process.
+static CHILD: Mutex<Option<u32>> = Mutex::new(None);
 
 /// Who reads.
 pub enum Reading {
@@ -44,34 +62,78 @@ pub enum Reading {
     Done,
 }
 
-/// Decides who reads these files, and lets a child do it if one of them has no checksum.
-/// `child` says that this process is that child.
-pub fn reading(files: &[PathBuf], child: bool) -> Result<Reading, Failure> {
-    if child {
-        limit_resources(files);
-        return Ok(Reading::Here(WithoutChecksum::Accept));
+/// A child has ended without an answer.
+pub struct NoAnswer {
+    /// The file that it was reading, by its number; not known if it had read none.
+    pub file: Option<usize>,
+    how: String,
+}
+
+impl NoAnswer {
+    /// What this says of the file.
+    pub fn reason(&self) -> String {
+        format!("it is damaged, whatever its checksum says: {}", self.how)
     }
-    // Files that cannot be read are reported by the reader.
-    let absent = files.iter().filter(|f| matches!(is_absent(f), Ok(true)));
-    let absent: Vec<&PathBuf> = absent.collect();
-    if absent.is_empty() {
-        return Ok(Reading::Here(WithoutChecksum::Refuse));
+
+    /// What this says of the files that were to be read.
+    pub fn failure(&self, files: &[PathBuf]) -> Failure {
+        let about = match (self.file.and_then(|number| files.get(number)), files) {
+            (Some(file), _) | (None, [file]) => file.display().to_string(),
+            (None, files) => format!("one of {} files", files.len()),
+        };
+        Failure::input(
+            format!("{about} cannot be read: {}", self.reason()),
+            Some("copy the file again from where it is whole, or run it again".to_owned()),
+        )
+    }
+}
+
+/// Has a child do what this process was asked for, as it reads these files; `child` says that
+/// this process is that child. What the child leaves unfinished beside the outputs of `used` is
+/// removed.
+pub fn reading(files: &[PathBuf], used: &FileUse, child: bool) -> Result<Reading, Failure> {
+    by_child(files, used, child, &[])?.map_err(|none| none.failure(files))
+}
+
+/// The same with more arguments for the child; also says that it came to no answer.
+pub fn by_child(
+    files: &[PathBuf],
+    used: &FileUse,
+    child: bool,
+    more: &[OsString],
+) -> Result<Result<Reading, NoAnswer>, Failure> {
+    if child {
+        prepare(files);
+        return Ok(Ok(Reading::Here(WithoutChecksum::Accept)));
+    }
+    // What does not even begin and end as results do is refused without the library.
+    if files.iter().all(|file| is_absent(file).is_err()) {
+        return Ok(Ok(Reading::Here(WithoutChecksum::Refuse)));
     }
     let failed = |e: std::io::Error| Failure::output(&e, "a process that reads");
     let program = std::env::current_exe().map_err(failed)?;
+    let given: Vec<OsString> = std::env::args_os().skip(1).collect();
     let mut command = Command::new(program);
-    command
-        .args(std::env::args_os().skip(1))
-        .arg(format!("--{OPTION}"));
-    let time = TIME + Duration::from_secs(size(files) / BYTES_PER_SECOND);
-    let (ending, said) = run(&mut command, time).map_err(failed)?;
+    // Its errors are shown by this process, as the terminal of this one can.
+    if color::among(&given) == ColorChoice::Auto
+        && ColorChoice::Auto.is_on(std::io::stderr().is_terminal())
+    {
+        command.arg("--color=always");
+    }
+    command.args(given).arg(format!("--{OPTION}")).args(more);
+    let Ended {
+        ending,
+        said,
+        process,
+    } = run(&mut command, size(files)).map_err(failed)?;
+    let (said, file) = unmarked(&said);
     let how = match ending {
         Ending::Exit(status) => match status.code() {
             Some(code) if OWN_CODES.contains(&code) => {
                 // If it cannot be said, the exit code still says it.
                 let _ = std::io::stderr().write_all(&said);
                 return match u8::try_from(code) {
-                    Ok(0) | Err(_) => Ok(Reading::Done),
+                    Ok(0) | Err(_) => Ok(Ok(Reading::Done)),
                     Ok(code) => Err(Failure::Reported(code)),
                 };
             }
@@ -80,16 +142,29 @@ pub fn reading(files: &[PathBuf], child: bool) -> Result<Reading, Failure> {
             }
             _ => format!("reading it ended without an answer ({status})"),
         },
-        Ending::OverTime => format!("reading it took more than {} s", time.as_secs()),
+        #[cfg(not(unix))]
+        Ending::OverTime => "reading it took too much time".to_owned(),
     };
-    let names: Vec<String> = absent.iter().map(|f| f.display().to_string()).collect();
-    Err(Failure::input(
-        format!(
-            "{} cannot be read: it has no checksum, and {how}: it is damaged",
-            names.join(" or ")
-        ),
-        Some("copy the file again from where it is whole, or run it again".to_owned()),
-    ))
+    tracing::debug!(said = %String::from_utf8_lossy(&said), "a child ended without an answer");
+    used.outputs()
+        .for_each(|output| remove_left_by(output, process));
+    Ok(Err(NoAnswer { file, how }))
+}
+
+/// What a child said for people, and the number of the file that it read last.
+fn unmarked(said: &[u8]) -> (Vec<u8>, Option<usize>) {
+    let mut text = Vec::new();
+    let mut file = None;
+    for line in said.split_inclusive(|byte| *byte == b'\n') {
+        match line.strip_prefix(MARK) {
+            Some(number) => {
+                let number = String::from_utf8_lossy(number);
+                file = number.trim().parse().ok().or(file);
+            }
+            None => text.extend_from_slice(line),
+        }
+    }
+    (text, file)
 }
 
 /// The warnings of files that were read without a checksum.
@@ -100,10 +175,27 @@ pub fn warnings(files: &[PathBuf]) -> Vec<String> {
 
 /// Whether this process reads for another one, which says what there is to say.
 pub fn is_child() -> bool {
-    std::env::args_os().any(|a| {
-        a.to_str()
-            .is_some_and(|a| a.strip_prefix("--") == Some(OPTION))
-    })
+    std::env::args_os().any(|word| is_mark_of_child(&word))
+}
+
+/// Whether a word of a command tells a child that it is one: no part of what was asked for.
+pub fn is_mark_of_child(word: &std::ffi::OsStr) -> bool {
+    word.to_str()
+        .is_some_and(|word| word.strip_prefix("--") == Some(OPTION))
+}
+
+/// Has the child of this process end, before this one does.
+pub fn end_child() {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Pid, Signal, kill_process};
+        let child = *CHILD.lock().unwrap_or_else(PoisonError::into_inner);
+        let number = child.and_then(|number| i32::try_from(number).ok());
+        if let Some(child) = number.and_then(Pid::from_raw) {
+            // It may have ended by itself.
+            let _ = kill_process(child, Signal::TERM);
+        }
+    }
 }
 
 fn size(files: &[PathBuf]) -> u64 {
@@ -115,66 +207,162 @@ fn size(files: &[PathBuf]) -> u64 {
 #[derive(Debug)]
 enum Ending {
     Exit(ExitStatus),
+    #[cfg(not(unix))]
     OverTime,
 }
 
-/// Runs a command for this long at most; with it what it wrote to standard error.
-fn run(command: &mut Command, time: Duration) -> std::io::Result<(Ending, Vec<u8>)> {
+/// A child that has ended.
+struct Ended {
+    ending: Ending,
+    /// What it wrote to standard error.
+    said: Vec<u8>,
+    process: u32,
+}
+
+/// Runs a command that reads so many bytes.
+#[cfg_attr(unix, expect(unused_variables))]
+fn run(command: &mut Command, bytes: u64) -> std::io::Result<Ended> {
     let mut child = command
         .stdin(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()?;
+    let process = child.id();
+    let known = |child| *CHILD.lock().unwrap_or_else(PoisonError::into_inner) = child;
+    known(Some(process));
+    let mut said = Vec::new();
     let pipe = child.stderr.take();
-    let said = std::thread::spawn(move || {
-        let mut said = Vec::new();
+    #[cfg(unix)]
+    let ending = {
         // What was read until the pipe broke is all there is.
         let _ = pipe.map(|mut pipe| pipe.read_to_end(&mut said));
-        said
-    });
-    let started = Instant::now();
-    let ending = loop {
-        if let Some(status) = child.try_wait()? {
-            break Ending::Exit(status);
-        }
-        if started.elapsed() > time {
-            child.kill()?;
-            child.wait()?;
-            break Ending::OverTime;
-        }
-        std::thread::sleep(INTERVAL);
+        Ending::Exit(child.wait()?)
     };
-    Ok((ending, said.join().unwrap_or_default()))
+    #[cfg(not(unix))]
+    let ending = {
+        let time = TIME + Duration::from_secs(bytes / BYTES_PER_SECOND);
+        let reader = std::thread::spawn(move || {
+            let mut said = Vec::new();
+            let _ = pipe.map(|mut pipe| pipe.read_to_end(&mut said));
+            said
+        });
+        let started = Instant::now();
+        let ending = loop {
+            if let Some(status) = child.try_wait()? {
+                break Ending::Exit(status);
+            }
+            if started.elapsed() > time {
+                child.kill()?;
+                child.wait()?;
+                break Ending::OverTime;
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        };
+        said = reader.join().unwrap_or_default();
+        ending
+    };
+    known(None);
+    Ok(Ended {
+        ending,
+        said,
+        process,
+    })
+}
+
+/// Prepares this process for reading files that may be anything.
+fn prepare(files: &[PathBuf]) {
+    if FILES.set(files.to_vec()).is_err() {
+        return;
+    }
+    #[cfg(unix)]
+    limits::prepare();
+    watch(Watcher {
+        begins: |path| {
+            tell(path);
+            #[cfg(unix)]
+            limits::set(path);
+        },
+        ends: || {
+            #[cfg(unix)]
+            limits::lift();
+        },
+    });
+}
+
+/// Tells the parent which file is read, if it is another one than before.
+fn tell(path: &Path) {
+    static LAST: Mutex<Option<usize>> = Mutex::new(None);
+    let Some(files) = FILES.get() else { return };
+    let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
+    if last
+        .and_then(|number| files.get(number))
+        .is_some_and(|file| file == path)
+    {
+        return;
+    }
+    *last = files.iter().position(|file| file == path);
+    if let Some(number) = *last {
+        let line = [MARK, format!("{number}\n").as_bytes()].concat();
+        // A parent that is gone asks for nothing any more.
+        let _ = std::io::stderr().write_all(&line);
+    }
 }
 
 /// Keeps a damaged size from taking the memory of the machine or its processor for long, and
 /// crashes from leaving their memory on the disk.
 #[cfg(unix)]
-fn limit_resources(files: &[PathBuf]) {
+mod limits {
+    use std::path::Path;
+    use std::sync::OnceLock;
+
     use rustix::process::{Resource, Rlimit, getrlimit, setrlimit};
-    let size = size(files);
-    let bytes = MEMORY.saturating_add(size.saturating_mul(MEMORY_PER_BYTE));
-    let seconds = PROCESSOR_TIME + size / BYTES_PER_SECOND;
-    let all = [
-        (Resource::As, bytes),
-        (Resource::Core, 0),
-        (Resource::Cpu, seconds),
-    ];
-    for (resource, most) in all {
-        let maximum = getrlimit(resource).maximum;
-        let most = Some(maximum.map_or(most, |m| m.min(most)));
+    use rustix::time::{ClockId, clock_gettime};
+
+    use super::{BYTES_PER_SECOND, MEMORY, MEMORY_PER_BYTE, PROCESSOR_TIME};
+
+    const LIMITED: [Resource; 2] = [Resource::As, Resource::Cpu];
+    /// What the limits were before.
+    static BEFORE: OnceLock<[Rlimit; 2]> = OnceLock::new();
+
+    /// Remembers the limits that there are.
+    pub fn prepare() {
+        let _ = BEFORE.set(LIMITED.map(getrlimit));
+        let maximum = getrlimit(Resource::Core).maximum;
+        limit(Resource::Core, Some(0), maximum);
+        // Whoever asked for this is gone: nobody reads the answer.
+        #[cfg(target_os = "linux")]
+        let _ =
+            rustix::process::set_parent_process_death_signal(Some(rustix::process::Signal::TERM));
+    }
+
+    /// Limits what reading a file may take from here on.
+    pub fn set(path: &Path) {
+        let Some(before) = BEFORE.get() else { return };
+        let size = Path::metadata(path).map_or(0, |m| m.len());
+        let spent = clock_gettime(ClockId::ProcessCPUTime).tv_sec;
+        let seconds = u64::try_from(spent).unwrap_or(0) + 1 + PROCESSOR_TIME;
+        let most = [
+            MEMORY.saturating_add(size.saturating_mul(MEMORY_PER_BYTE)),
+            seconds + size / BYTES_PER_SECOND,
+        ];
+        for ((resource, before), most) in LIMITED.into_iter().zip(before).zip(most) {
+            let most = before.current.map_or(most, |current| current.min(most));
+            limit(resource, Some(most), before.maximum);
+        }
+    }
+
+    /// Limits no more than before.
+    pub fn lift() {
+        let Some(before) = BEFORE.get() else { return };
+        for (resource, before) in LIMITED.into_iter().zip(before) {
+            limit(resource, before.current, before.maximum);
+        }
+    }
+
+    fn limit(resource: Resource, current: Option<u64>, maximum: Option<u64>) {
         // Without a limit it is read all the same.
-        let _ = setrlimit(
-            resource,
-            Rlimit {
-                current: most,
-                maximum,
-            },
-        );
+        let _ = setrlimit(resource, Rlimit { current, maximum });
     }
 }
-
-#[cfg(not(unix))]
-fn limit_resources(_files: &[PathBuf]) {}
 
 #[cfg(all(test, unix))]
 mod tests {
@@ -188,18 +376,18 @@ mod tests {
     }
 
     #[test]
-    fn a_child_is_ended_when_its_time_is_over() {
-        let (ending, _) = run(&mut shell("exec sleep 600"), Duration::from_millis(50)).unwrap();
-        assert!(matches!(ending, Ending::OverTime));
+    fn a_child_says_how_it_ended() {
+        let ended = run(&mut shell("echo told >&2; exit 3"), 0).unwrap();
+        assert_eq!(ended.said, b"told\n");
+        assert!(matches!(ended.ending, Ending::Exit(status) if status.code() == Some(3)));
+        let ended = run(&mut shell("kill -SEGV $$"), 0).unwrap();
+        assert!(matches!(ended.ending, Ending::Exit(status) if status.code().is_none()));
     }
 
     #[test]
-    fn a_child_says_how_it_ended() {
-        let long = Duration::from_secs(600);
-        let (ending, said) = run(&mut shell("echo told >&2; exit 3"), long).unwrap();
-        assert_eq!(said, b"told\n");
-        assert!(matches!(ending, Ending::Exit(status) if status.code() == Some(3)));
-        let (ending, _) = run(&mut shell("kill -SEGV $$"), long).unwrap();
-        assert!(matches!(ending, Ending::Exit(status) if status.code().is_none()));
+    fn what_a_child_reads_is_told_apart_from_what_it_says() {
+        let (text, file) = unmarked(b"\0reads 0\nwarning\n\0reads 12\nlast");
+        assert_eq!((&text[..], file), (&b"warning\nlast"[..], Some(12)));
+        assert_eq!(unmarked(b"no mark\n"), (b"no mark\n".to_vec(), None));
     }
 }

@@ -19,6 +19,7 @@ use crate::files::{ShardName, name_left_over, reads_too};
 use crate::heartbeat::{Heartbeat, State};
 use crate::interruption;
 use crate::progress::{Progress, Unit};
+use crate::separate::{RUNS_ARE_LEFT, Reading, is_child, reading};
 use crate::tables::warning_lines;
 
 /// The shard that arguments name, or the whole study.
@@ -133,6 +134,24 @@ fn shard_name(study: String, shard: Shard) -> ShardName {
     }
 }
 
+/// Has another process read the result that a call stands before which goes on, and do all that is
+/// asked of it; false where runs are left to be made, which is the work of this process.
+pub fn stands_complete(
+    options: &SweepOptions,
+    running: &RunningArguments,
+    files: &FileUse,
+) -> Result<bool, Failure> {
+    if !options.resume || !options.output.is_file() {
+        return Ok(false);
+    }
+    let read = [options.output.clone()];
+    match reading(&read, files, running.read_in_this_process) {
+        Ok(reading) => Ok(matches!(reading, Reading::Done)),
+        Err(Failure::Reported(RUNS_ARE_LEFT)) => Ok(false),
+        Err(failure) => Err(failure),
+    }
+}
+
 /// Runs a study and shows how far it is, beside a terminal or a log also in the folder of its
 /// shards. Asked to end, it stores what has finished, says how to go on, and ends the process.
 pub fn run(
@@ -146,6 +165,10 @@ pub fn run(
     let mut heartbeat = heartbeat.transpose()?;
     let progress = Progress::begin(Unit::Runs)?;
     let report = make(study, options, &mut |now| {
+        if is_child() {
+            // It was to read a result, and finds runs of an interrupted call instead.
+            interruption::end_with(RUNS_ARE_LEFT);
+        }
         show(&progress, now);
         if let Some(heartbeat) = &mut heartbeat {
             heartbeat.beat(now);

@@ -12,6 +12,8 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
+use crate::label;
+
 /// Start of the line; the number is the version of its form.
 const START: &[u8] = b"pounding-sha256:1 ";
 /// Start of the line in any version.
@@ -148,6 +150,19 @@ pub fn check_content(content: &mut (impl Read + Seek)) -> Result<Checksum, Check
     }
 }
 
+/// Where the line begins, or the end of what has none.
+pub(crate) fn without_line(content: &mut (impl Read + Seek)) -> io::Result<u64> {
+    let length = content.seek(SeekFrom::End(0))?;
+    let Some(before) = length.checked_sub(LENGTH as u64) else {
+        return Ok(length);
+    };
+    content.seek(SeekFrom::Start(before))?;
+    let mut last = [0; LENGTH];
+    content.read_exact(&mut last)?;
+    let ours = last.starts_with(START) && last.ends_with(b"\n");
+    Ok(if ours { before } else { length })
+}
+
 /// The line at the end and the number of bytes before it; `None` if the content ends where
 /// HDF5 says that it does.
 fn ending(content: &mut (impl Read + Seek)) -> Result<Option<([u8; LENGTH], u64)>, ChecksumError> {
@@ -170,11 +185,24 @@ fn ending(content: &mut (impl Read + Seek)) -> Result<Option<([u8; LENGTH], u64)
         }
     }
     let end = end_of_content(&header).ok_or(ChecksumError::Header)?;
+    if end < length && labelled(content, end)? {
+        return Err(ChecksumError::Removed);
+    }
     match end.cmp(&length) {
         std::cmp::Ordering::Equal if !last.starts_with(ANY_VERSION) => Ok(None),
         std::cmp::Ordering::Greater => Err(ChecksumError::Truncated),
         _ => Err(ChecksumError::NotAChecksum),
     }
+}
+
+/// Whether what follows the content is a label and nothing else: the checksum was cut off.
+fn labelled(content: &mut (impl Read + Seek), end: u64) -> io::Result<bool> {
+    content.seek(SeekFrom::Start(end))?;
+    let mut rest = Vec::new();
+    content.take(label::LONGEST).read_to_end(&mut rest)?;
+    let text = rest.strip_prefix(label::START.as_bytes());
+    let line = text.and_then(|text| text.strip_suffix(b"\n"));
+    Ok(line.is_some_and(|line| !line.contains(&b'\n')))
 }
 
 /// The end of the content as the superblock of HDF5 has it (File Format Specification,
@@ -309,6 +337,10 @@ mod tests {
             let told = found(&bytes).unwrap_err().to_string();
             assert!(told.contains(word), "{told}");
         }
+        // What was written with a label was written with a checksum.
+        let label = [label::START.as_bytes(), b"text\n"].concat();
+        let cut = found(&[&whole[..], &label].concat());
+        assert!(matches!(cut, Err(ChecksumError::Removed)), "{cut:?}");
         let mut other = content(700);
         other[13] = 4;
         assert!(matches!(found(&other), Err(ChecksumError::Header)));

@@ -4,11 +4,15 @@
 //! The crate knows nothing of what stands in a file. Everything that the program writes
 //! goes into a [`PartFile`] beside its place first; what a command reads and will write is
 //! held against one another by [`FileUse`] before it does any work; [`checksum`] tells of
-//! what is read back whether it is as it was written.
+//! what is read back whether it is as it was written, and [`label`] what it is, before anybody
+//! parses it.
 
 pub mod checksum;
 mod file_use;
+pub mod label;
 mod part_file;
 
 pub use file_use::{FileUse, FileUseError, same_file};
-pub use part_file::{LeftOver, PartFile, left_over, remove_part_files, runs_here, write};
+pub use part_file::{
+    LeftOver, PartFile, left_over, remove_left_by, remove_part_files, runs_here, write,
+};

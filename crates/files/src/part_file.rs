@@ -178,6 +178,16 @@ pub fn left_over(target: &Path) -> Vec<LeftOver> {
     found
 }
 
+/// Removes the part files of a target that a process has left behind, which ran on this machine
+/// and has ended.
+pub fn remove_left_by(target: &Path, process: u32) {
+    let left = left_over(target).into_iter();
+    for part in left.filter(|part| part.process == process) {
+        // One that cannot be removed is named by the next command.
+        let _ = std::fs::remove_file(part.path);
+    }
+}
+
 /// Whether a process of this number runs on this machine, whoever owns it.
 #[cfg(unix)]
 #[must_use]

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use hdf5::{Group, H5Type, Location};
 use pounding_files::checksum::{ABSENT, Checksum, WithoutChecksum};
+use pounding_results::watch::Reading;
 use pounding_results::{ResultFile, number, read_all, text, texts, value, values};
 
 use crate::error::ReportError;
@@ -25,6 +26,7 @@ impl RunResult {
     /// A file that is not as it was written, that is no HDF5 or no result of a run, and
     /// parts of it that are missing or have another shape.
     pub fn read(path: &Path, without: WithoutChecksum) -> Outcome<Self> {
+        let _reading = Reading::of(path);
         let opened = ResultFile::open(path, without).map_err(|source| ReportError::Unreadable {
             path: path.to_owned(),
             source,

@@ -3,20 +3,24 @@
 //! [`ResultFile::open`] is the only way to a result file: the checksum at its end is
 //! compared before the HDF5 library sees the file. What is then read has the type that was
 //! written and a size that is stored, or is an error: of a file without checksum, a
-//! damaged type or a lost piece would otherwise be read as zeros.
+//! damaged type or a lost piece would otherwise be read as zeros. [`Label`] says what a file is
+//! without the library, and [`watch`] who is told while the library is at work.
 
 mod attributes;
 mod chunks;
 pub mod dimension_scales;
+mod label;
 mod new_file;
 mod run;
 pub mod study;
 mod values;
+pub mod watch;
 
 use std::path::Path;
 
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum, check};
 
+pub use label::{Kind, Label, OfStudy};
 pub use run::{
     MAXIMUM_RESPONSES, ResponsesTooLarge, RunEnding, RunHead, RunWriter, WriteError, check_size,
     image, run_in_memory, write_run,

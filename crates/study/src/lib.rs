@@ -63,8 +63,8 @@ pub use ida::*;
 pub use merge::{MergeReport, merge};
 #[cfg(feature = "results")]
 pub use pounding_results::study::{
-    Coordinate, Description, MergeOptions, Part, ResultReader, StudyFileError, Survey, ranges,
-    survey,
+    Coordinate, Description, Fault, MergeOptions, Part, ResultReader, StudyFileError, Survey,
+    ranges, survey,
 };
 #[cfg(feature = "results")]
 pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};

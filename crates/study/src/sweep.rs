@@ -7,6 +7,7 @@ use std::time::Duration;
 
 use pounding_files::PartFile;
 use pounding_files::checksum::WithoutChecksum;
+use pounding_results::Label;
 use pounding_results::study::{
     Coordinate, Description, Part, ResultReader, ResultWriter, StudyFileError,
 };
@@ -337,14 +338,25 @@ impl SweepReport {
 }
 
 /// When going on finds the result of this very study, there is nothing left to do but the
-/// table. Any other file in its place is not ours to replace: it may be the finished result
-/// of another shard.
+/// table. Any other file in its place is not ours to replace, as it may be the finished result
+/// of another shard, unless an interrupted call of this very study was to replace it.
 fn complete(
     runner: &Runner<'_>,
     description: &Description,
     options: &SweepOptions,
 ) -> Result<Option<SweepReport>, StudyError> {
     if !options.resume || !options.output.is_file() {
+        return Ok(None);
+    }
+    // What an interrupted call of this study was to replace is replaced by the one that goes on;
+    // it is not read.
+    let label = Label::of(&options.output).and_then(|label| label.study);
+    let says_ours = label.is_some_and(|found| {
+        found.sha256 == description.study_sha256
+            && found.part == description.part
+            && found.build == description.build
+    });
+    if !says_ours && Parts::hold(&options.output, &signature(description)) {
         return Ok(None);
     }
     let standing = |reason: String| StudyError::Standing {
@@ -380,18 +392,19 @@ fn spare_other_shards(description: &Description, output: &Path) -> Result<(), St
     if description.part.is_whole() || !output.is_file() {
         return Ok(());
     }
-    // Anything else is replaced, as the output of any command is.
-    let Ok(found) = ResultReader::open(output, WithoutChecksum::Refuse) else {
-        return Ok(());
-    };
-    let found = &found.description;
-    if found.study_sha256 != description.study_sha256 || found.part == description.part {
-        return Ok(());
+    // Not read: its label is enough, whatever its content may be. Anything else is replaced, as
+    // the output of any command is.
+    match Label::of(output).and_then(|label| label.study) {
+        Some(found)
+            if found.sha256 == description.study_sha256 && found.part != description.part =>
+        {
+            Err(StudyError::OtherShard {
+                path: output.to_owned(),
+                reason: of_this_study(&found.part),
+            })
+        }
+        _ => Ok(()),
     }
-    Err(StudyError::OtherShard {
-        path: output.to_owned(),
-        reason: other(found, description).unwrap_or_default(),
-    })
 }
 
 /// What a result is that is not this one.
@@ -399,10 +412,7 @@ fn other(found: &Description, wanted: &Description) -> Option<String> {
     if found.study_sha256 != wanted.study_sha256 {
         Some("it is the result of another study, or of another version of this one".to_owned())
     } else if found.part != wanted.part {
-        Some(match found.part.is_whole() {
-            true => "it is the result of the whole study".to_owned(),
-            false => format!("it is {} of this study", found.part),
-        })
+        Some(of_this_study(&found.part))
     } else if found.build != wanted.build {
         Some(format!(
             "it was computed by another build of the program ({}; this one is {})",
@@ -410,6 +420,14 @@ fn other(found: &Description, wanted: &Description) -> Option<String> {
         ))
     } else {
         None
+    }
+}
+
+/// What holds these shards of this study.
+fn of_this_study(part: &Part) -> String {
+    match part.is_whole() {
+        true => "it is the result of the whole study".to_owned(),
+        false => format!("it is {part} of this study"),
     }
 }
 

@@ -100,9 +100,9 @@ pub enum Command {
         /// Study file of a result of `ida`, for the page of its fragilities
         #[arg(long, value_name = "FILE")]
         study: Option<InputPath>,
-        /// Read a result without checksum here, not in a process of its own
+        /// Read the result here, not in a process of its own
         #[arg(long, hide = true)]
-        accept_without_checksum: bool,
+        read_in_this_process: bool,
     },
     /// Is the gap wide enough? Demand by simulation, SRSS, DDC and code; effects of pounding
     Gap(Box<GapArguments>),

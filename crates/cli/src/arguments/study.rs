@@ -105,6 +105,9 @@ pub struct RunningArguments {
     /// Record runs whose record cannot be read as failed, and compute all others
     #[arg(long)]
     pub keep_going: bool,
+    /// Read a result that stands complete here, not in a process of its own
+    #[arg(long, hide = true)]
+    pub read_in_this_process: bool,
 }
 
 /// Arguments of `merge`.
@@ -137,9 +140,15 @@ pub struct MergeArguments {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Read shards without checksum here, not in a process of their own
+    /// Read the shards here, not in a process of their own
     #[arg(long, hide = true)]
-    pub accept_without_checksum: bool,
+    pub read_in_this_process: bool,
+    /// Shards by their numbers among all files, from 0, that another process could not read
+    #[arg(long, hide = true, value_name = "NUMBER")]
+    pub unreadable: Vec<usize>,
+    /// Why not, for each of them
+    #[arg(long, hide = true, value_name = "TEXT")]
+    pub because: Vec<String>,
 }
 
 /// Arguments of `status`.

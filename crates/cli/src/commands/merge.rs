@@ -1,31 +1,59 @@
 //! `pounding merge`: one result from the results of shards.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use pounding_catalogue::wording::counted;
+use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
-use pounding_study::{MergeOptions, Survey, ranges, survey, writable};
+use pounding_study::{Fault, MergeOptions, Survey, ranges, survey, writable};
 use serde::Serialize;
 
 use crate::arguments::MergeArguments;
 use crate::failure::Failure;
 use crate::files::shard_files;
 use crate::output::{pretty, print, warn};
-use crate::separate::{Reading, reading, warnings};
+use crate::separate::{Reading, by_child, reading, warnings};
 
 /// Merges the results of shards, or says whether they can be merged.
-pub fn merge(arguments: &MergeArguments) -> Result<(), Failure> {
+pub fn merge(arguments: &MergeArguments, files: FileUse) -> Result<(), Failure> {
     let shards = shard_files(&arguments.shards)?;
     if let Some(output) = &arguments.output {
         writable(output)?;
     }
-    let without_checksum = match reading(&shards, arguments.accept_without_checksum)? {
+    let child = arguments.read_in_this_process;
+    let without_checksum = match &arguments.output {
+        Some(_) => reading(&shards, &files, child)?,
+        None => looked_at(&shards, &files, child)?,
+    };
+    let without_checksum = match without_checksum {
         Reading::Here(without) => without,
         Reading::Done => return Ok(()),
     };
     match &arguments.output {
         Some(output) => merged(arguments, &shards, output, without_checksum),
         None => checked(arguments, &shards, without_checksum),
+    }
+}
+
+/// Has a child look at all files, and another one at all but those at which the first came to no
+/// answer: they are named among the faults.
+fn looked_at(shards: &[PathBuf], files: &FileUse, child: bool) -> Result<Reading, Failure> {
+    let mut known: Vec<OsString> = Vec::new();
+    let mut unreadable = Vec::new();
+    loop {
+        let none = match by_child(shards, files, child, &known)? {
+            Ok(reading) => return Ok(reading),
+            Err(none) => none,
+        };
+        match none.file.filter(|number| !unreadable.contains(number)) {
+            Some(number) => {
+                unreadable.push(number);
+                known.push(format!("--unreadable={number}").into());
+                known.push(format!("--because={}", none.reason()).into());
+            }
+            None => return Err(none.failure(shards)),
+        }
     }
 }
 
@@ -101,7 +129,16 @@ fn checked(
     shards: &[PathBuf],
     without_checksum: WithoutChecksum,
 ) -> Result<(), Failure> {
-    let survey = survey(shards, without_checksum);
+    let known = |number: &usize| arguments.unreadable.contains(number);
+    let all = shards.iter().enumerate();
+    let readable = all.filter(|(number, _)| !known(number));
+    let readable: Vec<PathBuf> = readable.map(|(_, file)| file.clone()).collect();
+    let mut survey = survey(&readable, without_checksum);
+    for (number, reason) in arguments.unreadable.iter().zip(&arguments.because) {
+        if let Some(path) = shards.get(*number) {
+            survey.faults.push(Fault::unreadable(path, reason));
+        }
+    }
     let merges = survey.faults.is_empty()
         && survey.count > 0
         && (survey.builds.len() < 2 || arguments.allow_mixed_builds)

@@ -51,7 +51,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
         Command::Stiffness(arguments) => stiffness::stiffness(&arguments),
         Command::Motion(command) => motion::motion(&command, files),
         Command::Sweep(arguments) => sweep::sweep(&arguments, files),
-        Command::Merge(arguments) => merge::merge(&arguments),
+        Command::Merge(arguments) => merge::merge(&arguments, files),
         Command::Status(arguments) => status::status(&arguments),
         Command::Ida(arguments) => ida::ida(&arguments, files),
         Command::Explore(arguments) => explore::explore(&arguments, files),
@@ -59,14 +59,14 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
             result,
             output,
             study,
-            accept_without_checksum,
+            read_in_this_process,
         } => {
             let asked = report::Asked {
                 result: &result,
                 output: output.as_deref(),
                 study: study.as_deref(),
             };
-            report::report(&asked, ida::page_of_result, accept_without_checksum, files)
+            report::report(&asked, ida::page_of_result, read_in_this_process, files)
         }
         Command::Schema { file } => print(&pretty(&match file {
             SchemaOf::Case => pounding_case::schema(),

@@ -51,7 +51,7 @@ pub fn report(
         return of_answer(asked, &output);
     }
     let read = [path.to_owned()];
-    let without = match reading(&read, child)? {
+    let without = match reading(&read, &files, child)? {
         Reading::Here(without) => without,
         Reading::Done => return Ok(()),
     };

@@ -7,7 +7,7 @@ use std::time::Instant;
 use pounding_assembly::Assembly;
 use pounding_files::FileUse;
 use pounding_report::pictures::run::Responses;
-use pounding_results::{RunEnding, RunHead, RunWriter};
+use pounding_results::{RunEnding, RunHead, RunWriter, WriteError};
 use pounding_time_history::{
     GridRecorder, HistorySink, Outcome, Recorder, Summary, TimeHistoryError, run as integrate,
 };
@@ -49,7 +49,10 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         system: &assembly.system,
         accelerogram: &assembly.accelerogram,
     };
-    let writer = output.as_deref().map(|path| RunWriter::begin(path, &head));
+    let writer = output.as_deref().map(|path| {
+        let writer = RunWriter::begin(path, &head)?;
+        Ok::<_, WriteError>(writer.of_case_file(&arguments.case))
+    });
     let mut writer = recorder(&assembly, writer.transpose()?).map_err(failed)?;
     let picture = arguments.plot.as_ref();
     let picture = picture.map(|_| Responses::of(&assembly.system));

@@ -9,7 +9,7 @@ use crate::files::have_a_place;
 use crate::output::{pretty, print, print_as_it_is};
 use crate::page;
 use crate::plan::{self, Planned};
-use crate::study::{Finished, all_failed, options, run, shard, summary};
+use crate::study::{Finished, all_failed, options, run, shard, stands_complete, summary};
 
 /// Runs a study, or shows what it would run.
 pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -30,6 +30,9 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
     let shard = shard(&arguments.sharing, &arguments.running)?;
     let into = arguments.sharing.into.as_deref();
     let options = options(&study, &arguments.running, (shard, into), &mut files)?;
+    if stands_complete(&options, &arguments.running, &files)? {
+        return Ok(());
+    }
     have_a_place([arguments.running.report.as_deref()])?;
     let report = run(&study, &options, into)?;
     if let Some(path) = &arguments.running.report {

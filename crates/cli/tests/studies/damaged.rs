@@ -1,6 +1,7 @@
 //! Files that were damaged, cut or changed after they were written: refused before the HDF5
-//! library parses them. Files without a checksum, as earlier versions wrote them, are read
-//! by a child process and with a warning.
+//! library parses them. What it parses, it parses in a child process: a checksum that matches can
+//! be written by anybody. Files without one, as earlier versions wrote them, are read with a
+//! warning.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -247,6 +248,93 @@ fn damaged_files_of_earlier_versions_end_nothing_but_their_reader() {
         assert!(refused > 10, "{refused}");
         std::fs::write(bench.path(name), &whole).unwrap();
     }
+}
+
+/// A checksum that was computed anew says nothing of what was damaged before.
+#[test]
+fn files_whose_checksum_was_computed_anew_end_nothing_but_their_reader() {
+    let bench = bench();
+    let mut random = Random(5);
+    let mut no_answer = 0;
+    for (name, command, written, codes) in [
+        ("run.h5", "report run.h5 -o out.html", "out.html", [0, 2]),
+        ("2.h5", "report 2.h5 -o out.html", "out.html", [0, 2]),
+        ("2.h5", "merge 1.h5 2.h5 3.h5 -o out.h5", "out.h5", [0, 2]),
+        ("2.h5", "merge --check 1.h5 2.h5 3.h5", "out.h5", [0, 1]),
+        (
+            "2.h5",
+            "sweep study.toml --shard 2/3 -o 2.h5 --resume --csv out.csv",
+            "out.csv",
+            [0, 2],
+        ),
+    ] {
+        let whole = bench.bytes(name);
+        for number in 0..10 {
+            let mut bytes = whole[..whole.len() - LENGTH].to_vec();
+            let end = bytes.len().min(8000);
+            for _ in 0..=number % 3 {
+                random.corrupt(&mut bytes[48..end]);
+            }
+            std::fs::write(bench.path(name), &bytes).unwrap();
+            append(&bench.path(name)).unwrap();
+            let output = bench.run(command);
+            let told = String::from_utf8(output.stderr).unwrap();
+            let answer = String::from_utf8(output.stdout).unwrap();
+            let code = output.status.code();
+            assert!(
+                code.is_some_and(|code| codes.contains(&code)),
+                "{command} {number}: {code:?} {told}"
+            );
+            if code != Some(0) {
+                let told = format!("{told}{answer}");
+                assert!(told.contains(name), "{command} {number}: {told}");
+                assert!(!bench.path(written).exists());
+                no_answer += usize::from(told.contains("whatever its checksum says"));
+            }
+            assert!(
+                !told.contains("panicked") && !told.contains("reads 0"),
+                "{told}"
+            );
+            let _ = std::fs::remove_file(bench.path(written));
+            bench.no_part_file();
+        }
+        std::fs::write(bench.path(name), &whole).unwrap();
+    }
+    assert!(no_answer > 2, "the library came to harm {no_answer} times");
+}
+
+/// `merge --check` names every file that the library gets lost in, and looks at all others.
+#[test]
+fn all_files_that_cannot_be_read_are_named() {
+    let bench = bench();
+    let mut random = Random(7);
+    for name in ["1.h5", "3.h5"] {
+        let whole = bench.bytes(name);
+        // Until one is found in which the library gets lost.
+        loop {
+            let mut bytes = whole[..whole.len() - LENGTH].to_vec();
+            random.corrupt(&mut bytes[48..8000]);
+            std::fs::write(bench.path(name), &bytes).unwrap();
+            append(&bench.path(name)).unwrap();
+            let told = bench.run(&format!("report {name} -o out.html")).stderr;
+            let told = String::from_utf8(told).unwrap();
+            if told.contains("whatever its checksum says") {
+                break;
+            }
+        }
+    }
+    let output = bench.run("merge --check 1.h5 2.h5 3.h5 --json");
+    assert_eq!(output.status.code(), Some(1));
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(told["present"], serde_json::json!([2]));
+    let mut faulty: Vec<&str> = told["faults"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|fault| fault["file"].as_str().unwrap())
+        .collect();
+    faulty.sort_unstable();
+    assert_eq!(faulty, ["1.h5", "3.h5"]);
 }
 
 /// Numbers that cannot be, with a checksum that matches them.

@@ -24,6 +24,7 @@ use sha2::{Digest, Sha256};
 
 use crate::attributes::{self, text};
 use crate::dimension_scales;
+use crate::label;
 pub(crate) use buildings::with_base_moment;
 pub use memory::{image, run_in_memory, write_run};
 pub use size::{MAXIMUM_RESPONSES, ResponsesTooLarge, check_size};
@@ -90,6 +91,7 @@ pub struct RunWriter<'a> {
     path: PathBuf,
     file: hdf5::File,
     tables: Tables,
+    label: String,
     failure: Option<String>,
     /// Dropped after the file, which writes into it.
     part: PartFile,
@@ -112,9 +114,17 @@ impl<'a> RunWriter<'a> {
             path: path.to_owned(),
             file,
             tables,
+            label: label::of_run(""),
             failure: None,
             part,
         })
+    }
+
+    /// Says of which case file the result is, as seen from the current folder.
+    #[must_use]
+    pub fn of_case_file(mut self, case: &Path) -> Self {
+        self.label = label::of_run(&pounding_files::label::seen_from_here(case));
+        self
     }
 
     /// What kept responses from being written, and so ended the run.
@@ -145,6 +155,7 @@ impl<'a> RunWriter<'a> {
             path,
             file,
             mut tables,
+            label,
             part,
             ..
         } = self;
@@ -158,7 +169,8 @@ impl<'a> RunWriter<'a> {
         if let Err(e) = written {
             return Err(failed(reason_of(&e)));
         }
-        checksum::append(part.path())
+        pounding_files::label::append(part.path(), &label)
+            .and_then(|()| checksum::append(part.path()))
             .and_then(|()| part.finish())
             .map_err(|e| failed(e.to_string()))
     }

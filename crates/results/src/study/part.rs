@@ -104,14 +104,15 @@ pub fn ranges(numbers: &[usize]) -> String {
     runs.collect::<Vec<_>>().join(",")
 }
 
-/// Reads what [`ranges`] writes; `None` if it is no such list, or has a number beyond `most`.
+/// Reads what [`ranges`] writes; `None` if it is no such list, or has a number beyond `most` or more
+/// than so many.
 #[must_use]
 pub fn numbers(text: &str, most: usize) -> Option<Vec<usize>> {
     let mut numbers = Vec::new();
     for part in text.split(',') {
         let (first, last) = part.split_once('-').unwrap_or((part, part));
         let (first, last): (usize, usize) = (first.trim().parse().ok()?, last.trim().parse().ok()?);
-        if first > last || last > most {
+        if first > last || last > most || numbers.len() + (last - first) >= most {
             return None;
         }
         numbers.extend(first..=last);

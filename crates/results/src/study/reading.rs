@@ -13,6 +13,7 @@ use super::writing::Id;
 use super::{
     Axis, Coordinate, Description, Ending, Layout, Part, Place, Row, StudyFileError, Value, numbers,
 };
+use crate::watch::Reading;
 use crate::{OpenError, ResultFile, Stamp, dataset, number, text, texts, values};
 
 /// A result that is read.
@@ -49,6 +50,7 @@ impl ResultReader {
             path: path.to_owned(),
             reason,
         };
+        let _reading = Reading::of(path);
         let opened = ResultFile::open(path, without).map_err(|source| match source {
             OpenError::Checksum(ChecksumError::NotHdf5) => {
                 failed("it is not the result of a study (it is not HDF5)".to_owned())
@@ -63,6 +65,7 @@ impl ResultReader {
 
     /// Opens a result once more that was open before, if it has not changed since.
     pub(super) fn open_again(path: &Path, stamp: &Stamp) -> Result<Self, StudyFileError> {
+        let _reading = Reading::of(path);
         let opened = stamp.open_again(path);
         let opened = opened.map_err(|source| StudyFileError::Checksum {
             path: path.to_owned(),
@@ -146,6 +149,7 @@ impl ResultReader {
     /// # Errors
     /// [`StudyFileError::File`].
     pub fn block(&self, places: Range<usize>) -> Result<Vec<(Row, Vec<Value>)>, StudyFileError> {
+        let _reading = Reading::of(&self.path);
         self.read(places).map_err(|e| StudyFileError::File {
             what: "read",
             path: self.path.clone(),

@@ -32,6 +32,21 @@ pub struct Fault {
     pub error: StudyFileError,
 }
 
+impl Fault {
+    /// A file that cannot be read, for a reason that whoever tried has found.
+    #[must_use]
+    pub fn unreadable(path: &Path, reason: &str) -> Self {
+        Self {
+            path: path.to_owned(),
+            error: StudyFileError::File {
+                what: "read",
+                path: path.to_owned(),
+                reason: reason.to_owned(),
+            },
+        }
+    }
+}
+
 /// What the files of a study are.
 #[derive(Debug, Default)]
 pub struct Survey {

@@ -14,7 +14,7 @@ use super::datasets::{
 use super::{Description, Row, StudyFileError, Value};
 use crate::attributes::unicode;
 use crate::dimension_scales::make_scale;
-use crate::new_file;
+use crate::{label, new_file};
 
 /// Rows of a block, and of a chunk of the file: hundreds of kilobytes before compression.
 pub(super) const BLOCK: usize = 1024;
@@ -26,6 +26,7 @@ type Result<T> = hdf5::Result<T>;
 /// Writes a result beside its place; `finish` puts it there.
 pub struct ResultWriter {
     path: PathBuf,
+    label: String,
     open: Option<Open>,
     /// Dropped after `open`, which writes into it.
     part: Option<PartFile>,
@@ -56,6 +57,7 @@ impl ResultWriter {
     ) -> std::result::Result<Self, StudyFileError> {
         let mut writer = Self {
             path: path.to_owned(),
+            label: label::of_study(description, ""),
             open: None,
             part: None,
         };
@@ -64,6 +66,16 @@ impl ResultWriter {
         writer.part = Some(part);
         writer.open = Some(open.map_err(|e| writer.failed(&e))?);
         Ok(writer)
+    }
+
+    /// Says of which study file the result is, as seen from the current folder. It is no part of
+    /// what the result holds: one that the user has named does without, and has the same bytes
+    /// wherever it was made.
+    #[must_use]
+    pub fn of_study_file(mut self, description: &Description, study: &Path) -> Self {
+        let file = pounding_files::label::seen_from_here(study);
+        self.label = label::of_study(description, &file);
+        self
     }
 
     fn failed(&self, error: &dyn std::fmt::Display) -> StudyFileError {
@@ -100,7 +112,8 @@ impl ResultWriter {
         let written = open.flush().and_then(|()| open.file.flush());
         drop(open);
         written.map_err(|e| self.failed(&e))?;
-        append(part.path())
+        pounding_files::label::append(part.path(), &self.label)
+            .and_then(|()| append(part.path()))
             .and_then(|()| part.finish())
             .map_err(|e| self.failed(&e))
     }

@@ -190,11 +190,17 @@ impl Parts {
         }
     }
 
+    /// Whether finished runs of this very study, shard and build are kept for a result.
+    pub(crate) fn hold(result: &Path, study: &str) -> bool {
+        let path = Self::folder(result).join(STUDY);
+        std::fs::read_to_string(path).is_ok_and(|text| text == study)
+    }
+
     /// Removes the folder of a result that stands complete, if it holds runs of this very
     /// study, shard and build, and no process is at work there. Any other folder stays.
     pub(crate) fn discard(result: &Path, study: &str) {
         let folder = Self::folder(result);
-        let ours = || std::fs::read_to_string(folder.join(STUDY)).is_ok_and(|text| text == study);
+        let ours = || Self::hold(result, study);
         // Looked at before the lock, which would leave its file in a folder of others, and
         // under it, as another process may have begun anew in between.
         if !ours() {

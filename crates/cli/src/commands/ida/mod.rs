@@ -19,7 +19,7 @@ use crate::files::{have_a_place, reads_too};
 use crate::interruption::quoted;
 use crate::output::{comma_separated, pretty, print};
 use crate::plan::{self, Planned, path_word};
-use crate::study::{Finished, all_failed, options, run, shard, summary};
+use crate::study::{Finished, all_failed, options, run, shard, stands_complete, summary};
 use crate::{page, plot};
 
 /// Runs all records at all intensities and evaluates them.
@@ -41,6 +41,9 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     let shard = shard(&arguments.sharing, &arguments.running)?;
     let into = arguments.sharing.into.as_deref();
     let options = options(&study, &arguments.running, (shard, into), &mut files)?;
+    if stands_complete(&options, &arguments.running, &files)? {
+        return Ok(());
+    }
     have_a_place([
         arguments.plot.as_deref(),
         arguments.table.as_deref(),

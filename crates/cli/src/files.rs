@@ -2,8 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
+use pounding_files::checksum::hexadecimal;
 use pounding_files::{FileUse, LeftOver, PartFile, left_over};
+use pounding_results::{Kind, Label};
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
+
+use sha2::{Digest, Sha256};
 
 use crate::arguments::InputPath;
 use crate::failure::Failure;
@@ -54,6 +58,79 @@ pub fn have_a_place<'p>(
         PartFile::beside(path).map_err(|e| Failure::output(&e, &path.display().to_string()))?;
     }
     Ok(())
+}
+
+/// What stands where a result is to be written, which takes the place of an earlier one of the same
+/// case or study, and of no other one unasked.
+pub struct Replaced<'r> {
+    /// Where.
+    pub output: &'r Path,
+    /// What the new result is of.
+    pub kind: Kind,
+    /// The case or study file, if it is known.
+    pub file: Option<&'r Path>,
+    /// The text of the study, if it is one.
+    pub text: Option<&'r str>,
+    /// Whether the user has named the output.
+    pub named: bool,
+}
+
+impl Replaced<'_> {
+    /// Refuses to replace a result of another kind, and one of another file under a name that the
+    /// user has not given; says so where one that the user has named is replaced. `goes_on` with a
+    /// result that stands says nothing.
+    ///
+    /// # Errors
+    /// With the file and what to do.
+    pub fn spared(&self, goes_on: bool) -> Result<(), Failure> {
+        let Some(found) = Label::of(self.output) else {
+            return Ok(());
+        };
+        let (output, kind) = (self.output.display(), found.kind);
+        let of = match found.file.as_str() {
+            "" => String::new(),
+            file => format!(" ({file})"),
+        };
+        let refused = |why: &str| {
+            Err(Failure::unwritten(
+                format!("{output} is the result of {kind}{of}: {why}"),
+                Some("name another file with --output, or move it away".to_owned()),
+            ))
+        };
+        if kind != self.kind {
+            return refused(&format!("that of {} does not take its place", self.kind));
+        }
+        let here = self.file.map(pounding_files::label::seen_from_here);
+        let other = here.filter(|here| !found.file.is_empty() && found.file != *here);
+        let text = self.text.map(|text| hexadecimal(&Sha256::digest(text)));
+        let other_text = match (&found.study, &text) {
+            (Some(study), Some(text)) => study.text_sha256 != *text,
+            _ => false,
+        };
+        match &other {
+            Some(here) if !self.named => {
+                refused(&format!("that of {here} does not take its place unasked"))
+            }
+            _ if goes_on => Ok(()),
+            Some(_) => {
+                note(&format!("{output}, the result of {kind}{of}, is replaced"));
+                Ok(())
+            }
+            None if other_text && (self.named || found.file.is_empty()) => {
+                note(&format!(
+                    "{output} is replaced, the result of another study, or of another version of this one"
+                ));
+                Ok(())
+            }
+            None if found.file.is_empty() && self.kind == Kind::Run && !self.named => {
+                note(&format!(
+                    "{output} is replaced, the result of a run that does not say of which case file it is"
+                ));
+                Ok(())
+            }
+            None => Ok(()),
+        }
+    }
 }
 
 /// Results of shards that arguments name, with those in folders: files there that are called as

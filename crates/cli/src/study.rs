@@ -7,15 +7,16 @@ use std::time::Duration;
 use pounding_case::Dimension;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_files::FileUse;
+use pounding_results::Kind;
 use pounding_study::{
     Progress as Stand, Shard, Study, StudyError, StudyFileError, SweepOptions, SweepReport,
-    parts_folder, sweep as make, writable,
+    default_result, parts_folder, study_name, sweep as make, writable,
 };
 use serde::Serialize;
 
 use crate::arguments::{RunningArguments, ShardArguments, value};
 use crate::failure::Failure;
-use crate::files::{ShardName, name_left_over, reads_too};
+use crate::files::{Replaced, ShardName, name_left_over, reads_too};
 use crate::heartbeat::{Heartbeat, State};
 use crate::interruption;
 use crate::progress::{Progress, Unit};
@@ -80,6 +81,14 @@ pub fn options(
     }
     reads_too(files, study.files())?;
     writable(&output)?;
+    let replaced = Replaced {
+        output: &output,
+        kind: Kind::Study,
+        file: Some(&study.file),
+        text: Some(&study.source),
+        named: running.output.is_some() || into.is_some(),
+    };
+    replaced.spared(running.resume || into.is_some())?;
     if let Some(csv) = &running.csv {
         writable(csv)?;
     }
@@ -106,24 +115,14 @@ pub fn options(
 
 /// The study's name, or that of its folder where it is called `study.toml`.
 pub fn name(study: &Path) -> String {
-    let stem = study.file_stem().unwrap_or_default();
-    let folder = study
-        .canonicalize()
-        .ok()
-        .and_then(|p| Some(p.parent()?.file_name()?.to_owned()));
-    let name = match folder {
-        Some(folder) if stem == "study" => folder,
-        _ => stem.to_owned(),
-    };
-    name.to_string_lossy().into_owned()
+    study_name(study).to_string_lossy().into_owned()
 }
 
 fn default_output(study: &Path, shard: Shard) -> PathBuf {
-    let study = name(study);
-    PathBuf::from(match shard == Shard::WHOLE {
-        true => format!("{study}.h5"),
-        false => format!("{}.h5", shard_name(study, shard)),
-    })
+    match shard == Shard::WHOLE {
+        true => default_result(study),
+        false => PathBuf::from(format!("{}.h5", shard_name(name(study), shard))),
+    }
 }
 
 fn shard_name(study: String, shard: Shard) -> ShardName {

@@ -76,6 +76,9 @@ pub use study_file::{
     Variable, hazard_schema, study_schema,
 };
 #[cfg(feature = "results")]
-pub use sweep::{Progress, Shard, SweepOptions, SweepReport, parts_folder, sweep, writable};
+pub use sweep::{
+    Progress, Shard, SweepOptions, SweepReport, default_result, parts_folder, study_name, sweep,
+    writable,
+};
 #[cfg(feature = "results")]
 pub use table::RunTable;

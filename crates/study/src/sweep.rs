@@ -1,5 +1,6 @@
 //! A study from its file to its result: resume, shards, failures.
 
+use std::ffi::OsString;
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
 use std::str::FromStr;
@@ -446,6 +447,10 @@ fn assemble(
     spare_other_shards(description, &options.output)?;
     let mut report = empty_report(runner, description);
     let mut writer = ResultWriter::create(&options.output, description, rows)?;
+    let study = runner.study.file.as_path();
+    if description.part.is_whole() && options.output == default_result(study) {
+        writer = writer.of_study_file(description, study);
+    }
     parts.rows(&mut |row| {
         let point: Vec<Value> = runner.study.point(row.run);
         report.count(&row);
@@ -470,6 +475,34 @@ pub fn writable(path: &Path) -> Result<(), StudyError> {
     PartFile::beside(path).map(drop).map_err(failed)?;
     Ok(())
 }
+
+/// The name of a study: that of its file, or of its folder where the file is called `study.toml`.
+#[must_use]
+pub fn study_name(study: &Path) -> OsString {
+    let stem = study.file_stem().unwrap_or_default();
+    let folder = || Some(study.canonicalize().ok()?.parent()?.file_name()?.to_owned());
+    match stem == GENERIC {
+        true => folder().unwrap_or_else(|| stem.to_owned()),
+        false => stem.to_owned(),
+    }
+}
+
+/// Where the result of a whole study is written if no other name is given: in the current
+/// folder. A folder with a `study.toml` may hold a `case.toml` as well, whose result has the
+/// folder's name: that of the study is told apart.
+#[must_use]
+pub fn default_result(study: &Path) -> PathBuf {
+    let mut name = study_name(study);
+    if study.file_stem().unwrap_or_default() == GENERIC {
+        name.push(".");
+        name.push(GENERIC);
+    }
+    name.push(".h5");
+    PathBuf::from(name)
+}
+
+/// What a study file is called where its folder says more.
+const GENERIC: &str = "study";
 
 /// The folder in which the finished runs of a result are kept until it is complete.
 #[must_use]

@@ -162,7 +162,8 @@ pub enum Command {
 pub struct RunArguments {
     /// Case file (TOML)
     pub case: InputPath,
-    /// Result file (HDF5); by default the case's name with .h5 in the current folder
+    /// Result file (HDF5); by default the case's name with .h5 in the current folder, and for
+    /// FOLDER/case.toml FOLDER.h5
     #[arg(short, long)]
     pub output: Option<OutputPath>,
     /// Do not write a result file

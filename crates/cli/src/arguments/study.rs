@@ -83,7 +83,8 @@ pub enum Scheduler {
 /// How the runs of a study are computed.
 #[derive(Debug, clap::Args)]
 pub struct RunningArguments {
-    /// Result (HDF5); by default the study's name with .h5 in the current folder
+    /// Result (HDF5); by default the study's name with .h5 in the current folder, and for
+    /// FOLDER/study.toml FOLDER.study.h5
     #[arg(short, long)]
     pub output: Option<OutputPath>,
     /// Also write the runs as a table: Parquet if the name ends in .parquet, else CSV

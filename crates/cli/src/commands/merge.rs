@@ -6,12 +6,13 @@ use std::path::PathBuf;
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
+use pounding_results::Kind;
 use pounding_study::{Fault, MergeOptions, Survey, ranges, survey, writable};
 use serde::Serialize;
 
 use crate::arguments::MergeArguments;
 use crate::failure::Failure;
-use crate::files::shard_files;
+use crate::files::{Replaced, shard_files};
 use crate::output::{pretty, print, warn};
 use crate::separate::{Reading, by_child, reading, warnings};
 
@@ -20,6 +21,14 @@ pub fn merge(arguments: &MergeArguments, files: FileUse) -> Result<(), Failure> 
     let shards = shard_files(&arguments.shards)?;
     if let Some(output) = &arguments.output {
         writable(output)?;
+        let replaced = Replaced {
+            output,
+            kind: Kind::Study,
+            file: None,
+            text: None,
+            named: true,
+        };
+        replaced.spared(true)?;
     }
     let child = arguments.read_in_this_process;
     let without_checksum = match &arguments.output {

@@ -7,7 +7,7 @@ use std::time::Instant;
 use pounding_assembly::Assembly;
 use pounding_files::FileUse;
 use pounding_report::pictures::run::Responses;
-use pounding_results::{RunEnding, RunHead, RunWriter, WriteError};
+use pounding_results::{Kind, RunEnding, RunHead, RunWriter, WriteError};
 use pounding_time_history::{
     GridRecorder, HistorySink, Outcome, Recorder, Summary, TimeHistoryError, run as integrate,
 };
@@ -15,7 +15,7 @@ use pounding_time_history::{
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case, responses_fit};
-use crate::files::{have_a_place, name_left_over, reads_too};
+use crate::files::{Replaced, have_a_place, name_left_over, reads_too};
 use crate::output::{pretty, print};
 use crate::progress::{Progress, Unit};
 use crate::{page, plot, tables};
@@ -36,7 +36,15 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.plot.as_deref(),
         arguments.report.as_deref(),
     ])?;
-    if output.is_some() {
+    if let Some(output) = &output {
+        let replaced = Replaced {
+            output,
+            kind: Kind::Run,
+            file: Some(&arguments.case),
+            text: None,
+            named: arguments.output.is_some(),
+        };
+        replaced.spared(false)?;
         responses_fit(&assembly, &case)?;
     }
     let started = Instant::now();

@@ -8,7 +8,7 @@ mod slurm;
 use std::path::Path;
 
 use pounding_catalogue::wording::counted;
-use pounding_study::{Study, Value};
+use pounding_study::{Study, Value, default_result};
 use serde::Serialize;
 
 use crate::arguments::{PlanArguments, RunningArguments, Scheduler, time_limit};
@@ -154,7 +154,7 @@ impl Plan {
         command.extend(words(&["--store-every", &running.store_every]));
         let mut merge = words(&[&program, "merge", &folder, "-o"]);
         let output = running.output.as_deref();
-        let output = output.map_or_else(|| path_word(Path::new(&format!("{name}.h5"))), path_word);
+        let output = output.map_or_else(|| path_word(&default_result(&study.file)), path_word);
         merge.push(output.clone());
         let mut last = words(&[&program, planned.command, &file, "-o", &output, "--resume"]);
         if running.keep_going {

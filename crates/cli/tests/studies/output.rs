@@ -172,3 +172,74 @@ fn an_account_of_every_run() {
     }
     assert!(bench.bytes("told.h5") == bench.bytes("quiet.h5"));
 }
+
+/// A case and a study in one folder leave a result each, and neither takes the other's place, by
+/// whatever name.
+#[test]
+fn results_of_runs_and_of_studies_stay_apart() {
+    let bench = Bench::new(&MIXED.replace("runs = 60", "runs = 8"));
+    let folder = bench.path("").canonicalize().unwrap();
+    let folder = folder.file_name().unwrap().to_str().unwrap();
+    let (of_run, of_study) = (format!("{folder}.h5"), format!("{folder}.study.h5"));
+    // The same again takes the place of its own, also after a change of the file.
+    for _ in 0..2 {
+        bench.text("run case.toml");
+        bench.text("sweep study.toml");
+        bench.study(&MIXED.replace("runs = 60", "runs = 9"));
+    }
+    let (run, study) = (bench.bytes(&of_run), bench.bytes(&of_study));
+    for (command, standing, word) in [
+        (
+            format!("run case.toml -o {of_study}"),
+            &of_study,
+            "result of a study (study.toml)",
+        ),
+        (
+            format!("sweep study.toml -o {of_run}"),
+            &of_run,
+            "result of a run (case.toml)",
+        ),
+        (
+            format!("sweep study.toml -o {of_run} --resume"),
+            &of_run,
+            "result of a run",
+        ),
+        (
+            format!("merge {of_study} -o {of_run}"),
+            &of_run,
+            "result of a run",
+        ),
+    ] {
+        let told = bench.complaint(&command, 4);
+        for word in [word, standing.as_str(), "--output", "move it away"] {
+            assert!(told.contains(word), "{command}: {told}");
+        }
+    }
+    // Files of other folders whose results have the same name.
+    for (file, other) in [("case.toml", &of_run), ("study.toml", &of_study)] {
+        let inside = bench.path("inside").join(folder);
+        std::fs::create_dir_all(&inside).unwrap();
+        for name in ["case.toml", "study.toml"] {
+            std::fs::copy(bench.path(name), inside.join(name)).unwrap();
+        }
+        let verb = if file == "case.toml" { "run" } else { "sweep" };
+        let command = format!("{verb} inside/{folder}/{file}");
+        let told = bench.complaint(&command, 4);
+        assert!(
+            told.contains(&format!("({file})")) && told.contains("--output"),
+            "{told}"
+        );
+        // What the user has named is replaced, but not without a word.
+        std::fs::copy(bench.path(other), bench.path("named.h5")).unwrap();
+        let output = bench.run(&format!("{command} -o named.h5"));
+        let told = String::from_utf8(output.stderr).unwrap();
+        assert_eq!(output.status.code(), Some(0), "{told}");
+        assert!(
+            told.contains("note: named.h5") && told.contains("is replaced"),
+            "{told}"
+        );
+        std::fs::remove_file(bench.path("named.h5")).unwrap();
+    }
+    assert!(bench.bytes(&of_run) == run && bench.bytes(&of_study) == study);
+    bench.no_part_file();
+}

@@ -158,7 +158,9 @@ pub fn run(
     options: &SweepOptions,
     into: Option<&Path>,
 ) -> Result<SweepReport, Failure> {
-    interruption::resume_with(interruption::this_command_resumed());
+    // Until the folder of the finished runs is there, there is nothing to go on with.
+    interruption::resume_with(interruption::shell_line(&interruption::this_command()));
+    let mut begun = false;
     let heartbeat =
         into.map(|folder| Heartbeat::begin(folder, &shard_name(name(&study.file), options.shard)));
     let mut heartbeat = heartbeat.transpose()?;
@@ -167,6 +169,9 @@ pub fn run(
         if is_child() {
             // It was to read a result, and finds runs of an interrupted call instead.
             interruption::end_with(RUNS_ARE_LEFT);
+        }
+        if !std::mem::replace(&mut begun, true) {
+            interruption::resume_with(interruption::this_command_resumed());
         }
         show(&progress, now);
         if let Some(heartbeat) = &mut heartbeat {

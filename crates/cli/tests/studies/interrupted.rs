@@ -223,3 +223,39 @@ fn a_finished_shard_is_not_replaced_by_another() {
     bench.text("sweep study.toml --shard 2/3 -o x.h5");
     assert!(bench.bytes("x.h5") != first);
 }
+
+/// What a plain call replaces, the call that goes on with it replaces too.
+#[cfg(unix)]
+#[test]
+fn the_command_that_an_interrupted_study_names_goes_on() {
+    let bench = Bench::new(&MIXED.replace("runs = 60", "runs = 8"));
+    bench.text("sweep study.toml -o a.h5");
+    let older = bench.bytes("a.h5");
+    bench.study(&MIXED.replace("runs = 60", "runs = 400"));
+    let child = bench
+        .command("sweep study.toml -o a.h5 --threads 1 --store-every 10ms")
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
+    while stored(&bench.path("a.h5.parts")) == 0 {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let process = child.id().to_string();
+    let kill = std::process::Command::new("kill")
+        .args(["-INT", &process])
+        .status();
+    assert!(kill.unwrap().success());
+    let output = child.wait_with_output().unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(5), "{told}");
+    assert!(bench.bytes("a.h5") == older);
+    let command = told.lines().skip_while(|line| *line != "go on with").nth(1);
+    let words: Vec<&str> = command.unwrap().split_whitespace().skip(1).collect();
+    assert!(words.contains(&"--resume"), "{told}");
+    let told = bench.text(&words.join(" "));
+    assert!(told.contains("stored by an earlier call"), "{told}");
+    assert!(!bench.path("a.h5.parts").exists());
+    bench.text("sweep study.toml -o whole.h5");
+    assert!(bench.bytes("a.h5") == bench.bytes("whole.h5"));
+}

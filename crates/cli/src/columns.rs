@@ -5,6 +5,8 @@ use std::path::Path;
 
 use pounding_case::{Dimension, parse_quantity};
 
+use pounding_files::input::read_to_string;
+
 use crate::failure::Failure;
 
 /// What a column holds.
@@ -31,28 +33,22 @@ pub type Fields = Vec<String>;
 pub type Rows = Vec<(Range<usize>, Vec<f64>)>;
 
 impl Source {
-    /// Opens a text file, with `help` for what is none; `example` is a header as it should be.
+    /// Opens the text file of an option; `example` is a header as it should be.
+    pub fn of_option(path: &Path, option: &str, example: &'static str) -> Result<Self, Failure> {
+        let help = format!("{option} takes a text file with a header such as {example}");
+        Self::open(path, &help, example)
+    }
+
+    /// Opens a text file, with `help` for what is none.
     pub fn open(path: &Path, help: &str, example: &'static str) -> Result<Self, Failure> {
         let name = path.display().to_string();
-        let text = std::fs::read_to_string(path).map_err(|e| unreadable(&name, &e, help))?;
+        let text = read_to_string(path).map_err(|e| unreadable(&name, &e, help))?;
         let text = text.strip_prefix('\u{feff}').unwrap_or(&text).to_owned();
         Ok(Self {
             name,
             text,
             example,
         })
-    }
-
-    /// The same of a regular file only: a device or a pipe may never end.
-    pub fn open_regular(path: &Path, option: &str, example: &'static str) -> Result<Self, Failure> {
-        let help = format!("{option} takes a text file with a header such as {example}");
-        match std::fs::metadata(path) {
-            Ok(found) if !found.is_file() => {
-                let what = std::io::Error::other("this is no regular file");
-                Err(unreadable(&path.display().to_string(), &what, &help))
-            }
-            _ => Self::open(path, &help, example),
-        }
     }
 
     /// Reads the rows under a header in one of these layouts.

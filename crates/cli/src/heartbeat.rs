@@ -159,7 +159,7 @@ impl Heartbeat {
 
 /// Reads what a shard last told of itself; `None` if it told nothing.
 pub fn read(folder: &Path, shard: &ShardName) -> Option<Beat> {
-    let text = std::fs::read(path(folder, shard)).ok()?;
+    let text = pounding_files::input::read(&path(folder, shard)).ok()?;
     serde_json::from_slice(&text).ok()
 }
 

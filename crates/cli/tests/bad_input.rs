@@ -682,6 +682,56 @@ fn a_case_file_without_end_is_refused() {
     assert!(message(&output).contains("larger than 16 MB"));
 }
 
+/// A device without end, and a pipe that nobody writes into, are no inputs of any command.
+#[cfg(unix)]
+#[test]
+fn devices_and_pipes_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("case.toml"), CASE).unwrap();
+    std::fs::write(folder.path().join("record.csv"), record()).unwrap();
+    let made = Command::new("mkfifo")
+        .arg(folder.path().join("pipe"))
+        .status();
+    assert!(made.unwrap().success());
+    for call in [
+        "verify structures --data INPUT",
+        "impact jankowski_2005 --example --against INPUT",
+        "gap case.toml --merge INPUT",
+        "compare case.toml --merge INPUT",
+        "report INPUT",
+        "merge INPUT -o out.h5",
+        "merge --check INPUT",
+    ] {
+        for input in ["/dev/zero", "pipe"] {
+            let call = call.replace("INPUT", input);
+            let mut child = Command::new(env!("CARGO_BIN_EXE_pounding"))
+                .current_dir(folder.path())
+                .env("NO_COLOR", "1")
+                .args(call.split(' '))
+                .stdout(std::process::Stdio::piped())
+                .stderr(std::process::Stdio::piped())
+                .spawn()
+                .unwrap();
+            let began = std::time::Instant::now();
+            while child.try_wait().unwrap().is_none() {
+                if began.elapsed().as_secs() > 30 {
+                    child.kill().unwrap();
+                    panic!("{call} has no end");
+                }
+                std::thread::sleep(std::time::Duration::from_millis(5));
+            }
+            let output = child.wait_with_output().unwrap();
+            let answer = String::from_utf8_lossy(&output.stdout).into_owned();
+            let told = answer + &message(&output);
+            let refused = if call.contains("--check") { 1 } else { 2 };
+            assert_eq!(output.status.code(), Some(refused), "{call}: {told}");
+            let words: Vec<&str> = told.split_whitespace().filter(|w| *w != "│").collect();
+            let told = words.join(" ");
+            assert!(told.contains("no regular file"), "{call}: {told}");
+        }
+    }
+}
+
 #[test]
 fn responses_that_no_disk_has_room_for_are_refused() {
     let endless = CASE.replace(

@@ -12,7 +12,7 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::label;
+use crate::{input, label};
 
 /// Start of the line; the number is the version of its form.
 const START: &[u8] = b"pounding-sha256:1 ";
@@ -122,7 +122,7 @@ pub fn append(path: &Path) -> io::Result<()> {
 /// # Errors
 /// [`ChecksumError`] if it may not be parsed.
 pub fn check(path: &Path, without: WithoutChecksum) -> Result<Checksum, ChecksumError> {
-    match check_content(&mut File::open(path)?)? {
+    match check_content(&mut input::open(path)?)? {
         Checksum::Absent if without == WithoutChecksum::Refuse => Err(ChecksumError::Absent),
         found => Ok(found),
     }
@@ -133,7 +133,7 @@ pub fn check(path: &Path, without: WithoutChecksum) -> Result<Checksum, Checksum
 /// # Errors
 /// [`ChecksumError`] if it is damaged already by these bytes.
 pub fn is_absent(path: &Path) -> Result<bool, ChecksumError> {
-    Ok(ending(&mut File::open(path)?)?.is_none())
+    Ok(ending(&mut input::open(path)?)?.is_none())
 }
 
 /// Compares content with the checksum at its end.

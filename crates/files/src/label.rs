@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use crate::checksum;
+use crate::{checksum, input};
 
 /// Start of the line, in a line of its own; the number is the version of its form.
 pub const START: &str = "\npounding-label:1 ";
@@ -31,9 +31,7 @@ pub fn append(path: &Path, text: &str) -> io::Result<()> {
 /// it was written is not looked at.
 #[must_use]
 pub fn read(path: &Path) -> Option<String> {
-    // A pipe or a device may have no end.
-    let regular = std::fs::metadata(path).ok()?.is_file();
-    let mut file = regular.then(|| File::open(path).ok())??;
+    let mut file = input::open(path).ok()?;
     let end = checksum::without_line(&mut file).ok()?;
     let start = end.saturating_sub(LONGEST);
     file.seek(SeekFrom::Start(start)).ok()?;

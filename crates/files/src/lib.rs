@@ -2,13 +2,14 @@
 //! when they are read back.
 //!
 //! The crate knows nothing of what stands in a file. Everything that the program writes
-//! goes into a [`PartFile`] beside its place first; what a command reads and will write is
+//! goes into a [`PartFile`] beside its place first, and what it reads is a regular file ([`input`]); what a command reads and will write is
 //! held against one another by [`FileUse`] before it does any work; [`checksum`] tells of
 //! what is read back whether it is as it was written, and [`label`] what it is, before anybody
 //! parses it.
 
 pub mod checksum;
 mod file_use;
+pub mod input;
 pub mod label;
 mod part_file;
 

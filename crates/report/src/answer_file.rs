@@ -180,7 +180,7 @@ impl Answered {
     pub fn may_be(path: &Path) -> bool {
         use std::io::Read as _;
         let mut start = [0; 64];
-        let read = std::fs::File::open(path).and_then(|mut file| file.read(&mut start));
+        let read = pounding_files::input::open(path).and_then(|mut file| file.read(&mut start));
         let start = &start[..read.unwrap_or(0)];
         start.trim_ascii_start().starts_with(b"{")
     }
@@ -191,7 +191,7 @@ impl Answered {
     /// [`AnswerFileError`].
     pub fn read(path: &Path) -> Result<Self, AnswerFileError> {
         let path = path.to_owned();
-        let bytes = match std::fs::read(&path) {
+        let bytes = match pounding_files::input::read(&path) {
             Ok(bytes) => bytes,
             Err(source) => return Err(AnswerFileError::Read { path, source }),
         };

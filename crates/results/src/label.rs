@@ -121,8 +121,7 @@ const HEAD: u64 = 1 << 20;
 
 /// The kind of a result without a label, by the names of its attributes.
 fn unlabelled(path: &Path) -> Option<Label> {
-    let regular = std::fs::metadata(path).ok()?.is_file();
-    let file = regular.then(|| std::fs::File::open(path).ok())??;
+    let file = pounding_files::input::open(path).ok()?;
     let mut head = Vec::new();
     file.take(HEAD).read_to_end(&mut head).ok()?;
     let has = |name: &[u8]| head.windows(name.len()).any(|w| w == name);

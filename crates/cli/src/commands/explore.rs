@@ -96,7 +96,7 @@ fn named_files(case: &Case) -> Result<Vec<(String, Vec<u8>)>, Failure> {
 }
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
-    std::fs::read(path).map_err(|e| {
+    pounding_files::input::read(path).map_err(|e| {
         let message = format!("cannot read {}: {e}", path.display());
         Failure::input(message, Some("check the path".to_owned()))
     })

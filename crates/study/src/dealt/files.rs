@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use pounding_case::Case;
 use pounding_files::checksum::hexadecimal;
+use pounding_files::input;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
@@ -113,7 +114,7 @@ pub(crate) fn identity(
     let files = case.files().into_iter().map(|(_, path)| path);
     for path in files.chain(records.iter().map(|r| r.file.clone())) {
         // What cannot be read has no runs either.
-        let bytes = std::fs::read(&path).unwrap_or_default();
+        let bytes = input::read(&path).unwrap_or_default();
         hash.update((bytes.len() as u64).to_le_bytes());
         hash.update(bytes);
     }
@@ -167,7 +168,7 @@ impl Content {
 
     fn read(file: &Path, identity: &str) -> std::io::Result<Self> {
         let wrong = |reason: &'static str| Error::new(ErrorKind::InvalidData, reason);
-        let bytes = std::fs::read(file)?;
+        let bytes = input::read(file)?;
         let damaged = || wrong("it is damaged, or no shard of a check");
         let body = bytes.len().checked_sub(HASH).ok_or_else(damaged)?;
         let (content, hash) = bytes.split_at(body);

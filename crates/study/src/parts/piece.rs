@@ -53,7 +53,7 @@ pub(super) fn name(content: &[u8], rows: &[Row]) -> String {
 /// [`ErrorKind::InvalidData`] if the file is not whole or not of this study.
 pub(super) fn read(path: &Path, study: &str) -> Result<Vec<Row>> {
     let damaged = || Error::new(ErrorKind::InvalidData, "the file is damaged");
-    let bytes = std::fs::read(path)?;
+    let bytes = pounding_files::input::read(path)?;
     let body = bytes.len().checked_sub(HASH).ok_or_else(damaged)?;
     let (content, hash) = bytes.split_at(body);
     if Sha256::digest(content).as_slice() != hash {

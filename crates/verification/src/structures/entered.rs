@@ -198,7 +198,7 @@ impl Entered {
     /// # Errors
     /// A file that cannot be read, or what is wrong in it with its line and a remedy.
     pub fn read(path: &Path) -> Result<Self, EnteredError> {
-        let text = std::fs::read_to_string(path).map_err(|e| EnteredError {
+        let text = pounding_files::input::read_to_string(path).map_err(|e| EnteredError {
             file: path.display().to_string(),
             line: 1,
             problem: e.to_string(),

@@ -92,7 +92,7 @@ fn read(
     let force = column("force", Dimension::FORCE);
     let energy = column("dissipation", Dimension::ENERGY);
     let example = named(asked.unwrap_or(MeasuredCurve::Dissipation)).1;
-    let source = Source::open_regular(path, "--fit", example)?;
+    let source = Source::of_option(path, "--fit", example)?;
     let header = source.lines().next();
     let second = header
         .as_ref()

@@ -15,7 +15,7 @@ pub fn path(
     arguments: &HysteresisArguments,
 ) -> Result<Option<(LoadPath, String)>, Failure> {
     if let Some(file) = &arguments.history {
-        let source = Source::open_regular(file, "--history", "deformation_mm")?;
+        let source = Source::of_option(file, "--history", "deformation_mm")?;
         let speed = speed(arguments)?;
         if arguments.period.is_some() {
             return Err(Failure::input(

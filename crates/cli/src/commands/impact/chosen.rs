@@ -62,7 +62,7 @@ fn spring(path: &Path) -> Result<Vec<(f64, f64)>, Failure> {
         column("penetration", Dimension::LENGTH),
         column("force", Dimension::FORCE),
     ];
-    let source = Source::open_regular(path, "--spring", "penetration_mm,force_kN")?;
+    let source = Source::of_option(path, "--spring", "penetration_mm,force_kN")?;
     let mut table: Vec<(f64, f64)> = Vec::new();
     for (place, row) in source.rows(&[&columns])? {
         let (penetration, force) = (row[0], row[1]);

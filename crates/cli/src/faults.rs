@@ -68,6 +68,7 @@ pub fn of_check(error: CheckError, case: &Case) -> Failure {
             Failure::assembly(*source, "").within(&format!("record {record}"))
         }
         error @ CheckError::OwnLaw { .. } => Failure::computation(error.to_string(), help),
+        error @ CheckError::Unwritten { .. } => Failure::unwritten(error.to_string(), help),
         error => Failure::input(error.to_string(), help),
     }
 }

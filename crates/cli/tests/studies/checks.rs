@@ -59,3 +59,21 @@ fn shards_of_checks_give_what_one_process_gives() {
     let told = bench.complaint("compare case.toml --merge .", 2);
     assert!(told.contains("holds no shards of a `compare`"), "{told}");
 }
+
+/// A shard that cannot be stored is an output that could not be written.
+#[cfg(unix)]
+#[test]
+fn a_shard_without_room_is_no_bad_input() {
+    let bench = Bench::new("case = \"case.toml\"\n");
+    for call in [
+        "gap case.toml --points 12",
+        "compare case.toml --models anagnostopoulos_2004,jankowski_2005",
+    ] {
+        let (code, told) = bench.with_limit(0, &format!("{call} --shard 1/2 --into parts"));
+        assert_eq!(code, Some(4), "{told}");
+        for word in ["cannot write parts/case.", "has room", "--into"] {
+            assert!(told.contains(word), "{word}: {told}");
+        }
+        bench.no_part_file();
+    }
+}

@@ -23,7 +23,12 @@ pub(super) fn part<T: Stored>(
     make: impl Fn(usize) -> Made<T> + Sync,
 ) -> Result<Vec<Made<T>>, CheckError> {
     let mine: Vec<usize> = (shard.index - 1..count).step_by(shard.count).collect();
-    let failed = |e: Error| refused(file, &e.to_string());
+    let failed = |e: Error| CheckError::Unwritten {
+        path: file.to_owned(),
+        reason: e.to_string(),
+    };
+    // Found out before the runs, not after them.
+    pounding_files::PartFile::beside(file).map_err(failed)?;
     let standing = Content::read(file, identity);
     if standing.is_err() || standing.is_ok_and(|found| found.shard != shard) {
         // Anything else in its place is not ours to replace.

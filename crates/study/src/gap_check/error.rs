@@ -68,6 +68,14 @@ pub enum CheckError {
         /// Why not.
         reason: String,
     },
+    /// The runs of a shard cannot be stored.
+    #[error("cannot write {path}: {reason}")]
+    Unwritten {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        reason: String,
+    },
     /// An option out of range.
     #[error("{option} = {value} is out of range: {reason}")]
     Option {
@@ -113,6 +121,10 @@ impl CheckError {
             Self::UnknownGap { known, .. } => Some(format!("its gaps are {}", known.join(", "))),
             Self::Shards { .. } => Some(
                 "make all shards i/n for one n by one build of the program, with the same options, case and records"
+                    .to_owned(),
+            ),
+            Self::Unwritten { .. } => Some(
+                "check that the folder exists, may be written to and has room, or name another one by --into"
                     .to_owned(),
             ),
             Self::NoRecords { .. } => Some("name record files, or a folder of them".to_owned()),

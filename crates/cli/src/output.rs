@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::path::Path;
 
+use pounding_catalogue::wording::cell;
 use serde::Serialize;
 
 use crate::failure::Failure;
@@ -60,7 +61,7 @@ pub fn warn(text: &str) {
     let _ = writeln!(std::io::stderr(), "warning: {text}");
 }
 
-/// A header and rows as comma-separated values, numbers at full precision.
+/// A header and rows as comma-separated values, numbers at full precision; see [`cell`] for texts.
 pub fn comma_separated<R: Serialize>(
     columns: &[&str],
     rows: impl IntoIterator<Item = R>,
@@ -73,7 +74,16 @@ pub fn comma_separated<R: Serialize>(
         for row in rows {
             writer.serialize(row)?;
         }
-        Ok(String::from_utf8(writer.into_inner()?)?)
+        let written = writer.into_inner()?;
+        // Texts among the cells are of users.
+        let mut reader = csv::ReaderBuilder::new()
+            .has_headers(false)
+            .from_reader(&written[..]);
+        let mut safe = csv::Writer::from_writer(Vec::new());
+        for row in reader.records() {
+            safe.write_record(row?.iter().map(|text| cell(text).into_owned()))?;
+        }
+        Ok(String::from_utf8(safe.into_inner()?)?)
     };
     write().map_err(|e| Failure::output(&std::io::Error::other(e.to_string()), "the columns"))
 }

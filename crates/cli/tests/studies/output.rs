@@ -243,3 +243,40 @@ fn results_of_runs_and_of_studies_stay_apart() {
     assert!(bench.bytes(&of_run) == run && bench.bytes(&of_study) == study);
     bench.no_part_file();
 }
+
+/// A name that a spreadsheet would compute is a text in tables, and is found again.
+#[test]
+fn names_in_tables_are_no_formulas() {
+    let bench = Bench::new(
+        r#"
+case = "case.toml"
+[[variable]]
+name = "record"
+records = ["=1+1.csv", "-2.csv"]
+"#,
+    );
+    let case = std::fs::read_to_string(bench.path("case.toml")).unwrap();
+    std::fs::write(
+        bench.path("case.toml"),
+        case.replace("\"light\"", "\"=light\""),
+    )
+    .unwrap();
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    for name in ["=1+1.csv", "-2.csv"] {
+        std::fs::copy(&record, bench.path(name)).unwrap();
+    }
+    bench.text("sweep study.toml --csv runs.csv -o out.h5");
+    bench.run("gap case.toml --points 3 --csv gap.csv");
+    bench.text("motion info ./=1+1.csv --csv info.csv");
+    let mut texts = 0;
+    for name in ["runs.csv", "gap.csv", "info.csv"] {
+        let text = String::from_utf8(bench.bytes(name)).unwrap();
+        for cell in text.lines().flat_map(|line| line.split(',')) {
+            assert!(!cell.starts_with(['=', '+', '@']), "{name}: {cell}");
+            let negative = cell.starts_with('-');
+            assert!(!negative || cell.parse::<f64>().is_ok(), "{name}: {cell}");
+            texts += usize::from(cell.starts_with('\''));
+        }
+    }
+    assert!(texts > 2, "{texts}");
+}

@@ -6,6 +6,7 @@ mod parquet_table;
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use pounding_catalogue::wording::cell;
 use pounding_files::PartFile;
 use pounding_results::study::{Axis, Description, Row, Value};
 
@@ -48,7 +49,8 @@ impl RunTable {
             Writer::Parquet(Box::new(table))
         } else {
             let mut csv = csv::Writer::from_path(part.path()).map_err(|e| refused(e.into()))?;
-            csv.write_record(&names).map_err(|e| refused(e.into()))?;
+            let names = names.iter().map(|name| cell(name).into_owned());
+            csv.write_record(names).map_err(|e| refused(e.into()))?;
             Writer::Csv(Box::new(csv))
         };
         Ok(Self {
@@ -112,13 +114,13 @@ impl RunTable {
     }
 }
 
-fn in_characters(cell: Cell) -> String {
-    match cell {
+fn in_characters(value: Cell) -> String {
+    match value {
         Cell::Whole(i) => i.to_string(),
         Cell::Number(x) => number(x),
         Cell::Single(x) if x.is_nan() => String::new(),
         Cell::Single(x) => format!("{x:?}"),
-        Cell::Text(text) => text,
+        Cell::Text(text) => cell(&text).into_owned(),
     }
 }
 

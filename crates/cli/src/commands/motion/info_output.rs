@@ -3,6 +3,7 @@
 use std::fmt::Write as _;
 
 use pounding_catalogue::numbers::six_digits;
+use pounding_catalogue::wording::cell;
 use pounding_ground_motion::measures::IntensityMeasures;
 use pounding_ground_motion::{
     Accelerogram, HeaderPeak, Origin, Peak, Processing, ResponseFile, Sampling, Series,
@@ -395,9 +396,10 @@ pub fn comma_separated(files: &[ShownFile]) -> String {
 
 /// A field of a CSV file.
 fn quoted(text: &str) -> String {
+    let text = cell(text);
     if text.contains([',', '"', '\n']) {
         format!("\"{}\"", text.replace('"', "\"\""))
     } else {
-        text.to_owned()
+        text.into_owned()
     }
 }

@@ -21,7 +21,7 @@ use pounding_time_history::TimeHistoryError;
 use pounding_verification::VerificationError;
 
 use crate::interruption::EXIT_CODE;
-use crate::plot;
+use crate::{plot, terminal};
 
 /// Errors of one input that are shown: more help nobody.
 const MOST_SHOWN: usize = 20;
@@ -70,6 +70,7 @@ impl Failure {
             text.push_str(&format!("{} errors\n", reports.len()));
         }
         // Where nobody can read it any more, the exit code still says it.
+        let text = terminal::rendered(&text);
         let _ = std::io::stderr().lock().write_all(text.as_bytes());
         code
     }
@@ -111,12 +112,13 @@ impl Failure {
         message: String,
         help: &str,
     ) -> Self {
-        let diagnostic = MietteDiagnostic::new(message)
-            .with_help(help)
+        let diagnostic = MietteDiagnostic::new(terminal::shown(&message))
+            .with_help(terminal::shown(help))
             .with_label(LabeledSpan::at((place.start, place.len()), "here"));
-        Self::Input(
-            Report::new(diagnostic).with_source_code(NamedSource::new(file, source.to_owned())),
-        )
+        Self::Input(Report::new(diagnostic).with_source_code(NamedSource::new(
+            terminal::shown(file),
+            terminal::source(source.to_owned()),
+        )))
     }
 
     /// Output that could not be written; a closed pipe is the reader's choice.
@@ -166,7 +168,7 @@ impl Failure {
 
     /// The same, said of a file or of a part of one.
     pub fn within(self, what: &str) -> Self {
-        let say = |report: Report| report.wrap_err(what.to_owned());
+        let say = |report: Report| report.wrap_err(terminal::shown(what).into_owned());
         match self {
             Self::Input(report) => Self::Input(say(report)),
             Self::Inputs(reports) => Self::Inputs(reports.into_iter().map(say).collect()),
@@ -328,8 +330,8 @@ impl From<HysteresisError> for Failure {
 
 /// An error with the line it stands in, where the text is known.
 fn located(error: CaseError, source: &str) -> Report {
-    let mut diagnostic = MietteDiagnostic::new(error.to_string());
-    diagnostic.help = error.help;
+    let mut diagnostic = MietteDiagnostic::new(terminal::shown(&error.to_string()));
+    diagnostic.help = error.help.map(|help| terminal::shown(&help).into_owned());
     if source.is_empty() {
         return Report::new(diagnostic);
     }
@@ -338,11 +340,14 @@ fn located(error: CaseError, source: &str) -> Report {
         .len()
         .min(source.len().saturating_sub(error.span.start));
     let diagnostic = diagnostic.with_label(LabeledSpan::at((error.span.start, length), "here"));
-    Report::new(diagnostic).with_source_code(NamedSource::new(error.file, source.to_owned()))
+    Report::new(diagnostic).with_source_code(NamedSource::new(
+        terminal::shown(&error.file),
+        terminal::source(source.to_owned()),
+    ))
 }
 
 fn plain(message: String, help: Option<String>) -> Report {
-    let mut diagnostic = MietteDiagnostic::new(message);
-    diagnostic.help = help;
+    let mut diagnostic = MietteDiagnostic::new(terminal::shown(&message));
+    diagnostic.help = help.map(|help| terminal::shown(&help).into_owned());
     Report::new(diagnostic)
 }

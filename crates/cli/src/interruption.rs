@@ -142,7 +142,9 @@ pub fn leave(done: &str) -> ! {
         text.push_str(&format!("go on with\n  {command}\n"));
     }
     // A terminal that is gone changes nothing.
-    let _ = std::io::stderr().lock().write_all(text.as_bytes());
+    let _ = std::io::stderr()
+        .lock()
+        .write_all(crate::terminal::shown(&text).as_bytes());
     end_with(EXIT_CODE)
 }
 

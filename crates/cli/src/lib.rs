@@ -24,6 +24,7 @@ mod progress;
 mod separate;
 mod study;
 mod tables;
+mod terminal;
 mod version;
 
 use std::ffi::OsString;

@@ -5,17 +5,19 @@ use std::path::Path;
 
 use pounding_catalogue::wording::cell;
 use serde::Serialize;
+use serde::de::IgnoredAny;
 
 use crate::failure::Failure;
 use crate::tables::paragraphs;
+use crate::terminal::shown;
 
 /// Prints to standard output: a text for people, whose lines are broken where the terminal
 /// ends, or JSON, as it is.
 pub fn print(text: &str) -> Result<(), Failure> {
-    if text.starts_with(['{', '[']) {
+    if text.starts_with(['{', '[']) && serde_json::from_str::<IgnoredAny>(text).is_ok() {
         print_as_it_is(text)
     } else {
-        print_as_it_is(&paragraphs(text))
+        print_as_it_is(&paragraphs(&shown(text)))
     }
 }
 
@@ -52,13 +54,13 @@ pub fn written<'p>(files: impl IntoIterator<Item = Option<&'p Path>>) -> String 
 /// Prints a remark to standard error.
 pub fn note(text: &str) {
     // Nobody to tell is no reason to stop.
-    let _ = writeln!(std::io::stderr(), "note: {text}");
+    let _ = writeln!(std::io::stderr(), "note: {}", shown(text));
 }
 
 /// Prints a warning to standard error.
 pub fn warn(text: &str) {
     // Nobody to tell is no reason to stop.
-    let _ = writeln!(std::io::stderr(), "warning: {text}");
+    let _ = writeln!(std::io::stderr(), "warning: {}", shown(text));
 }
 
 /// A header and rows as comma-separated values, numbers at full precision; see [`cell`] for texts.

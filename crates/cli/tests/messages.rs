@@ -716,3 +716,58 @@ fn one_is_singular() {
         assert!(all.contains(said), "{said}: {all}");
     }
 }
+
+/// What users write is shown, and never obeyed by the terminal.
+#[test]
+fn terminals_obey_no_text_of_a_file() {
+    let folder = tempfile::tempdir().unwrap();
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let case = std::fs::read_to_string(root.join("examples/three_storey_pair/case.toml")).unwrap();
+    let motions = root.canonicalize().unwrap().join("ground_motions");
+    let case = case.replace("../../ground_motions", motions.to_str().unwrap());
+    let title = "title = \"Geb\u{e4}ude \u{5efa}\\u001b[2J\u{202e}\u{9b}1m\"";
+    let titled = case.lines().map(|line| match line.starts_with("title") {
+        true => title,
+        false => line,
+    });
+    let titled: Vec<&str> = titled.collect();
+    std::fs::write(folder.path().join("case.toml"), titled.join("\n")).unwrap();
+    let wrong = titled.join("\n").replace("Geb", "Geb\u{1b}") + "\nmisplaced \u{2066} = \u{1b}[2J";
+    std::fs::write(folder.path().join("wrong.toml"), wrong).unwrap();
+    for (arguments, code, words) in [
+        (
+            &["run", "case.toml", "--no-output"][..],
+            0,
+            &["Geb\u{e4}ude \u{5efa}\\u{1b}[2J\\u{202e}\\u{9b}1m"][..],
+        ),
+        (&["check", "wrong.toml"], 2, &["\\u{1b}"]),
+        (
+            &["--color", "always", "check", "wrong.toml"],
+            2,
+            &["\\u{1b}"],
+        ),
+        (
+            &["check", "\u{1b}[2J\u{202e}.toml"],
+            2,
+            &["\\u{1b}[2J\\u{202e}"],
+        ),
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .current_dir(folder.path())
+            .env("COLUMNS", "200")
+            .args(arguments)
+            .output()
+            .unwrap();
+        let told = [output.stdout, output.stderr].concat();
+        let told = String::from_utf8(told).unwrap();
+        assert_eq!(output.status.code(), Some(code), "{arguments:?} {told}");
+        for word in words {
+            assert!(told.contains(word), "{arguments:?} {word}: {told:?}");
+        }
+        assert!(!told.contains("\u{1b}[2J"), "{arguments:?}: {told:?}");
+        assert!(
+            !told.contains(['\u{202e}', '\u{2066}', '\u{9b}']),
+            "{arguments:?}: {told:?}"
+        );
+    }
+}

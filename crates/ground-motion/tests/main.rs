@@ -13,6 +13,7 @@ mod excitation;
 mod formats;
 mod generators;
 mod hostile;
+mod long_steps;
 mod matching;
 mod measures;
 mod point_source;

@@ -21,6 +21,8 @@ const TERMS: usize = 20;
 /// Part of a step to which the time of a peak is found: the peak's error is the
 /// square of it.
 const TIME_TOLERANCE: f64 = 1.0e-9;
+/// What round-off may add to a bound.
+const ROUNDING: f64 = 1.0 + 1.0e-9;
 
 /// `u' = a u + b v + c p0 + d p1`, `v' = a1 u + b1 v + c1 p0 + d1 p1`.
 #[derive(Debug, Clone, Copy)]
@@ -82,9 +84,11 @@ fn phi(z: Complex64) -> (Complex64, Complex64) {
 }
 
 /// What one quantity does within a step: its second derivative is
-/// `Re(curvature e^(lambda t))`.
+/// `Re(curvature e^(lambda t))`, and what is left beside such a swing goes straight between two
+/// values.
 struct Quantity {
     curvature: Complex64,
+    straight: [f64; 2],
     value: fn(&Oscillator, State, f64) -> f64,
     rate: fn(&Oscillator, State, f64) -> f64,
 }
@@ -164,6 +168,13 @@ impl Oscillator {
         )
     }
 
+    /// The displacement (m) without the swing at both ends of a step: `p/w^2 - 2 zeta p'/w^3`.
+    fn straight_displacement(&self, forces: [f64; 2]) -> [f64; 2] {
+        let rate = (forces[1] - forces[0]) / self.time_step;
+        let behind = 2.0 * self.damping * rate / self.frequency;
+        forces.map(|p| (p - behind) / self.frequency.powi(2))
+    }
+
     /// Raises a displacement peak by what happens within the step that starts in
     /// `state` at `start` (s) and ends in `end`.
     pub(crate) fn raise_displacement(
@@ -175,6 +186,7 @@ impl Oscillator {
     ) {
         let quantity = Quantity {
             curvature: self.curvature(states[0], forces[0], forces[1]),
+            straight: self.straight_displacement(forces),
             value: |_, s, _| s.displacement,
             rate: |_, s, _| s.velocity,
         };
@@ -196,6 +208,20 @@ impl Oscillator {
         if !(ends[0].max(ends[1]) + h * h / 8.0 * amplitude > peak.value) {
             return;
         }
+        // A step of many half cycles would take an evaluation and more for each: those in which
+        // the straight part and the swing together do not reach the peak are passed over.
+        let apart = PI / self.damped_frequency;
+        let decay = self.damping * self.frequency;
+        let swing = amplitude / self.frequency.powi(2);
+        let straight = |time: f64| {
+            let [from, to] = quantity.straight;
+            (from + (to - from) * time / h).abs()
+        };
+        let reaches =
+            |peak: &Peak, straight: f64, swing: f64| (straight + swing) * ROUNDING > peak.value;
+        if h > apart && !reaches(peak, straight(0.0).max(straight(h)), swing) {
+            return;
+        }
         let at = |time: f64| {
             let force = forces[0] + (forces[1] - forces[0]) * time / h;
             let state = self.transition(time).apply(states[0], forces[0], force);
@@ -207,15 +233,22 @@ impl Oscillator {
         };
         // Between zeros of the second derivative the rate is monotonic.
         let first = (PI / 2.0 - quantity.curvature.arg()).rem_euclid(PI) / self.damped_frequency;
-        let apart = PI / self.damped_frequency;
-        let (mut from, mut rate_from) = (0.0, (quantity.rate)(self, states[0], forces[0]));
+        let (mut from, mut rate_from) = (0.0, Some((quantity.rate)(self, states[0], forces[0])));
         let mut k = 0;
         while from < h {
             let to = (first + k as f64 * apart).min(h);
             k += 1;
+            if h > apart {
+                let left = swing * libm::exp(-decay * from);
+                if !reaches(peak, straight(from).max(straight(to)), left) {
+                    (from, rate_from) = (to, None);
+                    continue;
+                }
+            }
+            let rate_from_here = rate_from.unwrap_or_else(|| rate(from));
             let rate_to = rate(to);
-            if rate_from * rate_to < 0.0 {
-                let time = zero(from, to, rate_from, rate_to, TIME_TOLERANCE * h, rate);
+            if rate_from_here * rate_to < 0.0 {
+                let time = zero(from, to, rate_from_here, rate_to, TIME_TOLERANCE * h, rate);
                 let (state, force) = at(time);
                 let value = (quantity.value)(self, state, force).abs();
                 if value > peak.value {
@@ -225,7 +258,7 @@ impl Oscillator {
                     };
                 }
             }
-            (from, rate_from) = (to, rate_to);
+            (from, rate_from) = (to, Some(rate_to));
         }
     }
 
@@ -287,17 +320,20 @@ impl Oscillator {
         let curvature = self.curvature(states[0], forces[0], forces[1]);
         let displacement = Quantity {
             curvature,
+            straight: self.straight_displacement(forces),
             value: |_, s, _| s.displacement,
             rate: |_, s, _| s.velocity,
         };
         let velocity = Quantity {
             curvature: curvature * self.eigenvalue,
+            straight: [(forces[1] - forces[0]) / (self.time_step * self.frequency.powi(2)); 2],
             value: |_, s, _| s.velocity,
             rate: Self::relative_acceleration,
         };
         // lambda^2 = -w^2 - 2 zeta w lambda.
         let acceleration = Quantity {
             curvature: -curvature * self.eigenvalue * self.eigenvalue,
+            straight: forces,
             value: |o, s, _| o.absolute_acceleration(s),
             rate: |o, s, p| {
                 let turned = State {

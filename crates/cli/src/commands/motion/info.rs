@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use pounding_case::Dimension;
+use pounding_catalogue::wording::counted;
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 use pounding_ground_motion::{
@@ -18,6 +19,7 @@ use crate::arguments::InfoArguments;
 use crate::arguments::value;
 use crate::failure::Failure;
 use crate::output::{pretty, print};
+use crate::progress::Progress;
 use crate::tables::G;
 use crate::{page, plot};
 
@@ -69,6 +71,10 @@ pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
         component,
         ..read.clone()
     };
+    let progress = Progress::working(format!(
+        "measuring {}",
+        counted(arguments.files.len(), "record")
+    ))?;
     for file in &arguments.files {
         let recording = read_all(file, &read).map_err(Failure::from);
         match recording.and_then(|recording| shown(file, recording, &options, measured)) {
@@ -99,6 +105,7 @@ pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
         arguments.output.as_deref(),
         arguments.report.as_deref(),
     )?;
+    drop(progress);
     print(&if arguments.json {
         pretty(&Files::of(&files))?
     } else {

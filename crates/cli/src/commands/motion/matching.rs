@@ -13,6 +13,7 @@ use crate::arguments::value;
 use crate::arguments::{MatchArguments, MatchMethod, OutputArguments};
 use crate::failure::Failure;
 use crate::plot;
+use crate::progress::Progress;
 
 /// Matches, writes, and says how near the result is.
 pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
@@ -26,10 +27,12 @@ pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
     };
     words::ascending(("from", options.from), ("to", options.to), "s")?;
     let record = reading::acceleration(&arguments.file, &arguments.read)?;
+    let progress = Progress::working(format!("matching {}", arguments.file.display()))?;
     let matched = match arguments.method {
         MatchMethod::Wavelets => match_by_wavelets(&record, &target, options)?,
         MatchMethod::FourierAmplitudes => match_by_fourier_amplitudes(&record, &target, options)?,
     };
+    drop(progress);
     let motion = &matched.accelerogram;
     if let Some(path) = &arguments.output.svg {
         let band = (options.from, options.to);

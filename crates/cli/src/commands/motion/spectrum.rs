@@ -19,6 +19,7 @@ use crate::arguments::value;
 use crate::failure::Failure;
 use crate::output::{pretty, print};
 use crate::plot;
+use crate::progress::Progress;
 
 /// Periods (s) or frequencies (Hz) where none are given: first, last, how many.
 const PERIODS: (f64, f64, usize) = (0.05, 4.0, 30);
@@ -64,13 +65,16 @@ pub fn spectrum(arguments: &SpectrumArguments) -> Result<(), Failure> {
     let Some(file) = &arguments.file else {
         return spectrum_of_code::alone(arguments);
     };
-    if arguments.fourier {
+    let progress = Progress::working(format!("computing the spectrum of {}", file.display()))?;
+    let text = if arguments.fourier {
         fourier(arguments, file)
     } else if arguments.rotated {
         rotated(arguments, file)
     } else {
         responses(arguments, file)
-    }
+    }?;
+    drop(progress);
+    print(&text)
 }
 
 /// Places of a spectrum: those given, or evenly spaced in their logarithm.
@@ -125,7 +129,7 @@ fn evaluation(arguments: &SpectrumArguments) -> Evaluation {
     }
 }
 
-fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
+fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure> {
     let periods = places(arguments, PERIODS, Dimension::TIME)?;
     let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
     let record = reading::acceleration(file, &arguments.read)?;
@@ -150,7 +154,7 @@ fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> 
         let drawn = motion::responses_and_codes(&drawn, &codes);
         plot::write_drawn(path, drawn, &arguments.figure)?;
     }
-    print(&if arguments.json {
+    Ok(if arguments.json {
         pretty(&OfRecord {
             results: Spectra {
                 spectra,
@@ -170,7 +174,7 @@ fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> 
     })
 }
 
-fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
+fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure> {
     let periods = places(arguments, PERIODS, Dimension::TIME)?;
     let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
     if arguments.second_file.is_none() && arguments.second_component.is_none() {
@@ -195,7 +199,7 @@ fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
     if let Some(path) = &arguments.svg {
         plot::write_drawn(path, motion::rotated(&spectra), &arguments.figure)?;
     }
-    print(&if arguments.json {
+    Ok(if arguments.json {
         pretty(&OfTwo {
             spectra,
             records: [first.echo(), second.echo()],
@@ -210,7 +214,7 @@ fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
     })
 }
 
-fn fourier(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
+fn fourier(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure> {
     let record = reading::acceleration(file, &arguments.read)?;
     let whole = fourier_spectrum(&record, 0);
     let (frequencies, amplitudes, how) = if arguments.unsmoothed {
@@ -237,7 +241,7 @@ fn fourier(arguments: &SpectrumArguments, file: &Path) -> Result<(), Failure> {
         let picture = motion::fourier(&how, &frequencies, &amplitudes);
         plot::write_drawn(path, picture, &arguments.figure)?;
     }
-    print(&if arguments.json {
+    Ok(if arguments.json {
         pretty(&OfRecord {
             results: Fourier {
                 frequencies,

@@ -8,9 +8,11 @@ use super::{generators, writing};
 use crate::arguments::value;
 use crate::arguments::{Generator, GridArguments, SynthArguments};
 use crate::failure::Failure;
+use crate::progress::Progress;
 
 /// Makes a motion and writes it.
 pub fn synth(arguments: &SynthArguments) -> Result<(), Failure> {
+    let progress = Progress::working("generating the motion".to_owned())?;
     let (made, grid) = match &arguments.generator {
         Generator::Sine(a) => (generators::sine(a)?, &a.grid),
         Generator::Ricker(a) => (generators::ricker(a)?, &a.grid),
@@ -21,6 +23,7 @@ pub fn synth(arguments: &SynthArguments) -> Result<(), Failure> {
         Generator::RezaeianDerKiureghian(a) => (generators::rezaeian(a)?, &a.seeded.grid),
         Generator::Boore(a) => (generators::boore(a)?, &a.seeded.grid),
     };
+    drop(progress);
     finish(&made, grid)
 }
 

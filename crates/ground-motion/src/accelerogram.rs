@@ -5,6 +5,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use crate::error::GroundMotionError;
+use crate::recording::unusual_step;
 use crate::station_xml::ResponseFile;
 use crate::step_record::StepRecord;
 use crate::unit::AccelerationUnit;
@@ -116,6 +117,13 @@ impl Accelerogram {
             origin: None,
             steps: Vec::new(),
         })
+    }
+
+    /// What is to be said of a time step that no accelerograph has: mostly one that is wrong by a
+    /// power of ten.
+    #[must_use]
+    pub fn unusual_time_step(&self) -> Option<String> {
+        unusual_step(self.time_step, self.samples.len())
     }
 
     pub(crate) fn with_origin(mut self, mut origin: Origin) -> Self {

@@ -3,7 +3,7 @@
 use crate::accelerogram::{Origin, Processing};
 use crate::error::{GroundMotionError, bound};
 use crate::quantity::{Quantity, SeriesUnit};
-use crate::recording::{HeaderPeak, Sampling, Series};
+use crate::recording::{HeaderPeak, Sampling, Series, unusual_step};
 use crate::source::Source;
 use crate::unit::AccelerationUnit;
 
@@ -181,6 +181,7 @@ impl Draft {
         let (factor, quantity, symbol, unit_text) = self.unit(source)?;
         self.agrees_in_words(source, quantity, symbol)?;
         let (sampling, step_text) = self.sampling(source)?;
+        self.warn_of_step(source, &sampling);
         self.duration(source, &sampling)?;
         if let Some((line, message, remedy)) = self.step_conflict.take() {
             if !source.options.lenient {
@@ -414,6 +415,20 @@ impl Draft {
                 })
             }
         }
+    }
+
+    /// A step that no accelerograph has is used: synthetic motions may have it.
+    fn warn_of_step(&mut self, source: &Source<'_>, sampling: &Sampling) {
+        let Some(text) = unusual_step(sampling.median_step(), self.samples.len()) else {
+            return;
+        };
+        // Binary formats have no lines.
+        let stated = self.lines != (1, 1, 1) && source.options.time_step.is_none();
+        let text = match (sampling, stated) {
+            (Sampling::Even { .. }, true) => format!("line {}: {text}", self.lines.0),
+            _ => text,
+        };
+        self.warnings.push(text);
     }
 
     fn sampling(&mut self, source: &Source<'_>) -> Result<(Sampling, String), GroundMotionError> {

@@ -1,11 +1,11 @@
-//! Time steps that no accelerograph has: no reason to compute for minutes.
+//! Time steps that no accelerograph has: said, used, and no reason to compute for minutes.
 #![allow(clippy::unwrap_used)]
 
 use std::time::{Duration, Instant};
 
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
-use pounding_ground_motion::{AccelerationUnit, Accelerogram};
+use pounding_ground_motion::{AccelerationUnit, Accelerogram, ReadOptions, read_bytes};
 
 /// A motion of a step (s), the same for the same count.
 fn motion(count: usize, step: f64) -> Accelerogram {
@@ -69,4 +69,41 @@ fn spectra_and_measures_of_long_steps_take_no_longer() {
     // A second or less on an idle machine; four minutes before.
     let took = began.elapsed();
     assert!(took < Duration::from_secs(40), "{took:?}");
+}
+
+fn at2(step: &str) -> String {
+    let values = "0.1 -0.2 0.3 -0.1 0.2\n".repeat(20);
+    format!("A\nB\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 100, DT= {step}\n{values}")
+}
+
+fn read(step: &str) -> Accelerogram {
+    read_bytes("a.at2", at2(step).as_bytes(), &ReadOptions::default()).unwrap()
+}
+
+#[test]
+fn steps_of_no_accelerograph_are_named_with_their_line() {
+    for (step, said) in [
+        ("5 SEC", Some("line 4: the time step is 5 s")),
+        ("0.11", Some("line 4: the time step is 0.11 s")),
+        ("0.00001 SEC", Some("line 4: the time step is 1e-5 s")),
+        ("0.1 SEC", None),
+        ("0.0001 SEC", None),
+        ("0.005 SEC", None),
+    ] {
+        let record = read(step);
+        let found = record.origin().unwrap().warnings.iter();
+        let found: Vec<_> = found.filter(|w| w.contains("the time step is")).collect();
+        match said {
+            Some(words) => assert!(found.len() == 1 && found[0].contains(words), "{found:?}"),
+            None => assert!(found.is_empty(), "{step}: {found:?}"),
+        }
+        assert_eq!(record.unusual_time_step().is_some(), said.is_some());
+    }
+    let warnings = read("5 SEC").origin().unwrap().warnings.clone();
+    assert!(
+        warnings
+            .iter()
+            .any(|w| w.contains("100 samples take 495 s")),
+        "{warnings:?}"
+    );
 }

@@ -23,7 +23,7 @@ use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
     Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, Repeated,
-    amplification, demands, in_parallel, levels, rebuilt,
+    amplification, demands, in_parallel, levels, rebuilt, step_warnings,
 };
 
 /// What is asked for.
@@ -238,7 +238,8 @@ pub fn compare_dealt(
     let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
     let copies = Repeated::among(records).warnings(&names);
     let warnings = warnings.chain(undamped(system, &references));
-    let warnings = warnings.chain(copies).collect();
+    let warnings = warnings.chain(copies).chain(step_warnings(records));
+    let warnings = warnings.collect();
     let mut comparison = Comparison {
         options: options.clone(),
         references,

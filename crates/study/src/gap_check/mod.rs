@@ -34,6 +34,7 @@ pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_wid
 pub(crate) use demand::closes;
 pub(crate) use demand::levels;
 pub(crate) use parallel::in_parallel;
+pub(crate) use records::step_warnings;
 pub use systems::rebuilt;
 
 use pounding_case::{Case, Separation};
@@ -274,6 +275,7 @@ pub fn gap_check_dealt(
             .iter()
             .map(ToString::to_string)
             .chain(repeated.warnings(&names))
+            .chain(step_warnings(records))
             .collect(),
         repeated,
     })

@@ -20,6 +20,14 @@ pub struct CaseUnderRecord {
     pub assembly: Assembly,
 }
 
+/// What the user should know of the time steps of records.
+pub(crate) fn step_warnings(records: &[CaseUnderRecord]) -> impl Iterator<Item = String> {
+    records.iter().filter_map(|record| {
+        let text = record.assembly.accelerogram.unusual_time_step()?;
+        Some(format!("{}: {text}", record.name))
+    })
+}
+
 /// Puts a case under each record: files, or folders of records as [`record_files`] lists
 /// them. Without any, the case keeps its own record.
 ///

@@ -198,3 +198,124 @@ fn makris_roussos() {
         );
     }
 }
+
+/// A pulse of several cycles is of no use where its own sampling leaves a velocity: whatever the
+/// step, and wherever the pulse starts, on a sample, between two, or with the motion.
+#[test]
+fn velocities_return_wherever_a_pulse_starts() {
+    let (amplitude, period) = (0.8, 1.25);
+    let w = TAU / period;
+    for step in [0.02, 0.01, 0.005, 0.0013] {
+        for start in [
+            0.0,
+            0.3 * step,
+            0.5 * step,
+            0.8 * step,
+            1.0,
+            1.0 + 0.37 * step,
+        ] {
+            for pulse in [
+                PulseType::A,
+                PulseType::B,
+                PulseType::C { cycles: 1 },
+                PulseType::C { cycles: 3 },
+            ] {
+                let pulse = MakrisRoussos2000 {
+                    pulse,
+                    amplitude,
+                    period,
+                    start,
+                };
+                let long = start + pulse.length();
+                // Also with the end of the motion at that of the pulse or a step after it.
+                for duration in [long, long + step, 8.0] {
+                    if duration < (long / step).ceil() * step - 0.5 * step {
+                        continue;
+                    }
+                    let left = ground(&pulse.generate(grid(step, duration)).unwrap());
+                    let left = left.end_velocity().abs() / amplitude;
+                    assert!(
+                        left < 0.25 * (w * step).powi(2) + 1.0e-6,
+                        "{pulse:?} with {step} s over {duration} s leaves {left}"
+                    );
+                }
+            }
+        }
+    }
+    let starting = |pulse| {
+        let of = MakrisRoussos2000 {
+            pulse,
+            amplitude,
+            period,
+            start: 0.0,
+        };
+        let motion = of.generate(grid(0.02, 8.0)).unwrap();
+        let left = ground(&motion).end_velocity().abs();
+        (motion.accelerogram.samples()[0], left)
+    };
+    let (first, left) = starting(PulseType::B);
+    near(first, amplitude * w, 1e-12);
+    assert!(left < 1e-4, "{left}");
+    // With the velocity that the halved sample took off, it was 0.04.
+    let (first, left) = starting(PulseType::C { cycles: 2 });
+    near(first, amplitude * w * (0.0410 * PI).cos(), 1e-4);
+    assert!(left < 4e-4, "{left}");
+}
+
+/// A sine that begins or ends anywhere has the velocity of its integral, `A/w (cos p - cos(w l +
+/// p))`; a whole period of a cosine none.
+#[test]
+fn sines_end_with_the_velocity_of_their_integral() {
+    let w = TAU * 1.5;
+    for step in [0.02, 0.01, 0.0013] {
+        for (phase, length) in [
+            (0.0, 1.0 / 3.0),
+            (PI / 2.0, 2.0 / 3.0),
+            (0.7, 1.0),
+            (1.1, 3.137),
+        ] {
+            let sine = Sine {
+                amplitude: 2.0,
+                frequency: 1.5,
+                phase,
+                length,
+                envelope: Envelope::Constant,
+            };
+            let found = ground(&sine.generate(grid(step, 5.0)).unwrap()).end_velocity();
+            let exact = 2.0 / w * (phase.cos() - (w * length + phase).cos());
+            let off = (found - exact).abs() * w / 2.0;
+            assert!(
+                off < 0.5 * (w * step).powi(2),
+                "{step} {phase} {length}: {off}"
+            );
+        }
+    }
+}
+
+/// Those whose acceleration has no jump need nothing of the kind.
+#[test]
+fn smooth_pulses_leave_the_velocity_of_their_formula() {
+    for step in [0.02, 0.01, 0.0013] {
+        for part in [0.0, 0.4] {
+            for (gamma, nu) in [(1.5, 0.0), (2.0, PI / 2.0), (3.1, -2.0)] {
+                let pulse = MavroeidisPapageorgiou2003 {
+                    amplitude: 0.8,
+                    frequency: 0.8,
+                    oscillation: gamma,
+                    phase: nu,
+                    centre: 0.5 * gamma / 0.8 + part * step,
+                };
+                let left = ground(&pulse.generate(grid(step, 8.0)).unwrap()).end_velocity();
+                let bound = 0.25 * (TAU * 0.8 * step).powi(2) * 0.8;
+                assert!(left.abs() < bound, "{gamma} {nu} {step}: {left}");
+            }
+            let ricker = Ricker1953 {
+                amplitude: 3.0,
+                period: 1.25,
+                centre: 1.5 * 1.25 + part * step,
+            };
+            let left = ground(&ricker.generate(grid(step, 8.0)).unwrap()).end_velocity();
+            assert!(left.abs() < 1e-6, "{step}: {left}");
+        }
+    }
+}

@@ -75,23 +75,21 @@ impl MakrisRoussos2000 {
             within(STEP, "number of cycles", f64::from(cycles), 1.0, 20.0)?;
         }
         let length = self.length();
-        within(STEP, "start", self.start, 0.0, grid.duration - length)?;
+        // A pulse may end with the motion, whose duration is a sum of rounded numbers.
+        let latest = grid.duration - length + 1.0e-9 * length;
+        within(STEP, "start", self.start, 0.0, latest)?;
         let w = TAU / self.period;
         let phi = match self.pulse {
             PulseType::C { cycles } => phase(cycles),
             PulseType::A | PulseType::B => 0.0,
         };
-        let samples = grid.sample(|t| {
-            let s = t - self.start;
-            // A jump is passed in the middle of its step, so that velocities stay right.
-            let weight = (s / grid.time_step + 0.5).clamp(0.0, 1.0)
-                * ((length - s) / grid.time_step + 0.5).clamp(0.0, 1.0);
-            let inside = s.clamp(0.0, length);
+        let samples = grid.sample_between((self.start, self.start + length), |t| {
+            let angle = w * (t - self.start);
             let value = match self.pulse {
-                PulseType::A => 0.5 * libm::sin(w * inside),
-                PulseType::B | PulseType::C { .. } => libm::cos(w * inside + phi),
+                PulseType::A => 0.5 * libm::sin(angle),
+                PulseType::B | PulseType::C { .. } => libm::cos(angle + phi),
             };
-            self.amplitude * w * weight * value
+            self.amplitude * w * value
         })?;
         let step = StepRecord::new(STEP)
             .number("velocity amplitude", self.amplitude, "m/s")

@@ -122,6 +122,31 @@ impl TimeGrid {
             .collect())
     }
 
+    /// A function at the samples from a time (s) to another, and zero beyond them. Where it
+    /// jumps there, the samples beside the jump have it by halves, or by what lies on its side of
+    /// a step: so the velocity behind it is right. Before the first sample and after the last one
+    /// there is no step to share.
+    pub(crate) fn sample_between(
+        &self,
+        (from, to): (f64, f64),
+        function: impl Fn(f64) -> f64,
+    ) -> Result<Vec<f64>, GroundMotionError> {
+        let count = self.count()?;
+        let (step, last) = (self.time_step, (count - 1) as f64 * self.time_step);
+        let (at_start, at_end) = (function(from), function(to));
+        let sample = |t: f64| {
+            // What the sample stands for in the integral over time.
+            let (left, right) = ((t - 0.5 * step).max(0.0), (t + 0.5 * step).min(last));
+            let part = |of: f64| (of / (right - left)).clamp(0.0, 1.0);
+            let (begun, goes_on) = (t >= from, t <= to);
+            let value = if begun && goes_on { function(t) } else { 0.0 };
+            value
+                + at_start * (part(right - from) - f64::from(u8::from(begun)))
+                + at_end * (part(to - left) - f64::from(u8::from(goes_on)))
+        };
+        Ok((0..count).map(|i| sample(i as f64 * step)).collect())
+    }
+
     /// The motion with the numbers that it achieved.
     pub(crate) fn finish(
         &self,

@@ -8,7 +8,8 @@ use crate::step_record::StepRecord;
 
 const STEP: &str = Sine::GENERATOR.name;
 
-/// `A e(t) sin(2 pi f t + phase)` up to a length, zero after it.
+/// `A e(t) sin(2 pi f t + phase)` up to a length, zero after it. A jump there is passed in the middle
+/// of its step.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Sine {
     /// Amplitude (m/s2).
@@ -49,7 +50,7 @@ impl Sine {
             highest,
         )?;
         self.envelope.check()?;
-        let samples = grid.sample(|t| {
+        let samples = grid.sample_between((0.0, self.length), |t| {
             self.amplitude
                 * self.envelope.at(t, self.length)
                 * libm::sin(TAU * self.frequency * t + self.phase)

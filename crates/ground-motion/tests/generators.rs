@@ -55,6 +55,70 @@ fn power_spectra() {
     assert!(bad.generate(grid(0.01, 10.0), 1).is_err());
 }
 
+fn clough_penzien(peak: f64, filter_frequency: f64) -> CloughPenzien1975 {
+    CloughPenzien1975::for_peak(peak, 3.0, firm(), filter_frequency, 0.6).unwrap()
+}
+
+/// The variance after both filters against quadrature, and that of Kanai and Tajimi where the
+/// second filter takes nothing off.
+#[test]
+fn the_variance_of_both_filters_is_the_integral_of_the_density() {
+    for (ground_frequency, ground_damping, filter_frequency, filter_damping) in [
+        (15.6, 0.6, 1.56, 0.6),
+        (15.0, 0.6, 1.5, 0.6),
+        (10.0, 0.4, 1.0, 0.6),
+        (5.0, 0.2, 0.5, 0.6),
+        (3.0, 0.1, 9.0, 2.0),
+    ] {
+        let spectrum = CloughPenzien1975 {
+            ground: KanaiTajimi1960 {
+                intensity: 0.01,
+                ground_frequency,
+                ground_damping,
+            },
+            filter_frequency,
+            filter_damping,
+        };
+        // Beyond the end it is 4 zg^2 wg^2 S0/w^2.
+        let end = 2.0e4;
+        let tail = 8.0 * (ground_damping * ground_frequency).powi(2) * 0.01 / end;
+        let found = two_sided(end, |w| spectrum.density(w)) + tail;
+        near(found, spectrum.variance(), 1e-5);
+        let without = CloughPenzien1975 {
+            filter_frequency: 1e-6,
+            ..spectrum
+        };
+        near(without.variance(), without.ground.variance(), 1e-5);
+    }
+    for filter_frequency in [0.5, 1.56, 5.0] {
+        let spectrum = clough_penzien(3.0, filter_frequency);
+        near(spectrum.variance(), 1.0, 1e-12);
+        near(two_sided(2.0e4, |w| spectrum.density(w)), 1.0, 1e-3);
+    }
+    let refused = CloughPenzien1975::for_peak(3.0, 3.0, firm(), -1.0, 0.6);
+    assert!(refused.is_err());
+}
+
+/// A thousand motions have the standard deviation that their peak asks for, less the 2 % that the
+/// spectrum has beyond half the sampling rate.
+#[test]
+fn clough_penzien_ensemble() {
+    for filter_frequency in [1.56, 5.0] {
+        let motion = StationaryMotion {
+            spectrum: clough_penzien(3.0, filter_frequency),
+            envelope: Envelope::Constant,
+        };
+        let mut squares = Mean::default();
+        for seed in 0..SEEDS {
+            let made = motion.generate(grid(0.005, 20.0), seed).unwrap();
+            let a = made.accelerogram.samples();
+            squares.add(a.iter().map(|a| a * a).sum::<f64>() / a.len() as f64);
+        }
+        squares.meets(two_sided(PI / 0.005, |w| motion.spectrum.density(w)), 0.005);
+        near(squares.value(), 1.0, 0.02);
+    }
+}
+
 /// Stationary motions: variance, mean square and mean peak of an oscillator's
 /// acceleration over a thousand seeds.
 #[test]

@@ -116,27 +116,42 @@ pub fn trigonometric_pulse(a: &MakrisRoussosArguments) -> Result<Generated, Fail
     Ok(motion.generate(grid(&a.grid)?)?)
 }
 
-fn ground(a: &GroundArguments) -> Result<KanaiTajimi1960, Failure> {
-    let ground_frequency = match &a.ground_frequency {
-        Some(text) => TAU * frequency(text, "ground-frequency")?,
-        None => FIRM_GROUND,
-    };
-    Ok(KanaiTajimi1960::for_peak(
-        value(
-            &a.peak_acceleration,
-            "peak-acceleration",
-            Dimension::ACCELERATION,
-        )?,
-        number(&a.peak_factor, "peak-factor")?,
-        ground_frequency,
-        number(&a.ground_damping, "ground-damping")?,
-    )?)
+/// Peak acceleration and peak factor, frequency and damping ratio of the ground.
+struct Ground {
+    peak: f64,
+    factor: f64,
+    frequency: f64,
+    damping: f64,
+}
+
+impl Ground {
+    fn of(a: &GroundArguments) -> Result<Self, Failure> {
+        Ok(Self {
+            peak: value(
+                &a.peak_acceleration,
+                "peak-acceleration",
+                Dimension::ACCELERATION,
+            )?,
+            factor: number(&a.peak_factor, "peak-factor")?,
+            frequency: match &a.ground_frequency {
+                Some(text) => TAU * frequency(text, "ground-frequency")?,
+                None => FIRM_GROUND,
+            },
+            damping: number(&a.ground_damping, "ground-damping")?,
+        })
+    }
+
+    fn spectrum(&self) -> Result<KanaiTajimi1960, Failure> {
+        let (frequency, damping) = (self.frequency, self.damping);
+        let spectrum = KanaiTajimi1960::for_peak(self.peak, self.factor, frequency, damping)?;
+        Ok(spectrum)
+    }
 }
 
 /// Noise through the ground.
 pub fn kanai_tajimi(a: &KanaiTajimiArguments) -> Result<Generated, Failure> {
     let motion = StationaryMotion {
-        spectrum: ground(&a.ground)?,
+        spectrum: Ground::of(&a.ground)?.spectrum()?,
         envelope: envelope(&a.ground.envelope)?,
     };
     Ok(motion.generate(grid(&a.seeded.grid)?, a.seeded.seed)?)
@@ -144,16 +159,18 @@ pub fn kanai_tajimi(a: &KanaiTajimiArguments) -> Result<Generated, Failure> {
 
 /// Noise through the ground and a second filter.
 pub fn clough_penzien(a: &CloughPenzienArguments) -> Result<Generated, Failure> {
-    let ground = ground(&a.ground)?;
+    let ground = Ground::of(&a.ground)?;
     let motion = StationaryMotion {
-        spectrum: CloughPenzien1975 {
-            filter_frequency: match &a.filter_frequency {
+        spectrum: CloughPenzien1975::for_peak(
+            ground.peak,
+            ground.factor,
+            ground.spectrum()?,
+            match &a.filter_frequency {
                 Some(text) => TAU * frequency(text, "filter-frequency")?,
-                None => 0.1 * ground.ground_frequency,
+                None => 0.1 * ground.frequency,
             },
-            filter_damping: number(&a.filter_damping, "filter-damping")?,
-            ground,
-        },
+            number(&a.filter_damping, "filter-damping")?,
+        )?,
         envelope: envelope(&a.ground.envelope)?,
     };
     Ok(motion.generate(grid(&a.seeded.grid)?, a.seeded.seed)?)

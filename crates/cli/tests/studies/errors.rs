@@ -54,15 +54,22 @@ fn errors_point_at_their_place() {
         (
             "runs = 60",
             "runs = 3_000_000_000",
-            vec![
-                "`runs` = 3_000_000_000 is too large",
-                "from 1 to 1000000000",
-            ],
+            vec!["`runs` = 3_000_000_000 is too large", "from 1 to 100000000"],
         ),
         (
             "runs = 60",
             "runs = 99999999999999999999999",
-            vec!["is too large", "from 1 to 1000000000"],
+            vec!["is too large", "from 1 to 100000000"],
+        ),
+        (
+            "to = \"60 mm\"",
+            "to = \"60 mm\"\ncount = 1_000_001",
+            vec!["`count` = 1_000_001 is too large", "from 2 to 1000000"],
+        ),
+        (
+            "chunk = 4",
+            "chunk = 1_000_000_000",
+            vec!["`chunk` = 1_000_000_000 is too large", "from 1 to 1000000"],
         ),
         ("latin_hypercube", "latin", vec!["unknown design \"latin\""]),
         (
@@ -122,6 +129,59 @@ fn errors_point_at_their_place() {
     bench.complaint("ida study.toml", 2);
     let told = bench.complaint("sweep study.toml --show 60", 2);
     assert!(told.contains("runs 0 to 59"), "{told}");
+}
+
+/// Counts that would take all memory, each at its place.
+#[test]
+fn counts_have_limits() {
+    let synthetic = |more: &str| {
+        format!(
+            "[[variable]]\nsynthetic = {{ model = \"rezaeian_der_kiureghian_2010\", duration = \"30 s\", significant_duration = \"12 s\", middle_time = \"8 s\", middle_frequency = \"3.5 1/s\", {more} }}\n"
+        )
+    };
+    let range = |path: &str, count: &str| {
+        format!(
+            "[[variable]]\npath = \"{path}\"\nfrom = \"10 mm\"\nto = \"20 mm\"\ncount = {count}\n"
+        )
+    };
+    let bench = Bench::new("");
+    for (study, reasons) in [
+        (
+            synthetic("count = 1_000_000_000"),
+            ["study.toml:3:", "is too large", "from 1 to 10000"],
+        ),
+        (
+            synthetic("count = 1_000_000_000_000_000_000"),
+            ["study.toml:3:", "is too large", "from 1 to 10000"],
+        ),
+        (
+            synthetic("time_step = \"0.1 ms\", count = 10_000"),
+            [
+                "study.toml:3:",
+                "10000 motions of 300001 samples",
+                "make fewer motions",
+            ],
+        ),
+        (
+            range("gap.0.width", "1000000")
+                + &range("building.light.mass", "1000").replace("mm", "t"),
+            [
+                "the grid has 1000000 x 1000 runs",
+                "100000000 at most",
+                "make it coarser",
+            ],
+        ),
+        (
+            "[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.2 g\"]\n[ida]\ngaps = { from = \"1 mm\", to = \"1 m\", count = 1_000_000 }\n".to_owned(),
+            ["study.toml:", "1000000 widths", "more than 1000"],
+        ),
+    ] {
+        bench.study(&format!("case = \"case.toml\"\n{study}"));
+        let told = bench.complaint("sweep study.toml", 2);
+        for reason in reasons {
+            assert!(told.contains(reason), "{study}: {told}");
+        }
+    }
 }
 
 /// Two variables of one entry, and what an analysis of intensities asks for.

@@ -21,6 +21,8 @@ pub use frequency_domain::match_by_fourier_amplitudes;
 pub use wavelets::match_by_wavelets;
 
 const STEP: &str = "spectrum matching";
+/// Most iterations that are meant: what is not reached by then is not reached at all.
+const MOST_ITERATIONS: f64 = 1.0e5;
 /// The result is held against the target at this many periods for each that is matched.
 const CHECKED_PER_MATCHED: usize = 8;
 
@@ -154,6 +156,14 @@ fn iterate<A: Adjustment>(
         options.periods as f64,
         2.0,
         500.0,
+    )?;
+    let iterations = options.iterations as f64;
+    within(
+        STEP,
+        "number of iterations",
+        iterations,
+        0.0,
+        MOST_ITERATIONS,
     )?;
     let periods = logarithmic_periods(options.from, options.to, options.periods)?;
     let check = |r: &Accelerogram| {

@@ -11,6 +11,9 @@ use super::records::CaseUnderRecord;
 use super::systems::rebuilt;
 use crate::dealt::{Deal, Numbers, Stored};
 
+/// Most widths of a sweep: every one is a run of every record, whose peaks are kept.
+const MOST_POINTS: usize = 100_000;
+
 /// Which widths.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SweepOptions {
@@ -39,6 +42,13 @@ impl SweepOptions {
                 "points of the sweep",
                 self.points as f64,
                 "a sweep has two widths or more",
+            );
+        }
+        if self.points > MOST_POINTS {
+            return refuse(
+                "points of the sweep",
+                self.points as f64,
+                "a sweep has 100000 widths at most",
             );
         }
         let from = self.from.unwrap_or(0.0);

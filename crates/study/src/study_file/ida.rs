@@ -343,6 +343,9 @@ impl IdaTable {
     }
 }
 
+/// Most widths of a range: every one has a fragility and a bootstrap of its own.
+const MOST_WIDTHS: usize = 1000;
+
 /// A list of widths, or a table with a range and a count.
 fn widths(reader: &Reader<'_>, gaps: Located<TableOr<Numbers, List<Written>>>) -> Option<Vec<f64>> {
     let Located { value, span } = gaps;
@@ -365,6 +368,13 @@ fn widths(reader: &Reader<'_>, gaps: Located<TableOr<Numbers, List<Written>>>) -
             "add `count = ...`",
         );
     };
+    if count > MOST_WIDTHS {
+        return reader.refuse(
+            span,
+            format!("{count} widths of the gap are more than {MOST_WIDTHS}"),
+            "give a smaller `count`: curves are straight between widths",
+        );
+    }
     let number = |i| match values.at(i) {
         super::Value::Number(x) => x,
         super::Value::Choice(_) => f64::NAN,

@@ -19,7 +19,7 @@ use crate::faults::{parse_case, with_all};
 
 use super::context::{Base, Context};
 use super::ida::IdaTable;
-use super::values::{Whole, all, lacks};
+use super::values::{MOST_OF_CHUNK, MOST_RUNS, Whole, all, lacks};
 use super::variables::VariableTable;
 use super::{IntensityMeasure, RecordSource, Study, Target, Values, Variable, records};
 use crate::design::Design;
@@ -56,7 +56,7 @@ struct DesignTable {
     /// latin_hypercube or sobol: so many runs
     kind: Optional<Kind>,
     /// Number of runs of latin_hypercube and sobol
-    runs: Optional<Whole<1>>,
+    runs: Optional<Whole<1, MOST_RUNS>>,
     /// Seed of latin_hypercube, by default 1, and of the random shift of sobol
     seed: Optional<Whole<0>>,
 }
@@ -79,7 +79,7 @@ enum Kind {
 #[serde(rename = "[output]")]
 struct OutputTable {
     /// Runs that are stored at once at most, by default 256; shards are dealt in chunks
-    chunk: Optional<Whole<1>>,
+    chunk: Optional<Whole<1, MOST_OF_CHUNK>>,
     /// Adds the gap that just keeps the isolated buildings apart, by default false
     isolated_demand: Optional<bool>,
     /// Names of the quantities that are stored, by default all
@@ -444,12 +444,15 @@ fn grid(reader: &Reader<'_>, place: Range<usize>, variables: &[Variable]) -> Opt
         })
     }))?;
     let runs = sizes.iter().try_fold(1_usize, |n, s| n.checked_mul(*s));
-    // Numbers of runs stay exact in the results.
-    match runs.filter(|n| *n <= 1 << 48) {
+    match runs.filter(|n| *n as u64 <= MOST_RUNS.unsigned_abs()) {
         Some(_) => Some(Design::Grid { sizes }),
         None => {
-            let message = "the grid has more runs than can be counted";
-            reader.refuse(place, message, "make it coarser")
+            let sizes: Vec<String> = sizes.iter().map(ToString::to_string).collect();
+            let message = format!(
+                "the grid has {} runs, and a study has {MOST_RUNS} at most",
+                sizes.join(" x ")
+            );
+            reader.refuse(place, message, "make it coarser, or use latin_hypercube")
         }
     }
 }

@@ -180,6 +180,11 @@ enum Generator {
     RezaeianDerKiureghian2010,
 }
 
+/// Most motions that a table makes, and their samples together: they are kept as long as the study
+/// runs.
+const MOST_MADE: i64 = 10_000;
+const MOST_SAMPLES: usize = 100_000_000;
+
 /// Hz/s.
 #[derive(Debug)]
 struct FrequencyRate;
@@ -198,8 +203,8 @@ impl Dimensioned for FrequencyRate {
 pub(super) struct SyntheticTable {
     /// Generator
     model: Field<Generator>,
-    /// How many motions
-    count: Field<Whole<1>>,
+    /// How many motions, at most 10000 and of 100 million samples together
+    count: Field<Whole<1, MOST_MADE>>,
     /// Seed of the first, by default 1
     seed: Optional<Whole<0>>,
     /// Time step (s), by default 0.01
@@ -243,6 +248,19 @@ impl SyntheticTable {
             duration: self.duration.number()?,
         };
         let first = self.seed.value_or(Whole(1))?.0;
+        let place = self.count.span();
+        let count = self.count.value()?.0;
+        // What is wrong with the grid is said by the generator.
+        let samples = grid.count().unwrap_or_default();
+        if samples.saturating_mul(count) > MOST_SAMPLES {
+            return reader.refuse(
+                place.unwrap_or_else(|| span.clone()),
+                format!(
+                    "{count} motions of {samples} samples are more than {MOST_SAMPLES} samples, which are kept in memory"
+                ),
+                "make fewer motions, or shorter ones with a longer `time_step`",
+            );
+        }
         let made = |seed| match motion.generate(grid, seed as u64) {
             Ok(made) => Some(RecordSource {
                 name: format!("seed_{seed}"),
@@ -253,7 +271,7 @@ impl SyntheticTable {
             }),
             Err(e) => reader.refuse(span.clone(), e.to_string(), e.help().unwrap_or_default()),
         };
-        (first..first + self.count.value()?.0).map(made).collect()
+        (first..first + count).map(made).collect()
     }
 }
 

@@ -85,20 +85,26 @@ impl Values {
     }
 }
 
-/// Largest count that is taken for meant.
-const LARGEST_COUNT: i64 = 1_000_000_000;
+/// Largest seed and number of a storey.
+const LARGEST: i64 = 1_000_000_000;
+/// Most numbers of a range.
+pub(super) const MOST_OF_RANGE: i64 = 1_000_000;
+/// Most runs of a study, however they are sampled: two years of a core at half a second each.
+pub(super) const MOST_RUNS: i64 = 100_000_000;
+/// Most runs that are stored at once: all of them are kept until then.
+pub(super) const MOST_OF_CHUNK: i64 = 1_000_000;
 
-/// A whole number of runs, values and the like, at least so large.
+/// A whole number of runs, values and the like, at least so large and at most.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Whole<const LEAST: i64>(pub usize);
+pub(super) struct Whole<const LEAST: i64, const MOST: i64 = LARGEST>(pub usize);
 
-impl<'de, const LEAST: i64> Deserialize<'de> for Whole<LEAST> {
+impl<'de, const LEAST: i64, const MOST: i64> Deserialize<'de> for Whole<LEAST, MOST> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         let number = i64::deserialize(deserializer)?;
         match usize::try_from(number) {
-            _ if number > LARGEST_COUNT => Err(D::Error::custom(Fault::new(
+            _ if number > MOST => Err(D::Error::custom(Fault::new(
                 " = {written} is too large",
-                format!("write a whole number from {LEAST} to {LARGEST_COUNT}"),
+                format!("write a whole number from {LEAST} to {MOST}"),
             ))),
             Ok(count) if number >= LEAST => Ok(Self(count)),
             _ => Err(D::Error::custom(Fault::new(
@@ -109,12 +115,12 @@ impl<'de, const LEAST: i64> Deserialize<'de> for Whole<LEAST> {
     }
 }
 
-impl<const LEAST: i64> JsonSchema for Whole<LEAST> {
+impl<const LEAST: i64, const MOST: i64> JsonSchema for Whole<LEAST, MOST> {
     fn schema_name() -> Cow<'static, str> {
-        format!("from {LEAST}").into()
+        format!("from {LEAST} to {MOST}").into()
     }
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({"type": "integer", "minimum": LEAST, "maximum": LARGEST_COUNT})
+        json_schema!({"type": "integer", "minimum": LEAST, "maximum": MOST})
     }
 }
 
@@ -130,7 +136,7 @@ macro_rules! table_with_range {
             /// Last number of a range
             pub to: Optional<Written>,
             /// How many numbers of a range, both ends included, for a grid or a list
-            pub count: Optional<Whole<2>>,
+            pub count: Optional<Whole<2, { $crate::study_file::values::MOST_OF_RANGE }>>,
             /// linear (default) or logarithmic
             pub spacing: Optional<Spacing>,
         }

@@ -71,6 +71,15 @@ fn errors_point_at_their_place() {
             "chunk = 1_000_000_000",
             vec!["`chunk` = 1_000_000_000 is too large", "from 1 to 1000000"],
         ),
+        (
+            "path = \"building.light.mass\"\nvalues = [\"20 t\", \"25 t\", \"30 t\"]",
+            "path = \"building.light.storeys\"\nvalues = [2, 3]",
+            vec![
+                "`building.light.storeys` cannot vary",
+                "study.toml:",
+                "a case and a study for each number of storeys",
+            ],
+        ),
         ("latin_hypercube", "latin", vec!["unknown design \"latin\""]),
         (
             "kind = \"latin_hypercube\"\nruns = 60\nseed = 3",

@@ -70,6 +70,12 @@ impl Path {
         self.table() == "ground_motion" && self.0.get(1) == Some(&Step::Key("scale".to_owned()))
     }
 
+    /// Whether it is that of the number of storeys of a building.
+    pub(crate) fn of_storey_count(&self) -> bool {
+        self.table() == "building"
+            && matches!(self.0.as_slice(), [_, _, Step::Key(key)] if key == "storeys")
+    }
+
     /// Whether it leads through an entry of this key.
     pub(crate) fn leads_through(&self, key: &str) -> bool {
         self.0.contains(&Step::Key(key.to_owned()))

@@ -313,7 +313,16 @@ fn path(reader: &Reader<'_>, text: &Located<String>) -> Option<Path> {
             "write paths such as gap.0.width or building.light.mass.2".to_owned(),
         )
     };
-    kept(reader, &text.span, Path::parse(&text.value).map_err(wrong))
+    let path = kept(reader, &text.span, Path::parse(&text.value).map_err(wrong))?;
+    if path.of_storey_count() {
+        let message = format!(
+            "`{}` cannot vary: it makes other storeys, and so other results, of every run",
+            text.value
+        );
+        let help = "make a case and a study for each number of storeys";
+        return reader.refuse(text.span.clone(), message, help);
+    }
+    Some(path)
 }
 
 /// The name of a variable that states none.

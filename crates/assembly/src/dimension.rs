@@ -70,15 +70,20 @@ pub(crate) fn parameter_value_as<D: Descriptor>(
     let parameter = of.parameter(name).map_err(|e| refused(&key.span, e))?;
     let wanted = turned(parameter_dimension(of, parameter, exponent));
     if let Some(found) = quantity.dimension.filter(|found| *found != wanted) {
+        let is = match quantity.has_no_unit() {
+            true => "has no unit".to_owned(),
+            false => format!("is {found}"),
+        };
         return Err(case.error(
             value.span.clone(),
             format!(
-                "`{name}` of {} {} must be {wanted}, but \"{}\" is {found}",
+                "`{name}` of {} {} must be {wanted}, but \"{}\" {is}",
                 D::NOUN,
                 of.name(),
                 quantity.text
             ),
             Some(match parameter.unit {
+                _ if quantity.has_no_unit() => quantity.unit_help(),
                 ParameterUnit::NewtonPerMetreToExponent => {
                     "correct the unit; the exponent of the law is in the unit of its stiffness"
                         .to_owned()

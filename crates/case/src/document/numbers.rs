@@ -33,8 +33,13 @@ impl Written {
                 text: self.text,
             }
         } else {
-            parse_quantity(&self.text)
-                .map_err(|e| Fault::new(format!(": {e}"), e.help_for(wanted)))?
+            let read = parse_quantity(&self.text)
+                .map_err(|e| Fault::new(format!(": {e}"), e.help_for(wanted)))?;
+            // Who writes quotes means to write a unit: without one it is a pure number.
+            Quantity {
+                dimension: read.dimension.or(Some(Dimension::NUMBER)),
+                ..read
+            }
         };
         if quantity.value.is_finite() {
             return Ok(quantity);
@@ -100,12 +105,29 @@ impl Quantity {
     /// Another dimension.
     pub fn of(&self, wanted: Dimension) -> Result<f64, Fault> {
         match self.dimension {
+            Some(found) if found != wanted && self.has_no_unit() => Err(Fault::new(
+                format!(" must be {wanted}, but \"{}\" has no unit", self.text),
+                self.unit_help(),
+            )),
             Some(found) if found != wanted => Err(Fault::new(
                 format!(" must be {wanted}, but \"{}\" is {found}", self.text),
                 dimension_help(wanted, found),
             )),
             _ => Ok(self.value),
         }
+    }
+
+    /// Whether it is a number alone, as text or plain.
+    #[must_use]
+    pub fn has_no_unit(&self) -> bool {
+        self.text.trim().parse::<f64>().is_ok()
+    }
+
+    /// What to do about a text that needs a unit and has none.
+    #[must_use]
+    pub fn unit_help(&self) -> String {
+        let number = self.text.trim();
+        format!("add a unit, or write {number} without quotes: plain numbers are SI")
     }
 }
 

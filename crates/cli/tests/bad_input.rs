@@ -91,6 +91,49 @@ fn the_case_itself_is_sound() {
     no_part_file(folder.path());
 }
 
+/// Options of the record that say nothing of it, and quantities without unit where parameters of a
+/// law are read.
+#[test]
+fn what_says_nothing_is_refused() {
+    let of_motion = |line: &str| {
+        CASE.replacen(
+            "file = \"record.csv\"",
+            &format!("file = \"record.csv\"\n{line}"),
+            1,
+        )
+    };
+    for (line, wanted) in [
+        ("sensitivity = 1000", "`sensitivity` is given"),
+        ("layout = \"t,a\"", "`layout` is given"),
+        ("skip_columns = 2", "`skip_columns` is given"),
+    ] {
+        let wanted = [
+            "record.csv: ",
+            wanted,
+            "format pounding_csv",
+            "leave it out",
+        ];
+        refused(&of_motion(line), &record(), &wanted);
+    }
+    let metres = record()
+        .replace("Unit: g", "Unit: m/s2")
+        .replace("_g", "_m_s2");
+    refused(
+        &of_motion("gravity = 9.81"),
+        &metres,
+        &["`gravity` is given"],
+    );
+    refused(
+        &CASE.replacen("\"93.5 MN/m\"", "\"93.5e6\"", 1),
+        &record(),
+        &[
+            "case.toml:21:13: ",
+            "must be a stiffness (N/m), but \"93.5e6\" has no unit",
+            "93.5e6 without quotes",
+        ],
+    );
+}
+
 /// A step of seconds, one wrong digit in a header, is named where the motion is used.
 #[test]
 fn steps_of_seconds_are_named() {

@@ -4,7 +4,7 @@ use crate::accelerogram::{Origin, Processing};
 use crate::error::{GroundMotionError, bound};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::{HeaderPeak, Sampling, Series, unusual_step};
-use crate::source::Source;
+use crate::source::{Source, Used};
 use crate::unit::AccelerationUnit;
 
 /// A value that a header prints, with one unit of its last digit.
@@ -220,6 +220,10 @@ impl Draft {
         let others = self.other_peaks.drain(..).map(|peak| (peak, false));
         for (peak, is_main) in peaks.into_iter().chain(others) {
             let unit = peak.unit.map_or((symbol, factor), |u| {
+                source.uses(Used {
+                    gravity: u.is_of_gravity(),
+                    ..Used::default()
+                });
                 (u.symbol, u.in_si(gravity(source.options.gravity)))
             });
             let (stated, compared) = compare_peak(&series, &peak, unit, &mut self.warnings);
@@ -357,6 +361,15 @@ impl Draft {
     ) -> Result<(f64, Quantity, &'static str, String), GroundMotionError> {
         let options = source.options;
         let gravity = gravity(options.gravity);
+        let of_gravity = |unit: SeriesUnit| {
+            source.uses(Used {
+                gravity: unit.is_of_gravity(),
+                ..Used::default()
+            });
+        };
+        if let DraftUnit::Stated(unit) | DraftUnit::Scaled { unit, .. } = &self.unit {
+            of_gravity(*unit);
+        }
         let contradiction = |stated: &str, given: String| GroundMotionError::Contradiction {
             file: source.file.to_owned(),
             quantity: "unit",
@@ -381,13 +394,26 @@ impl Draft {
                 of,
                 format!("{of} of {each:e} {} ({by})", unit.symbol),
             )),
+            (DraftUnit::Counts, Some(_)) if options.sensitivity.is_some() => {
+                Err(GroundMotionError::Unsupported {
+                    file: source.file.to_owned(),
+                    what: "both a unit and a sensitivity are given: with a sensitivity the values are counts, which have no unit".to_owned(),
+                    remedy: "give `sensitivity` alone if the values are counts of the instrument, `unit` alone if not",
+                })
+            }
             (DraftUnit::Counts, _) => match options.sensitivity {
-                Some(s) if s.is_finite() && s != 0.0 => Ok((
-                    1.0 / s,
-                    Quantity::Acceleration,
-                    "counts",
-                    format!("counts, {s} per m/s2 (given by the user)"),
-                )),
+                Some(s) if s.is_finite() && s != 0.0 => {
+                    source.uses(Used {
+                        sensitivity: true,
+                        ..Used::default()
+                    });
+                    Ok((
+                        1.0 / s,
+                        Quantity::Acceleration,
+                        "counts",
+                        format!("counts, {s} per m/s2 (given by the user)"),
+                    ))
+                }
                 _ => Err(GroundMotionError::MissingSensitivity {
                     file: source.file.to_owned(),
                     searched: String::new(),
@@ -395,6 +421,7 @@ impl Draft {
             },
             (DraftUnit::Unstated, Some(given)) => {
                 let unit = SeriesUnit::from(given);
+                of_gravity(unit);
                 Ok((
                     unit.in_si(gravity),
                     unit.quantity,

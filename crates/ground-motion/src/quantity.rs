@@ -116,6 +116,11 @@ impl SeriesUnit {
         }
     }
 
+    /// Whether it is a part or a multiple of g.
+    pub(crate) fn is_of_gravity(self) -> bool {
+        self.of_gravity
+    }
+
     /// Whether the user's word means the same.
     pub(crate) fn is(self, unit: AccelerationUnit) -> bool {
         Self::from(unit) == self

@@ -30,6 +30,17 @@ pub(crate) struct Source<'a> {
     warnings: RefCell<Vec<String>>,
     /// Series finished so far.
     series: Cell<usize>,
+    /// What the user said that was of use.
+    used: Cell<Used>,
+}
+
+/// Options that only some records have a use for.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct Used {
+    /// The counts of m/s2.
+    pub sensitivity: bool,
+    /// The g of units of gravity.
+    pub gravity: bool,
 }
 
 impl<'a> Source<'a> {
@@ -46,6 +57,7 @@ impl<'a> Source<'a> {
             path,
             warnings: RefCell::default(),
             series: Cell::default(),
+            used: Cell::default(),
         }
     }
 
@@ -66,6 +78,19 @@ impl<'a> Source<'a> {
             ),
             "the file is damaged: get it again",
         ))
+    }
+
+    /// Says that options were of use.
+    pub(crate) fn uses(&self, more: Used) {
+        let before = self.used.get();
+        self.used.set(Used {
+            sensitivity: before.sensitivity || more.sensitivity,
+            gravity: before.gravity || more.gravity,
+        });
+    }
+
+    pub(crate) fn used(&self) -> Used {
+        self.used.get()
     }
 
     pub(crate) fn lines(&self) -> Lines<'a> {

@@ -16,6 +16,7 @@ mod hostile;
 mod long_steps;
 mod matching;
 mod measures;
+mod options_without_use;
 mod point_source;
 mod processing;
 mod pulses;

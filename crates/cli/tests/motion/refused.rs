@@ -207,3 +207,34 @@ fn what_cannot_be_computed_or_written() {
         &["not a regular file"],
     );
 }
+
+/// Options that say nothing of what is written.
+#[test]
+fn conversions_use_every_option() {
+    let folder = Folder::new();
+    let (file, out) = (el_centro(), folder.name("o.at2"));
+    let at2 = ["convert", &file, "-o", &out, "--to", "peer_at2"];
+    refused(
+        2,
+        &[&at2[..], &["--columns", "a"]].concat(),
+        &["--columns is of plain columns"],
+    );
+    let vt2 = "A\nB\nVELOCITY TIME SERIES IN UNITS OF CM/S\nNPTS= 4, DT= 0.01 SEC\n1 -2 3 -1\n";
+    std::fs::write(folder.path("a.vt2"), vt2).unwrap();
+    let velocity = folder.name("a.vt2");
+    let velocity = [
+        "convert",
+        &velocity,
+        "-o",
+        &out,
+        "--to",
+        "peer_at2",
+        "--quantity",
+        "velocity",
+    ];
+    text(&velocity);
+    for option in [&["--prepend-zero"][..], &["--offset", "remove"]] {
+        let wanted = [option[0], "a velocity is written as it is"];
+        refused(2, &[&velocity[..], option].concat(), &wanted);
+    }
+}

@@ -173,6 +173,7 @@ fn every_series(
             remedy: "do not give `response`: it is for miniSEED records",
         });
     }
+    unused(&source, format)?;
     let own = Sha256::new().chain_update(bytes);
     for s in &mut series {
         s.origin.format = format.name;
@@ -183,6 +184,58 @@ fn every_series(
         tracing::debug!(format = format.name, series = %s.label(), samples = s.samples.len(), unit = %s.origin.unit, time_step = %s.origin.time_step, "read");
     }
     Ok(Recording { series })
+}
+
+/// Refuses options that say nothing of this record: who gives them takes them for heard.
+fn unused(source: &Source<'_>, format: &Format) -> Result<(), GroundMotionError> {
+    let (options, used) = (source.options, source.used());
+    let by_rows = format.name == plain_columns::FORMAT.name;
+    let of_columns = "leave it out: the format has a layout of its own; for rows of numbers that were taken for it give `format = \"plain_columns\"` too";
+    let given = [
+        (
+            options.layout.is_some() && !by_rows,
+            "layout",
+            "is of plain columns",
+            of_columns,
+        ),
+        (
+            options.skip_lines > 0 && !by_rows,
+            "skip_lines",
+            "is of plain columns",
+            of_columns,
+        ),
+        (
+            options.skip_columns > 0 && !by_rows,
+            "skip_columns",
+            "is of plain columns",
+            of_columns,
+        ),
+        (
+            options.sensitivity.is_some() && !used.sensitivity,
+            "sensitivity",
+            "is of values in counts whose sensitivity the user must say",
+            "leave it out: the values of this record have a unit, which `unit` says where the file does not",
+        ),
+        (
+            options.gravity.is_some() && !used.gravity,
+            "gravity",
+            "is the g of values in units of gravity",
+            "leave it out: no value of this record is in g",
+        ),
+    ];
+    for (is_wrong, option, is, remedy) in given {
+        if is_wrong {
+            return Err(GroundMotionError::Unsupported {
+                file: source.file.to_owned(),
+                what: format!(
+                    "`{option}` is given, which {is}; this record is of format {}",
+                    format.name
+                ),
+                remedy,
+            });
+        }
+    }
+    Ok(())
 }
 
 /// The format that the options name, or that the start of the file shows.

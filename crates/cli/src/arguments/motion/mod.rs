@@ -216,9 +216,9 @@ pub struct ConvertArguments {
     /// Quantity to write: acceleration, velocity or displacement
     #[arg(long, default_value = "acceleration")]
     pub quantity: String,
-    /// Plain columns to write: "a" or "t,a"
-    #[arg(long, default_value = "t,a")]
-    pub columns: String,
+    /// Plain columns to write: "a" or "t,a" [default: t,a]
+    #[arg(long)]
+    pub columns: Option<String>,
     /// Unit of accelerations in plain columns, such as g [default: m/s2]
     #[arg(long)]
     pub output_unit: Option<String>,

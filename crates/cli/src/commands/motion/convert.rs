@@ -21,6 +21,21 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
     options.quantity = Some(reading::quantity(&arguments.quantity)?);
     let recording = read_all(&arguments.file, &options)?;
     let series = recording.choose(&options)?;
+    let of_excitation = [
+        ("prepend-zero", arguments.read.prepend_zero),
+        ("offset", arguments.read.offset.is_some()),
+    ];
+    if let Some((option, _)) = of_excitation.iter().find(|(_, given)| *given)
+        && series.quantity != Quantity::Acceleration
+    {
+        return Err(Failure::input(
+            format!(
+                "--{option} is of accelerations, and a {} is written as it is",
+                series.quantity
+            ),
+            Some("leave it out, or convert the acceleration".to_owned()),
+        ));
+    }
     let written = if series.quantity == Quantity::Acceleration {
         Written::of(&series.accelerogram(&options)?)
     } else {
@@ -37,6 +52,12 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
             Some("add --to plain_columns, or leave --output-unit out".to_owned()),
         ));
     }
+    if arguments.columns.is_some() && arguments.to != Layout::PlainColumns {
+        return Err(Failure::input(
+            "--columns is of plain columns: the other formats have columns of their own",
+            Some("add --to plain_columns, or leave --columns out".to_owned()),
+        ));
+    }
     let (text, symbol) = match arguments.to {
         Layout::PoundingCsv => (write_pounding_csv(&written)?, "m/s2"),
         Layout::PeerAt2 => (
@@ -47,7 +68,10 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
                 Quantity::Displacement => "cm",
             },
         ),
-        Layout::PlainColumns => write_plain_columns(&written, &columns(&arguments.columns)?, unit),
+        Layout::PlainColumns => {
+            let wanted = columns(arguments.columns.as_deref().unwrap_or("t,a"))?;
+            write_plain_columns(&written, &wanted, unit)
+        }
     };
     plot::write(&arguments.output, &text)?;
     if arguments.json {

@@ -166,6 +166,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     for warning in pointed.warnings() {
         source.warn(&warning);
     }
+    source.uses(pointed.used());
     Ok(series)
 }
 

@@ -107,3 +107,26 @@ fn steps_of_no_accelerograph_are_named_with_their_line() {
         "{warnings:?}"
     );
 }
+
+/// A rate is none of the steps, and milliseconds are no seconds.
+#[test]
+fn the_step_of_an_at2_header_has_a_unit() {
+    for (written, step) in [
+        ("100 HZ", 0.01),
+        ("100HZ", 0.01),
+        ("200. hz", 0.005),
+        ("100 SPS", 0.01),
+        ("5 MSEC", 0.005),
+        (".0050 SEC,", 0.005),
+        (
+            ".0050 SEC,   0 POLE @    40.00000 HZ,  -5 POLE @      .05000 HZ",
+            0.005,
+        ),
+        (".0050", 0.005),
+        ("5.0E-03SEC", 0.005),
+        ("1.0D-02 SEC", 0.01),
+    ] {
+        let found = read(written).time_step();
+        assert!((found / step - 1.0).abs() < 1e-12, "{written}: {found}");
+    }
+}

@@ -93,3 +93,23 @@ fn options_of_plain_columns() {
         &["`sensitivity` is given", "plain_columns"],
     );
 }
+
+/// A second column of the same name, and a unit that is none, have file and line.
+#[test]
+fn headers_of_our_layout_have_a_place() {
+    for (header, wanted) in [
+        ("time_s,acceleration_g,acceleration_g", "record:1:22: "),
+        (
+            "time_s,acceleration_furlong",
+            "record:1:21: \"furlong\" is not a unit",
+        ),
+    ] {
+        let text = format!("{header}\n0,0.1\n0.01,0.2\n");
+        let error = read_bytes("record", text.as_bytes(), &ReadOptions::default()).unwrap_err();
+        assert!(error.to_string().contains(wanted), "{error}");
+        assert!(error.help().is_some());
+    }
+    let text = format!("# Unit: cubit\n{CSV}");
+    let error = read_bytes("record", text.as_bytes(), &ReadOptions::default()).unwrap_err();
+    assert!(error.to_string().starts_with("record:1:1: "), "{error}");
+}

@@ -124,6 +124,36 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     })
 }
 
+/// The step (s) behind `DT =`: in seconds, with or without the word, in milliseconds, or as a rate.
+fn step(lower: &str) -> Option<f64> {
+    let at = lower.find("dt")? + "dt".len();
+    let rest = lower
+        .get(at..)?
+        .trim_start()
+        .strip_prefix('=')?
+        .trim_start();
+    let end = rest.find([' ', ',', '\t']).unwrap_or(rest.len());
+    let (first, behind) = rest.split_at(end);
+    // `100HZ`: the number ends where the word begins. An `e` alone is of the number.
+    let glued = first.len()
+        - first
+            .trim_start_matches(|c: char| !c.is_ascii_alphabetic() || "ed".contains(c))
+            .len();
+    let (number, word) = first.split_at(glued);
+    let word = match word {
+        "" => behind.trim_start_matches([' ', '\t']),
+        word => word,
+    };
+    let ends = |c: char| !(c.is_ascii_alphabetic() || c == '/');
+    let word = &word[..word.find(ends).unwrap_or(word.len())];
+    let value = number::parse(number.as_bytes()).ok()?;
+    Some(match word {
+        "hz" | "sps" | "samples/s" | "samples/sec" | "points/sec" => 1.0 / value,
+        "ms" | "msec" | "milliseconds" => 1.0e-3 * value,
+        _ => value,
+    })
+}
+
 fn counts(line: Line<'_>) -> (Option<usize>, Option<f64>) {
     let lower = line.lower();
     let after = |key: &str| {
@@ -132,8 +162,7 @@ fn counts(line: Line<'_>) -> (Option<usize>, Option<f64>) {
         rest.trim_start().split([' ', ',', '\t']).next()
     };
     if let Some(count) = after("npts") {
-        let step = after("dt").and_then(|t| number::parse(t.as_bytes()).ok());
-        return (count.parse().ok(), step);
+        return (count.parse().ok(), step(&lower));
     }
     let mut numbers = line.fields().filter_map(|(_, f)| number::parse(f).ok());
     let count = numbers

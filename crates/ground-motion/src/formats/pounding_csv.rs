@@ -62,10 +62,23 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             REMEDY,
         ));
     };
-    let unit = unit_of_header(suffix)?;
-    if let Some((_, stated)) = &keys.unit {
+    if suffix.contains(',') {
+        return Err(source.error(
+            header.number,
+            START.len() + suffix.find(',').unwrap_or(0),
+            format!("column header \"{text}\" has more columns than time and acceleration"),
+            "this layout has one acceleration: give each component a file of its own, or `format = \"plain_columns\"` (`--format plain_columns` with `pounding motion`) and a `component`",
+        ));
+    }
+    let at = |line: usize, column: usize| {
+        move |e: GroundMotionError| {
+            source.error(line, column, e.to_string(), &e.help().unwrap_or_default())
+        }
+    };
+    let unit = unit_of_header(suffix).map_err(at(header.number, START.len()))?;
+    if let Some((line, stated)) = &keys.unit {
         // A word that is no unit is wrong here, where the key is part of the layout.
-        let _: AccelerationUnit = stated.parse()?;
+        let _: AccelerationUnit = stated.parse().map_err(at(*line, 0))?;
     }
     keys.agree(source, SeriesUnit::from(unit), &text)?;
     let step = keys.step.map(|s| s.1);

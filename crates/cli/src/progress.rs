@@ -243,9 +243,9 @@ fn between_lines() -> Result<Duration, Failure> {
 }
 
 /// Threads asked for, or all cores.
-pub fn threads(asked: Option<usize>) -> usize {
+pub fn threads(asked: Option<u32>) -> usize {
     let cores = || std::thread::available_parallelism().map_or(1, usize::from);
-    asked.unwrap_or_else(cores).max(1)
+    asked.map_or_else(cores, |n| n as usize)
 }
 
 #[cfg(test)]

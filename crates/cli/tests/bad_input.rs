@@ -164,6 +164,31 @@ fn steps_of_seconds_are_named() {
     }
 }
 
+/// Numbers of arguments that mean nothing.
+#[test]
+fn speeds_and_threads_are_above_zero() {
+    let folder = tempfile::tempdir().unwrap();
+    for (arguments, wanted) in [
+        (
+            "compare case.toml --approach-velocity 0",
+            "greater than zero",
+        ),
+        (
+            "compare case.toml --approach-velocity -0.5m/s",
+            "greater than zero",
+        ),
+        ("compare case.toml --threads 0", "0 is not in 1..=4096"),
+        ("gap case.toml --threads 0", "0 is not in 1..=4096"),
+        ("gap case.toml --points 1000000000", "100000 widths at most"),
+    ] {
+        let arguments: Vec<&str> = arguments.split(' ').collect();
+        let output = run_in(folder.path(), CASE, &record(), &arguments);
+        let text = message(&output);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {text}");
+        assert!(text.contains(wanted), "{arguments:?}: {text}");
+    }
+}
+
 /// A study of the case under its own record.
 const SWEEP: &str = r#"case = "case.toml"
 [[variable]]

@@ -5,7 +5,7 @@ use super::{DealArguments, InputPath, OutputPath};
 use clap::ValueEnum;
 
 use super::figure::{FigureArguments, figure_file};
-use super::quantities::{number, velocity};
+use super::quantities::{number, positive_velocity};
 
 /// Arguments of `compare`.
 #[derive(Debug, clap::Args)]
@@ -28,7 +28,7 @@ pub struct CompareArguments {
     #[arg(long, value_name = "E", value_parser = number, allow_hyphen_values = true)]
     pub restitution: Option<f64>,
     /// Approach velocity of the reference collision, such as "0.5 m/s" [default: the maximum of the case's law]
-    #[arg(long, value_name = "V", value_parser = velocity, allow_hyphen_values = true)]
+    #[arg(long, value_name = "V", value_parser = positive_velocity, allow_hyphen_values = true)]
     pub approach_velocity: Option<f64>,
     /// Write every value, of storeys and levels too, into this CSV file
     #[arg(long, value_name = "FILE")]
@@ -45,8 +45,8 @@ pub struct CompareArguments {
     #[arg(long, value_name = "FILE")]
     pub report: Option<OutputPath>,
     /// Threads [default: all cores]
-    #[arg(long, value_name = "N")]
-    pub threads: Option<usize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub threads: Option<u32>,
     /// How its runs are shared
     #[command(flatten)]
     pub dealing: DealArguments,

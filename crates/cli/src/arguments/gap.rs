@@ -82,8 +82,8 @@ pub struct GapArguments {
     #[arg(long, value_name = "FILE")]
     pub report: Option<OutputPath>,
     /// Threads [default: all cores]
-    #[arg(long, value_name = "N")]
-    pub threads: Option<usize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub threads: Option<u32>,
     /// Show all tables beside the answer of a code, every rule by itself with what it takes for granted, provisions that lack an input or do not apply, and every record
     #[arg(long)]
     pub all: bool,

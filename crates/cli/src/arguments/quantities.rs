@@ -9,9 +9,16 @@ pub fn number(text: &str) -> Result<f64, String> {
     of_dimension(text, Dimension::NUMBER)
 }
 
-/// A velocity (m/s), such as `0.5 m/s` or `50 cm/s`.
-pub fn velocity(text: &str) -> Result<f64, String> {
-    of_dimension(text, Dimension::VELOCITY)
+/// A velocity (m/s) above zero, such as `0.5 m/s` or `50 cm/s`.
+pub fn positive_velocity(text: &str) -> Result<f64, String> {
+    let velocity = of_dimension(text, Dimension::VELOCITY)?;
+    if velocity > 0.0 {
+        return Ok(velocity);
+    }
+    Err(
+        "it must be greater than zero: bodies that do not approach each other do not touch"
+            .to_owned(),
+    )
 }
 
 /// The value (SI) of an option that must have this dimension; a plain number is SI.
@@ -85,12 +92,17 @@ mod tests {
             assert!((number(text).unwrap() - 0.1).abs() < 1e-15, "{text}");
         }
         for text in ["0.5", "0.5 m/s", "50 cm/s", "500 mm/s"] {
-            assert!((velocity(text).unwrap() - 0.5).abs() < 1e-15, "{text}");
+            assert!(
+                (positive_velocity(text).unwrap() - 0.5).abs() < 1e-15,
+                "{text}"
+            );
         }
         for (found, part) in [
             (number("0.1 m"), "a length"),
-            (velocity("1 s"), "a velocity"),
-            (velocity("fast"), "does not start with a number"),
+            (positive_velocity("1 s"), "a velocity"),
+            (positive_velocity("0 m/s"), "greater than zero"),
+            (positive_velocity("-0.5 m/s"), "greater than zero"),
+            (positive_velocity("fast"), "does not start with a number"),
             (number("nan"), "nan"),
         ] {
             let message = found.unwrap_err();

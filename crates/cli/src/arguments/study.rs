@@ -21,7 +21,7 @@ pub struct SweepArguments {
     #[command(flatten)]
     pub planning: PlanArguments,
     /// Print the case of this run; run nothing
-    #[arg(long, value_name = "RUN", conflicts_with = "plan")]
+    #[arg(long, value_name = "RUN", conflicts_with_all = ["plan", "output", "csv", "report", "shard", "into", "resume", "keep_going", "json"])]
     pub show: Option<usize>,
     /// Print one JSON object instead of tables
     #[arg(long)]

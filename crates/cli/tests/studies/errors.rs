@@ -193,6 +193,22 @@ fn counts_have_limits() {
     }
 }
 
+/// What a run is asked for beside a case that is shown would not be done.
+#[test]
+fn a_case_that_is_shown_is_not_run() {
+    let bench = Bench::new(MIXED);
+    for more in [
+        "--csv a.csv",
+        "--report a.html",
+        "-o a.h5",
+        "--shard 1/2",
+        "--resume",
+    ] {
+        let told = bench.complaint(&format!("sweep study.toml --show 1 {more}"), 2);
+        assert!(told.contains("cannot be used with"), "{told}");
+    }
+}
+
 /// Two variables of one entry, and what an analysis of intensities asks for.
 #[test]
 fn contradictions_are_told() {

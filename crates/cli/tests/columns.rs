@@ -293,3 +293,29 @@ fn what_cannot_be_is_refused_at_its_place() {
     bench.write("bad.toml", &case.replace("\"2.4 t\"", "0"));
     bench.refused("check bad.toml", &["`contact_mass`", "greater than zero"]);
 }
+
+/// Without mass the penetration reaches to where the column would stand unhit: what deforms the
+/// contact, and the bow of the column. With mass it is of the contact alone.
+#[test]
+fn penetrations_into_columns_without_mass_hold_their_bow() {
+    let bench = Bench::new();
+    let peaks = |case: &str| {
+        let told = bench.json(&format!("run {case} --no-output"), 0);
+        let level = told["gaps"][0]["levels"][1].clone();
+        let bow = level["responses"].as_array().unwrap().iter();
+        let bow = bow.clone().find(|r| r["name"] == "column_bow").unwrap();
+        [
+            &level["peak_penetration"]["peak"],
+            &level["peak_force"]["peak"],
+            &bow["peak"],
+        ]
+        .map(|number| number.as_f64().unwrap())
+    };
+    let stiffness = 374.0e6;
+    let [penetration, force, bow] = peaks("massless.toml");
+    assert!((penetration / (force / stiffness + bow) - 1.0).abs() < 1e-9);
+    assert!(bow > 0.1 * penetration);
+    // The law has a dashpot: its force is a little ahead of the penetration.
+    let [penetration, force, _] = peaks("case.toml");
+    assert!((penetration / (force / stiffness) - 1.0).abs() < 0.01);
+}

@@ -209,7 +209,8 @@ pub struct Impact {
     pub achieved_restitution: f64,
     /// Maximum force (N) with its time; NaN for a velocity jump, which has none.
     pub peak_force: Peak,
-    /// Maximum penetration (m) with its time.
+    /// Maximum penetration (m) with its time; into a column without mass, from where it would
+    /// stand unhit, so that its bow is a part of it.
     pub peak_penetration: Peak,
     /// Impulse of the contact force (N s).
     pub impulse: f64,
@@ -230,7 +231,7 @@ pub struct LevelOutcome {
     pub first_contact: Option<f64>,
     /// Maximum force (N); NaN where there were velocity jumps alone.
     pub peak_force: Peak,
-    /// Maximum penetration (m).
+    /// Maximum penetration (m), as in [`Impact`].
     pub peak_penetration: Peak,
     /// Maximum impulse of a single impact (N s).
     pub impulse_max: f64,

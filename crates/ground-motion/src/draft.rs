@@ -394,10 +394,17 @@ impl Draft {
                 of,
                 format!("{of} of {each:e} {} ({by})", unit.symbol),
             )),
-            (DraftUnit::Counts, Some(_)) if options.sensitivity.is_some() => {
+            // That of the sensitivity may be said once more.
+            (DraftUnit::Counts, Some(given))
+                if options.sensitivity.is_some()
+                    && given != AccelerationUnit::MetrePerSecondSquared =>
+            {
                 Err(GroundMotionError::Unsupported {
                     file: source.file.to_owned(),
-                    what: "both a unit and a sensitivity are given: with a sensitivity the values are counts, which have no unit".to_owned(),
+                    what: format!(
+                        "both the unit {} and a sensitivity are given: with a sensitivity, in counts per m/s2, the values are counts",
+                        SeriesUnit::from(given).symbol
+                    ),
                     remedy: "give `sensitivity` alone if the values are counts of the instrument, `unit` alone if not",
                 })
             }

@@ -133,7 +133,7 @@ fn a_last_value_cut_before_its_exponent() {
     }
 }
 
-/// A sensitivity says that a SAC file holds counts, which have no unit.
+/// A sensitivity says that a SAC file holds counts, also beside its own unit.
 #[test]
 fn sac_in_counts() {
     let sac = &fixtures("sac", 0)[0].bytes;
@@ -144,13 +144,17 @@ fn sac_in_counts() {
     let peak = |options: &ReadOptions| read_bytes("file", sac, options).unwrap().peak().value.abs();
     let in_unit = peak(&options);
     options.sensitivity = Some(1000.0);
+    let counts = peak(&options);
+    assert!((counts * 1000.0 / in_unit - 1.0).abs() < 1e-12);
+    options.unit = None;
+    assert!(peak(&options) == counts);
+    options.unit = Some(AccelerationUnit::StandardGravity);
     let both = read_bytes("file", sac, &options).unwrap_err();
     assert!(
-        both.to_string().contains("both a unit and a sensitivity"),
+        both.to_string()
+            .contains("both the unit g and a sensitivity"),
         "{both}"
     );
-    options.unit = None;
-    assert!((peak(&options) * 1000.0 / in_unit - 1.0).abs() < 1e-12);
 }
 
 /// Bytes changed, doubled, swapped and taken out, 300 times a file.

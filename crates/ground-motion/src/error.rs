@@ -130,7 +130,10 @@ pub enum GroundMotionError {
     },
     /// Samples at uneven times.
     #[error(
-        "{file}: the time column is not even: {count} samples, {mean:.6} s apart on average, {smallest:.6} s to {largest:.6} s"
+        "{file}: the time column is not even: {count} samples, {} s apart on average, {} s to {} s",
+        apart(*mean, *smallest, *largest),
+        apart(*smallest, *smallest, *largest),
+        apart(*largest, *smallest, *largest)
     )]
     Uneven {
         /// File.
@@ -332,6 +335,14 @@ fn brief(value: f64) -> String {
 /// A bound with six digits: those of products carry noise.
 pub(crate) fn bound(value: f64) -> String {
     brief(format!("{value:.5e}").parse().unwrap_or(value))
+}
+
+/// A step (s) between times, with decimals by which the smallest and the largest differ.
+fn apart(step: f64, smallest: f64, largest: f64) -> String {
+    let decimals = (6..15)
+        .find(|decimals| largest - smallest > 10.0_f64.powi(-decimals))
+        .unwrap_or(15);
+    format!("{step:.*}", decimals as usize)
 }
 
 /// Refuses what does not lie in a closed range.

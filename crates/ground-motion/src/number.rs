@@ -91,7 +91,18 @@ pub(crate) fn shown(field: &[u8]) -> String {
 
 /// One unit of the last printed digit: 0.01 for `3.25`, 1e-5 for `1.00E-03`.
 pub(crate) fn resolution(field: &[u8]) -> f64 {
-    let plain = field.trim_ascii();
+    10.0_f64.powi(-decimals(field.trim_ascii()))
+}
+
+fn whole(digits: &[u8]) -> i32 {
+    std::str::from_utf8(digits)
+        .ok()
+        .and_then(|text| text.parse().ok())
+        .unwrap_or(0)
+}
+
+/// Digits behind the point, less the exponent: 2 for `3.25`, 5 for `1.00E-03`.
+pub(crate) fn decimals(plain: &[u8]) -> i32 {
     let mut decimals = 0_i32;
     let mut after_point = false;
     let mut exponent = 0_i32;
@@ -100,16 +111,18 @@ pub(crate) fn resolution(field: &[u8]) -> f64 {
             b'.' => after_point = true,
             b'0'..=b'9' if after_point => decimals += 1,
             b'e' | b'E' | b'd' | b'D' => {
-                exponent = std::str::from_utf8(&plain[i + 1..])
-                    .ok()
-                    .and_then(|t| t.parse().ok())
-                    .unwrap_or(0);
+                exponent = whole(&plain[i + 1..]);
+                break;
+            }
+            // Fortran leaves the letter out before three digits: `1.234-103`.
+            b'+' | b'-' if i > 0 => {
+                exponent = whole(&plain[i..]);
                 break;
             }
             _ => {}
         }
     }
-    10.0_f64.powi(exponent.clamp(-400, 400) - decimals.min(400))
+    decimals.min(400) - exponent.clamp(-400, 400)
 }
 
 /// The first number in a text, with one unit of its last printed digit.
@@ -264,6 +277,7 @@ mod tests {
             ("1.00E-03", 1e-5),
             ("12", 1.0),
             (".020", 1e-3),
+            ("-1.234-003", 1e-6),
         ] {
             assert!(
                 (resolution(text.as_bytes()) / unit - 1.0).abs() < 1e-12,

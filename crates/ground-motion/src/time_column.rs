@@ -6,8 +6,8 @@ use crate::number;
 /// A column of times as it is read.
 pub(crate) struct TimeColumn {
     times: Vec<f64>,
-    /// Coarsest unit of a last printed digit (s).
-    digit: f64,
+    /// The digits with which they are printed.
+    printed: PrintedDigits,
     /// One unit of the printed times (s).
     unit: f64,
 }
@@ -16,7 +16,7 @@ impl TimeColumn {
     pub(crate) fn with_capacity(capacity: usize) -> Self {
         Self {
             times: Vec::with_capacity(capacity),
-            digit: 0.0,
+            printed: PrintedDigits::default(),
             unit: 1.0,
         }
     }
@@ -28,16 +28,13 @@ impl TimeColumn {
 
     pub(crate) fn push(&mut self, time: f64, printed: &[u8]) {
         self.times.push(time * self.unit);
-        // A bare `0` or `1` among decimals says nothing of the others' digits.
-        if printed.contains(&b'.') {
-            self.digit = self.digit.max(self.unit * number::resolution(printed));
-        }
+        self.printed.see(printed);
     }
 
     /// The even step, or the times themselves where they are not even within
     /// their printed digits.
     pub(crate) fn finish(self, warnings: &mut Vec<String>) -> Times {
-        let Some(step) = even_step(&self.times, self.digit) else {
+        let Some(step) = even_step(&self.times, self.printed, self.unit) else {
             return Times::Each(self.times);
         };
         if self.times[0].abs() > 1.0e-3 * step {
@@ -50,28 +47,131 @@ impl TimeColumn {
     }
 }
 
-/// The mean step, rounded to whole multiples of 10 us within the printed digits;
-/// `None` if the times are not even.
-pub(crate) fn even_step(times: &[f64], digit: f64) -> Option<f64> {
-    let n = times.len();
-    if n < 2 {
+/// The digits of a column: the most decimals and the most significant digits of any of its
+/// numbers. Shorter ones have lost zeros at their end: `0.0` among numbers of seven decimals is
+/// no coarser than they are.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub(crate) struct PrintedDigits {
+    /// Digits behind the point, less the exponent.
+    decimals: i32,
+    significant: i32,
+}
+
+impl PrintedDigits {
+    pub(crate) fn see(&mut self, printed: &[u8]) {
+        let plain = printed.trim_ascii();
+        let unsigned = plain.strip_prefix(b"-").or(plain.strip_prefix(b"+"));
+        let mantissa = unsigned.unwrap_or(plain).iter();
+        let significant = mantissa
+            .take_while(|b| b.is_ascii_digit() || **b == b'.')
+            .skip_while(|b| matches!(b, b'0' | b'.'))
+            .filter(|b| **b != b'.')
+            .count();
+        self.significant = self.significant.max(significant as i32);
+        self.decimals = self.decimals.max(number::decimals(plain));
+    }
+
+    /// One unit of the last digit of a number of this column. Those of many digits before the
+    /// point have fewer behind it where the significant digits are limited, as by `%g`.
+    fn unit_of(self, value: f64) -> f64 {
+        let power = |exponent: i32| 10.0_f64.powi(exponent.clamp(-300, 300));
+        let mut unit = power(-self.decimals);
+        let mut limit = power(self.significant - self.decimals);
+        while value.abs() >= limit && limit < 1.0e300 {
+            limit *= 10.0;
+            unit *= 10.0;
+        }
+        unit
+    }
+}
+
+/// Round-off of times in single precision, as a part of the time.
+const SINGLE: f64 = 2.0e-7;
+
+/// Round-off of times that were added up, as a part of their sum.
+const SUM: f64 = 1.0e-10;
+
+/// Decimals of a step (s) that is rounder than a whole number of samples a second.
+const ROUND_DECIMALS: i32 = 5;
+
+/// The even step (s) of times of `unit` seconds, printed with these digits; `None` if they are
+/// not even.
+///
+/// Each time leaves open a range of steps, as wide as its rounding is over the number of steps
+/// before it: the step is the roundest number of the range that all of them have in common.
+pub(crate) fn even_step(times: &[f64], printed: PrintedDigits, unit: f64) -> Option<f64> {
+    let [first, .., last] = *times else {
+        return None;
+    };
+    let mean = (last - first) / (times.len() - 1) as f64;
+    if !(mean > 0.0 && mean.is_finite()) {
         return None;
     }
-    let mean = (times[n - 1] - times[0]) / (n - 1) as f64;
-    let nice = (mean * 1.0e5).round() / 1.0e5;
-    let doubt = digit / (n - 1) as f64;
-    let step = if nice > 0.0 && (nice - mean).abs() <= doubt + 1.0e-6 * mean {
-        nice
+    let digit = |time: f64| unit * printed.unit_of(time / unit);
+    // Nine digits tell every number of single precision from its neighbours; with more it may
+    // be printed as the number that it is.
+    let single = |time: f64| f64::from((time / unit) as f32) * unit;
+    let is_single = printed.significant <= 9
+        || times
+            .iter()
+            .all(|time| (time - single(*time)).abs() <= 4.0 * f64::EPSILON * time.abs());
+    let round_off = |time: f64| {
+        let largest = time.abs().max(first.abs());
+        let part = if is_single {
+            SINGLE * largest
+        } else {
+            SUM * (time - first)
+        };
+        part + 8.0 * f64::EPSILON * largest
+    };
+    // Half a digit for each of two times, of which a zero is exact; or one digit where digits
+    // are cut off: SCT 1985 prints 163.41999 for 163.42.
+    let start = if first == 0.0 {
+        0.0
     } else {
-        mean
+        0.5 * digit(first)
     };
-    // One digit, not a half: SCT 1985 prints 163.41999 for 163.42. Single
-    // precision costs a little more. A quarter of a step at most: a missing row
-    // must not pass for coarse digits.
-    let near = |(i, t): (usize, &f64)| {
-        (t - times[0] - i as f64 * step).abs() <= (1.01 * digit + 2.0e-7 * t.abs()).min(0.25 * step)
+    let rounded = |time: f64| 0.5 * digit(time) + start;
+    let cut = |time: f64| 1.01 * digit(time).max(digit(first));
+    let common = |half_width: &dyn Fn(f64) -> f64| {
+        let (mut low, mut high) = (0.0_f64, f64::INFINITY);
+        for (i, time) in times.iter().enumerate().skip(1) {
+            // A missing row must not pass for coarse digits: with fewer than two digits a step
+            // times are even as they are printed, or not at all.
+            let most = if digit(*time) > 0.51 * mean {
+                0.01
+            } else {
+                0.25
+            };
+            let open = (half_width(*time) + round_off(*time)).min(most * mean);
+            low = low.max((time - first - open) / i as f64);
+            high = high.min((time - first + open) / i as f64);
+        }
+        (low <= high).then_some((low, high))
     };
-    (step > 0.0 && step.is_finite() && times.iter().enumerate().all(near)).then_some(step)
+    let (low, high) = common(&rounded).or_else(|| common(&cut))?;
+    let mean = mean.clamp(low, high);
+    let decimals = printed.decimals - libm::log10(unit).round() as i32;
+    let in_common = |step: &f64| *step > 0.0 && (low..=high).contains(step);
+    let round = round_steps(mean, decimals).find(in_common);
+    // With more decimals a number is as near by chance: only digits that were rounded excuse it.
+    let digits = (digit(first) + digit(last)) / (times.len() - 1) as f64;
+    let longer = (ROUND_DECIMALS + 1..=decimals.min(12)).map(|n| with_decimals(mean, n));
+    let mut longer = longer.filter(|step| (step - mean).abs() <= digits);
+    Some(round.or_else(|| longer.find(in_common)).unwrap_or(mean))
+}
+
+fn with_decimals(step: f64, decimals: i32) -> f64 {
+    let scale = 10.0_f64.powi(decimals);
+    (step * scale).round() / scale
+}
+
+/// Round steps near one, the roundest first: with few decimals, of which none is behind the last
+/// one printed; a whole number of samples a second; with few decimals all the same.
+fn round_steps(step: f64, printed: i32) -> impl Iterator<Item = f64> {
+    let few = (0..=printed.min(ROUND_DECIMALS)).map(move |n| with_decimals(step, n));
+    let whole_rate = 1.0 / (1.0 / step).round();
+    few.chain([whole_rate, with_decimals(step, ROUND_DECIMALS)])
 }
 
 /// Values that may share one printed time: more are no rounding.
@@ -117,6 +217,37 @@ pub(crate) fn tied_times(count: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn digits(column: &str) -> PrintedDigits {
+        let mut printed = PrintedDigits::default();
+        column
+            .split_whitespace()
+            .for_each(|field| printed.see(field.as_bytes()));
+        printed
+    }
+
+    #[test]
+    fn digits_of_a_column_are_those_of_its_longest_numbers() {
+        for (column, decimals, significant) in [
+            ("0.0 0.0078125 0.015625 23.4296875", 7, 9),
+            ("0.000 0.005 1.005", 3, 4),
+            ("0 0.0025 10.0025 100.002", 4, 6),
+            ("0.00E+00 5.00E-03 1.00E+01", 5, 3),
+            ("+5.000-003 -1.25D+1", 6, 4),
+            ("0 20 40", 0, 2),
+        ] {
+            let expected = PrintedDigits {
+                decimals,
+                significant,
+            };
+            assert_eq!(digits(column), expected, "{column}");
+        }
+        // `%g`: six digits are three decimals above 100 s.
+        let printed = digits("0 0.0025 10.0025 100.002");
+        for (value, unit) in [(0.0, 1e-4), (10.0025, 1e-4), (100.002, 1e-3)] {
+            assert!((printed.unit_of(value) / unit - 1.0).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn ties_stay_within_their_printed_digit() {

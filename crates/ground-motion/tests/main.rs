@@ -25,5 +25,6 @@ mod readers;
 mod spectra;
 mod stated_durations;
 mod station_xml;
+mod time_columns;
 mod time_steps_and_scales;
 mod writers;

@@ -1,0 +1,222 @@
+//! The step of a column of times, whatever its printer: decimals, significant digits, exponents,
+//! single and double precision.
+#![allow(clippy::unwrap_used)]
+
+use pounding_ground_motion::{GroundMotionError, ReadOptions, read_bytes};
+use proptest::prelude::*;
+
+fn read(times: &[String]) -> Result<f64, GroundMotionError> {
+    let rows = times.iter().map(|time| format!("{time},0.5\n"));
+    let text = format!("time_s,acceleration_m_s2\n{}", rows.collect::<String>());
+    read_bytes("r.csv", text.as_bytes(), &ReadOptions::default()).map(|r| r.time_step())
+}
+
+/// How programs print times.
+#[derive(Debug, Clone, Copy)]
+enum Printer {
+    /// A fixed number of decimals.
+    Decimals(i32),
+    /// Rounded to decimals and printed as short as possible, with `.0`: Python's `round`.
+    Round(i32),
+    /// `%.6g`: significant digits, zeros at the end dropped.
+    Significant(i32),
+    /// `%.6e`.
+    Exponent(i32),
+    /// As short as reads back the same, `0.0` first: Python, pandas.
+    Double,
+    /// The same of a time that has grown by additions.
+    Sum,
+    /// As short as reads back the same in single precision.
+    Single,
+    /// All digits of times in single precision.
+    SingleAsDouble,
+}
+
+fn significant(time: f64, digits: i32) -> String {
+    let text = format!("{time:.*e}", digits as usize - 1);
+    let exponent: i32 = text.split_once('e').unwrap().1.parse().unwrap();
+    let text = format!("{time:.*}", (digits - 1 - exponent).max(0) as usize);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+impl Printer {
+    fn print(self, start: f64, step: f64, count: usize) -> Vec<String> {
+        let mut sum = start;
+        (0..count)
+            .map(|i| {
+                let time = start + i as f64 * step;
+                match self {
+                    Self::Decimals(n) => format!("{time:.*}", n as usize),
+                    Self::Round(n) => {
+                        let rounded: f64 = format!("{time:.*}", n as usize).parse().unwrap();
+                        format!("{rounded:?}")
+                    }
+                    Self::Significant(n) => significant(time, n),
+                    Self::Exponent(n) => format!("{time:.*e}", n as usize),
+                    Self::Double => format!("{time:?}"),
+                    Self::Sum => {
+                        let text = format!("{sum:?}");
+                        sum += step;
+                        text
+                    }
+                    Self::Single => format!("{:?}", time as f32),
+                    Self::SingleAsDouble => format!("{:?}", f64::from(time as f32)),
+                }
+            })
+            .collect()
+    }
+
+    /// One unit of the last digit at a time, with round-off.
+    fn unit(self, time: f64) -> f64 {
+        let digits = |n: i32| 10.0_f64.powi(time.log10().floor() as i32 - n);
+        match self {
+            Self::Decimals(n) | Self::Round(n) => 10.0_f64.powi(-n) + 2e-7 * time,
+            Self::Significant(n) => digits(n - 1) + 2e-7 * time,
+            Self::Exponent(n) => digits(n) + 2e-7 * time,
+            Self::Double | Self::Sum => 1e-10 * time,
+            Self::Single | Self::SingleAsDouble => 2e-7 * time,
+        }
+    }
+}
+
+const RATES: [f64; 14] = [
+    50.0, 62.5, 100.0, 120.0, 128.0, 200.0, 250.0, 256.0, 300.0, 400.0, 409.6, 500.0, 512.0, 1000.0,
+];
+
+fn printer() -> impl Strategy<Value = Printer> {
+    prop_oneof![
+        (3..9).prop_map(Printer::Decimals),
+        (3..9).prop_map(Printer::Round),
+        (5..12).prop_map(Printer::Significant),
+        (4..12).prop_map(Printer::Exponent),
+        Just(Printer::Double),
+        Just(Printer::Sum),
+        Just(Printer::Single),
+        Just(Printer::SingleAsDouble),
+    ]
+}
+
+/// Rates, printers, numbers of samples (few and many alike) and first samples.
+fn columns() -> impl Strategy<Value = (f64, Printer, usize, f64)> {
+    (
+        prop::sample::select(&RATES[..]),
+        printer(),
+        0.7..4.3_f64,
+        prop_oneof![Just(0.0), Just(1.0), 0.0..3000.0_f64],
+    )
+        .prop_map(|(rate, printer, count, first)| {
+            let count = 10.0_f64.powf(count) as usize;
+            (1.0 / rate, printer, count.max(2), first.floor() / rate)
+        })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 300, max_global_rejects: 10_000, failure_persistence: None, ..ProptestConfig::default() })]
+
+    /// No even column is refused where its digits are finer than half a step, and its step is
+    /// within what the digits leave open of the time between first and last sample.
+    #[test]
+    fn even_columns((step, printer, count, start) in columns()) {
+        let end = start + (count - 1) as f64 * step;
+        let unit = printer.unit(end);
+        prop_assume!(unit < 0.4 * step);
+        let times = printer.print(start, step, count);
+        let found = read(&times);
+        prop_assert!(found.is_ok(), "{}: {}", times[times.len() - 1], found.unwrap_err());
+        let error = (found.unwrap() - step).abs();
+        prop_assert!(
+            error <= 2.1 * unit / (count - 1) as f64,
+            "{} {error:e}", times[times.len() - 1]
+        );
+        // Among hundreds of steps no other round number is as near.
+        if count > 600 && unit < 0.01 * step && step != 1.0 / 409.6 {
+            prop_assert!(error < 1e-9 * step, "{} {error:e}", times[times.len() - 1]);
+        }
+    }
+
+    /// Times off by more than their digits are not even.
+    #[test]
+    fn jitter((step, printer, count, start) in columns(), seed in 0..1000_usize) {
+        let end = start + (count - 1) as f64 * step;
+        let off = 3.0 * printer.unit(end);
+        prop_assume!(count > 20 && off < 0.35 * step && !matches!(printer, Printer::Sum));
+        let jittered: Vec<_> = (0..count)
+            .flat_map(|i| {
+                // To and fro at random, and never back in time.
+                let sign = if (i * i + seed * i + seed / 7) % 3 == 0 { 1.0 } else { -1.0 };
+                let much = 1.0 + 0.013 * ((7 * i + seed) % 23) as f64;
+                let time = start + i as f64 * step + sign * much * off;
+                printer.print(if i == 0 { start } else { time }, step, 1)
+            })
+            .collect();
+        let found = read(&jittered);
+        prop_assert!(
+            matches!(found, Err(GroundMotionError::Uneven { .. })),
+            "{:?} {found:?}", &jittered[..9]
+        );
+    }
+}
+
+/// As Python and pandas write multiples of 1/128 s and 1/300 s: `0.0` says nothing of the digits.
+#[test]
+fn a_short_zero_is_no_coarse_digit() {
+    for (step, count) in [
+        (1.0 / 128.0, 2),
+        (1.0 / 128.0, 3),
+        (1.0 / 128.0, 600),
+        (1.0 / 128.0, 3000),
+        (1.0 / 300.0, 3),
+        (1.0 / 300.0, 80),
+        (1.0 / 300.0, 503),
+    ] {
+        let times = Printer::Double.print(0.0, step, count);
+        assert_eq!(times[0], "0.0");
+        assert!((read(&times).unwrap() / step - 1.0).abs() < 1e-12);
+    }
+}
+
+/// Few digits, many samples: the step has more digits than any of the times.
+#[test]
+fn steps_are_finer_than_their_digits() {
+    for (printer, step, count) in [
+        (Printer::Decimals(4), 1.0 / 128.0, 600),
+        (Printer::Round(4), 1.0 / 128.0, 600),
+        (Printer::Decimals(3), 1.0 / 128.0, 2000),
+        (Printer::Significant(6), 1.0 / 128.0, 20_000),
+        (Printer::Significant(6), 1.0 / 300.0, 20_000),
+        (Printer::Decimals(3), 1.0 / 300.0, 10_000),
+        (Printer::Decimals(4), 0.002_44, 10_000),
+        (Printer::Exponent(5), 1.0 / 256.0, 10_000),
+    ] {
+        let found = read(&printer.print(0.0, step, count)).unwrap();
+        assert!((found / step - 1.0).abs() < 1e-12, "{printer:?} {found}");
+    }
+    // So few samples say no more than is printed.
+    let short = |times: [&str; 3]| read(&times.map(str::to_owned)).unwrap();
+    assert_eq!(short(["0.0000", "0.0078", "0.0156"]), 0.0078);
+    assert_eq!(short(["1e-2", "2e-2", "3e-2"]), 0.01);
+}
+
+/// A time column with errors of a quarter of a step, printed in full but for `0.0`.
+#[test]
+fn a_short_zero_hides_no_jitter() {
+    let times: Vec<_> = (0..1000_u32)
+        .map(|i| f64::from(i) * 0.01 + 0.0024 * (f64::from(i * i) * 0.7).sin())
+        .map(|time| format!("{time:?}"))
+        .collect();
+    assert_eq!(times[0], "0.0");
+    let error = read(&times).unwrap_err();
+    assert!(matches!(error, GroundMotionError::Uneven { .. }), "{error}");
+}
+
+/// The message shows by how much the steps differ.
+#[test]
+fn uneven_steps_are_shown_apart() {
+    let mut times = Printer::Double.print(0.0, 1.0 / 300.0, 100);
+    times[50] = format!("{:?}", 50.0 / 300.0 + 3e-8);
+    let error = read(&times).unwrap_err().to_string();
+    assert!(error.contains("0.00333330 s to 0.00333336 s"), "{error}");
+}

@@ -436,6 +436,68 @@ fn gap_in(folder: &Path, arguments: &[&str]) -> Output {
         .unwrap()
 }
 
+/// The example with another gap, the record where the case finds it.
+fn example_with(width: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+    let records = root().join("ground_motions").display().to_string();
+    let case = case
+        .unwrap()
+        .replace("\"20 mm\"", width)
+        .replace("../../ground_motions", &records);
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    folder
+}
+
+/// Widths of 40, 95 and 130 mm against demands of 49, 92 and 117 mm: the lowest level closes, and
+/// answer, numbers and page say so, not what the roof demands.
+#[test]
+fn the_level_of_the_least_margin_governs() {
+    for (widths, level, verdict, left) in [
+        ([40, 95, 130], 1, "TOO SMALL", "9.45 mm short"),
+        ([50, 95, 118], 1, "WIDE ENOUGH", "0.55 mm left"),
+        ([60, 92, 118], 2, "WIDE ENOUGH", "0.19 mm left"),
+    ] {
+        let list = widths.map(|width| format!("\"{width} mm\"")).join(", ");
+        let folder = example_with(&format!("[{list}]"));
+        let arguments = ["--points", "0", "--report", "page.html"];
+        let output = gap_in(folder.path(), &arguments);
+        let shown = text(&output.stdout);
+        assert_eq!(
+            output.status.code(),
+            Some(i32::from(verdict == "TOO SMALL"))
+        );
+        let governs = format!("level {level}-{level} governs: required ");
+        let line = shown.lines().find(|line| line.contains(&governs)).unwrap();
+        let provided = widths[level - 1];
+        assert!(
+            line.contains(&format!("provided {provided}.0 mm, {left}")),
+            "{line}"
+        );
+        assert!(shown.contains(verdict), "{shown}");
+        assert!(
+            shown.contains("one width at all levels would have to be 117.16 mm by count"),
+            "{shown}"
+        );
+        let found = json(&gap_in(folder.path(), &["--points", "0", "--json"]))["gaps"][0].clone();
+        assert_eq!(found["governing_level"], level);
+        let governing = &found["governing"];
+        assert_eq!(governing["level"], level);
+        assert_eq!(governing["record"], "el_centro_1940_ns");
+        close(&governing["provided"], 1e-3 * f64::from(provided), 1e-12);
+        assert_eq!(
+            governing["required"],
+            found["levels"][level - 1]["demand"][0]["peak"]
+        );
+        let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+        assert!(page.contains(&format!("Level {level}-{level} governs: ")));
+        assert!(
+            page.contains("One width at all levels of ") && page.contains("no record closes it")
+        );
+        assert!(!page.contains("minimum width of its levels"));
+    }
+}
+
 /// Buildings that are alike move alike: no demand, no sweep, and an answer all the same.
 #[test]
 fn alike_buildings_need_no_sweep() {

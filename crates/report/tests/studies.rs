@@ -57,6 +57,7 @@ fn check() -> Value {
             "adequate": false,
             "records_in_contact": 1,
             "demand": [0.0301, 0.0102],
+            "governing": { "level": 1, "record": HOSTILE, "required": 0.0301, "provided": 0.02, "margin": -0.0101 },
             "suite": { "mean": 0.02015, "maximum": 0.0301 },
             "required": { "by_count": 0.0301, "allowed_contacts": 0, "lognormal": null },
             "code": {
@@ -94,6 +95,8 @@ fn the_answer_of_a_gap_check_comes_first() {
         "EN 1998-1:2004 gives no answer for gap &lt;img",
         "data-factor=\"1e3\" value=\"21.10\">21.10</data> mm are required",
         "1 of 2 records bring its buildings into contact; none may.",
+        "Level 1-1 governs:",
+        "<li>A width of",
         "is needed so that no record closes it",
         "<tr data-row=\"mean\"><th scope=\"row\">mean</th><td>20.15</td></tr>",
         // The elevation of a wall is not known.

@@ -48,7 +48,7 @@ fn the_square_root_is_unsafe_under_el_centro() {
     let gap = &check.gaps[0];
     let scale = 9.80665 / 9.81;
     assert!((gap.demand[0] / (0.117_207 * scale) - 1.0).abs() < 2.0e-4);
-    assert_eq!(gap.governing_level, 2);
+    assert_eq!(gap.governing.level, 2);
     let nbcc = gap
         .codes
         .iter()

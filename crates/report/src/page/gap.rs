@@ -170,9 +170,11 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     }
     let records = answer.list("/records").len();
     let allowed = answer.number(&at("required/allowed_contacts"), "") as usize;
+    let governing = answer.at(&at("governing/level")).as_u64();
+    let governing = governing.map_or(0, |level| level.saturating_sub(1));
     points.push(format!(
-        "{} of {} {} its buildings into contact; {} may. The maximum demand is {} mm, the minimum width \
-         of its levels {} mm.",
+        "{} of {} {} its buildings into contact; {} may. Level {} governs: {} mm are required there and {} mm \
+         are provided.",
         answer.at(&at("records_in_contact")),
         counted(records, "record"),
         agreeing(&records, "brings", "bring"),
@@ -180,11 +182,19 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             0 => "none".to_owned(),
             some => some.to_string(),
         },
-        answer.say(&format!("maximum {}", at("demand/+")), 1.0e3),
-        answer.say(&format!("minimum {}", at("levels/+/width")), 1.0e3),
+        answer.quote(&at(&format!("levels/{governing}/level"))),
+        answer.say(&at("governing/required"), 1.0e3),
+        answer.say(&at("governing/provided"), 1.0e3),
     ));
+    let widths: Vec<_> = (answer.list(&at("levels")).iter())
+        .map(|level| &level["width"])
+        .collect();
+    let width = match widths.iter().all(|width| *width == widths[0]) {
+        true => "A width",
+        false => "One width at all levels",
+    };
     let mut required = format!(
-        "A width of {} mm is needed so that {} closes it.",
+        "{width} of {} mm is needed so that {} closes it.",
         answer.say(&at("required/by_count"), 1.0e3),
         match allowed {
             0 => "no record".to_owned(),

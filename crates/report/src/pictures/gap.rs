@@ -64,7 +64,7 @@ fn limits(check: &GapCheck, varied: Option<&str>) -> Vec<Limit> {
             look: Look::limit(dash),
         });
     };
-    let level = &gap.levels[gap.governing_level];
+    let level = &gap.levels[gap.governing.level];
     add("provided".to_owned(), level.width, "");
     let by_code = gap.code.as_ref().map(|code| {
         let widths = code.deciding().filter_map(|case| case.governing());

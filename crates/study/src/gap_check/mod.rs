@@ -65,8 +65,8 @@ pub struct GapReport {
     pub between: [String; 2],
     /// Contact levels from the bottom.
     pub levels: Vec<GapLevel>,
-    /// Level with the maximum demand over all records, from zero.
-    pub governing_level: usize,
+    /// The level and the record that decide the verdict.
+    pub governing: Governing,
     /// Maximum demand over the levels for each record (m): the uniform width that the
     /// record would just not close.
     pub demand: Vec<f64>,
@@ -94,6 +94,52 @@ pub struct GapReport {
     /// Shear of columns that are hit, at the provided widths: of each such level the record
     /// under which it is a maximum; none where no run could be made.
     pub columns: Vec<ColumnDemand>,
+}
+
+/// Where a gap is nearest to contact, or goes furthest beyond it: the level with the least
+/// margin under the record that decides. As many records as may touch have less.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Governing {
+    /// Level, from zero.
+    pub level: usize,
+    /// Record, from zero.
+    pub record: usize,
+    /// Its demand at that level (m).
+    pub required: f64,
+    /// Width of that level (m).
+    pub provided: f64,
+}
+
+impl Governing {
+    /// What is left of the width (m); negative where it falls short.
+    #[must_use]
+    pub fn margin(&self) -> f64 {
+        self.provided - self.required
+    }
+
+    /// Of widths by level (m), and of demands by record and level (m).
+    fn of(widths: &[f64], demands: &[Vec<f64>], allowed: usize) -> Self {
+        let at = |record: usize, level: usize| Self {
+            level,
+            record,
+            required: demands[record][level],
+            provided: widths[level],
+        };
+        // Of equals the lowest level and the first record.
+        let least = |record: usize| {
+            let levels = (1..widths.len()).map(|level| at(record, level));
+            levels.fold(at(record, 0), |least, other| {
+                if other.margin() < least.margin() {
+                    other
+                } else {
+                    least
+                }
+            })
+        };
+        let mut records: Vec<_> = (0..demands.len()).map(least).collect();
+        records.sort_by(|a, b| a.margin().total_cmp(&b.margin()));
+        records[allowed.min(records.len() - 1)]
+    }
 }
 
 /// Maximum shear of the columns that are hit at a level, over all records.
@@ -131,6 +177,12 @@ pub struct GapCheck {
 pub(crate) const SAME: f64 = 1.0e-6;
 
 impl GapReport {
+    /// Whether all levels have the same width.
+    #[must_use]
+    pub fn of_one_width(&self) -> bool {
+        self.levels.iter().all(|l| l.width == self.levels[0].width)
+    }
+
     /// Whether the gap is wide enough: by the code that is asked for, which must give an answer,
     /// else by the demand of the records.
     #[must_use]
@@ -178,7 +230,7 @@ impl GapReport {
         });
         let demand = self.demand.iter().fold(0.0_f64, |m, d| m.max(*d));
         if demand > SAME * widest(maximum) {
-            self.governing_level
+            self.governing.level
         } else {
             maximum
         }
@@ -314,12 +366,6 @@ fn report(
     let at = |record: &RecordDemand, level: usize| record.demand[place.gap][level].value;
     let over_levels = |r: &RecordDemand| (0..levels.len()).fold(0.0_f64, |m, l| m.max(at(r, l)));
     let demand: Vec<f64> = records.iter().map(over_levels).collect();
-    let maximum = |l: usize| records.iter().fold(0.0_f64, |m, r| m.max(at(r, l)));
-    // Of equals the lowest: `max_by` alone would take the last.
-    let governing_level = (0..levels.len())
-        .rev()
-        .max_by(|a, b| maximum(*a).total_cmp(&maximum(*b)))
-        .unwrap_or(0);
     let touches = |r: &&RecordDemand| {
         let mut closed = levels.iter().enumerate();
         closed.any(|(l, level)| r.demand_exceeds(place.gap, l, level.width))
@@ -329,10 +375,13 @@ fn report(
     let records_driven = records.iter().filter(driven).count();
     let records_in_contact = records.iter().filter(touches).count() + records_driven;
     let allowed = required::allowed_contacts(options.target_probability, records.len());
+    let widths: Vec<f64> = levels.iter().map(|l| l.width).collect();
+    let by_level = |r: &RecordDemand| (0..levels.len()).map(|l| at(r, l)).collect();
+    let by_record: Vec<Vec<f64>> = records.iter().map(by_level).collect();
     Ok(GapReport {
         name: gap.name.clone(),
         between: gap.between.clone(),
-        governing_level,
+        governing: Governing::of(&widths, &by_record, allowed),
         contact_bounds: binomial_bounds(records_in_contact, records.len(), options.confidence),
         required: required::required_gap(&demand, options),
         adequate: records_in_contact <= allowed,
@@ -372,4 +421,26 @@ fn column_demand(records: &[RecordDemand], (gap, level): (usize, usize)) -> Opti
         record,
         shear,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// By hand: 130, 95 and 40 mm against demands of three levels.
+    #[test]
+    fn the_least_margin_governs() {
+        let widths = [0.040, 0.095, 0.130];
+        let demands = [vec![0.049, 0.092, 0.117], vec![0.030, 0.100, 0.120]];
+        let first = Governing::of(&widths, &demands, 0);
+        assert_eq!((first.level, first.record), (0, 0));
+        assert!((first.margin() + 0.009).abs() < 1e-15);
+        // One may touch: the record with the least margin but one.
+        let second = Governing::of(&widths, &demands, 1);
+        assert_eq!((second.level, second.record), (1, 1));
+        assert_eq!((second.required, second.provided), (0.100, 0.095));
+        // One width at all levels: the level of the greatest demand; of equals the lowest.
+        assert_eq!(Governing::of(&[0.1; 3], &demands, 0).level, 2);
+        assert_eq!(Governing::of(&[0.1; 2], &[vec![0.0; 2]], 0).level, 0);
+    }
 }

@@ -19,13 +19,14 @@ pub fn answer(check: &GapCheck, gap: &GapReport) -> String {
 fn by_demand(check: &GapCheck, gap: &GapReport) -> String {
     let (low, high) = gap.contact_bounds;
     format!(
-        "\nGap {}: {} - {} it, {} allowed (probability of contact {low:.3} to {high:.3} at {} % confidence)\n{}{}{}{}",
+        "\nGap {}: {} - {} it, {} allowed (probability of contact {low:.3} to {high:.3} at {} % confidence)\n{}{}{}{}{}",
         gap.name,
         verdict(Some(gap.adequate)),
         records_that_close(gap),
         gap.required.allowed_contacts,
         100.0 * check.options.confidence,
         driven(gap),
+        governing(check, gap),
         required(check, gap),
         provided(gap),
         widest(gap),
@@ -60,13 +61,36 @@ fn driven(gap: &GapReport) -> String {
     )
 }
 
+/// The level that decides where levels have different widths, and by how much.
+fn governing(check: &GapCheck, gap: &GapReport) -> String {
+    if gap.of_one_width() {
+        return String::new();
+    }
+    let governing = &gap.governing;
+    let left = match governing.margin() * 1e3 {
+        left if left < 0.0 => format!("{:.2} mm short", -left),
+        left => format!("{left:.2} mm left"),
+    };
+    format!(
+        "  level {} governs: required {:.2} mm (the demand of {}), provided {:.1} mm, {left}\n",
+        gap.levels[governing.level].place.label(),
+        governing.required * 1e3,
+        check.records[governing.record].name,
+        governing.provided * 1e3,
+    )
+}
+
 /// The width that the records ask for.
 fn required(check: &GapCheck, gap: &GapReport) -> String {
     let p = check.options.target_probability;
     let confidence = 100.0 * check.options.confidence;
     let required = &gap.required;
     let mut text = format!(
-        "  required {:.2} mm by count ({} of {} may touch)",
+        "  {} {:.2} mm by count ({} of {} may touch)",
+        match gap.of_one_width() {
+            true => "required",
+            false => "one width at all levels would have to be",
+        },
         required.by_count * 1e3,
         required.allowed_contacts,
         counted(gap.demand.len(), "record"),
@@ -94,9 +118,12 @@ fn required(check: &GapCheck, gap: &GapReport) -> String {
     text
 }
 
-/// Where the demand is greatest, and what is provided there.
+/// Where the demand is greatest, and what is provided there, if it is the same at all levels.
 fn provided(gap: &GapReport) -> String {
-    let level = &gap.levels[gap.governing_level];
+    if !gap.of_one_width() {
+        return String::new();
+    }
+    let level = &gap.levels[gap.governing.level];
     format!(
         "  provided {:.1} mm at level {}, where the demand is greatest\n",
         level.width * 1e3,

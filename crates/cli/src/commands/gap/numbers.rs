@@ -216,6 +216,7 @@ struct Gap<'c> {
     records_driven_by_neighbours: usize,
     contact_probability_bounds: (f64, f64),
     governing_level: usize,
+    governing: Governing<'c>,
     demand: &'c [f64],
     suite: Suite,
     code: Option<Code<'c>>,
@@ -225,6 +226,16 @@ struct Gap<'c> {
     provisions: Vec<Provision<'c>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     columns: Vec<Column<'c>>,
+}
+
+/// What decides the verdict: width and demand at the level of the least margin.
+#[derive(Serialize)]
+struct Governing<'c> {
+    level: usize,
+    record: &'c str,
+    required: f64,
+    provided: f64,
+    margin: f64,
 }
 
 /// Maximum shear of the columns that are hit at a level.
@@ -474,7 +485,14 @@ impl<'c> Gap<'c> {
             records_in_contact: gap.records_in_contact,
             records_driven_by_neighbours: gap.records_driven,
             contact_probability_bounds: gap.contact_bounds,
-            governing_level: gap.governing_level + 1,
+            governing_level: gap.governing.level + 1,
+            governing: Governing {
+                level: gap.governing.level + 1,
+                record: &check.records[gap.governing.record].name,
+                required: gap.governing.required,
+                provided: gap.governing.provided,
+                margin: gap.governing.margin(),
+            },
             columns: (gap.columns.iter())
                 .map(|c| Column {
                     level: c.level + 1,

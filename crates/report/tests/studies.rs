@@ -116,6 +116,26 @@ fn the_answer_of_a_gap_check_comes_first() {
     assert!(answer < place("second"));
 }
 
+/// A gap that closes because another gap of the row does: its own demand is no remedy.
+#[test]
+fn a_gap_that_neighbours_close() {
+    let mut answer = check();
+    answer["gaps"][0]["code"] = Value::Null;
+    let words = [
+        "Under 1 of them only because another gap of the row closes",
+        "closes it while the other gaps stay open.",
+    ];
+    let holds = |answer: &Value| {
+        let html = gap(answer, &[], &inputs());
+        words.map(|text| html.contains(text))
+    };
+    assert_eq!(holds(&answer), [false; 2]);
+    answer["gaps"][0]["records_driven_by_neighbours"] = json!(0);
+    assert_eq!(holds(&answer), [false; 2]);
+    answer["gaps"][0]["records_driven_by_neighbours"] = json!(1);
+    assert_eq!(holds(&answer), [true; 2]);
+}
+
 /// Answers with nothing in them have a page without numbers, not a failure.
 #[test]
 fn empty_answers() {

@@ -186,6 +186,14 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
         answer.say(&at("governing/required"), 1.0e3),
         answer.say(&at("governing/provided"), 1.0e3),
     ));
+    let driven = answer.at(&at("records_driven_by_neighbours")).as_u64();
+    let driven = driven.filter(|count| *count > 0);
+    if let Some(count) = driven {
+        points.push(format!(
+            "Under {count} of them only because another gap of the row closes: the widths here do not see that, make \
+             the other gap wide enough first."
+        ));
+    }
     let widths: Vec<_> = (answer.list(&at("levels")).iter())
         .map(|level| &level["width"])
         .collect();
@@ -193,8 +201,12 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
         true => "A width",
         false => "One width at all levels",
     };
+    let alone = match driven {
+        Some(_) => " while the other gaps stay open",
+        None => "",
+    };
     let mut required = format!(
-        "{width} of {} mm is needed so that {} closes it.",
+        "{width} of {} mm is needed so that {} closes it{alone}.",
         answer.say(&at("required/by_count"), 1.0e3),
         match allowed {
             0 => "no record".to_owned(),

@@ -131,6 +131,57 @@ fn a_wider_gap_can_be_worse() {
     assert!(worst.width > 0.02, "the narrowest gap is not the worst");
 }
 
+/// A light building that a heavy one drives through a gap of 60 mm, of which it demands 13 mm by
+/// itself: the sweep of that gap covers what is provided, and what closes it.
+#[test]
+fn the_sweep_of_one_gap_in_a_row_covers_its_width() {
+    let building = |name: &str, mass: f64, stiffness: f64| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nstoreys = 1\nmass = \"{mass} t\"\nstiffness = \"{stiffness} MN/m\"\n\
+             height = \"3 m\"\ndamping = {{ stiffness_proportional = 0.03 }}\n"
+        )
+    };
+    let gap = |between: &str, width: &str| {
+        format!(
+            "[[gap]]\nbetween = {between}\nwidth = \"{width}\"\nmodel = \"anagnostopoulos_2004\"\n\
+             stiffness = \"500 MN/m\"\nrestitution = 0.65\n"
+        )
+    };
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    let text = building("A", 500.0, 20.0)
+        + &building("B", 50.0, 30.0)
+        + &building("C", 5000.0, 20_000.0)
+        + &gap("[\"A\", \"B\"]", "10 mm")
+        + &gap("[\"B\", \"C\"]", "60 mm")
+        + &format!("[ground_motion]\nfile = '{}'\n", record.display());
+    let case = Case::parse(&text, &root().join("case.toml")).unwrap();
+    let swept = |gap: Option<&str>| {
+        let sweep = SweepOptions {
+            gap: gap.map(str::to_owned),
+            from: None,
+            to: None,
+            points: 21,
+        };
+        let asked = GapCheckOptions {
+            sweep: Some(sweep),
+            ..options()
+        };
+        check(&case, &[], &asked)
+    };
+    let one = swept(Some("B-C"));
+    let gap = &one.gaps[1];
+    assert!(gap.demand[0] < 0.02 && gap.records_driven == 1 && !gap.adequate);
+    let sweep = one.sweep.unwrap();
+    assert!((sweep.widths[20] / (1.05 * 0.06) - 1.0).abs() < 1e-12);
+    assert!((sweep.widths[19] / (1.05 * 0.06 * 20.0 / 21.0) - 1.0).abs() < 1e-12);
+    let worst = sweep.worst(1, |a| a.displacement).unwrap();
+    assert!(worst.width > 0.03, "{worst:?}");
+    // All alike: beyond the maximum demand nothing is touched.
+    let all = swept(None);
+    let maximum = all.gaps.iter().map(|g| g.demand[0]).fold(0.0, f64::max);
+    assert_eq!(all.sweep.unwrap().widths[20], 1.05 * maximum);
+}
+
 /// Every provision either computes or says what is missing; with all inputs only those
 /// that do not apply are left.
 #[test]

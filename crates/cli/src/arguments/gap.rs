@@ -55,7 +55,8 @@ pub struct GapArguments {
     /// First width of the sweep, such as "5 mm" [default: one step]
     #[arg(long, value_name = "WIDTH")]
     pub from: Option<String>,
-    /// Last width of the sweep [default: a little more than the maximum demand]
+    /// Last width of the sweep [default: a little more than the maximum demand; of one gap in a row than
+    /// its width too]
     #[arg(long, value_name = "WIDTH")]
     pub to: Option<String>,
     /// Gap whose width varies in the sweep [default: all, with the same width]

@@ -22,7 +22,7 @@ pub struct SweepOptions {
     /// Smallest width (m); `None`: one step, so that the next below were zero. If the maximum
     /// is not given either and nothing is demanded, there is no width.
     pub from: Option<f64>,
-    /// Maximum width (m); `None`: 1.05 of the maximum demand of the gaps that vary.
+    /// Maximum width (m); `None`: that of [`widest`].
     pub to: Option<f64>,
     /// Number of widths, evenly spaced, both ends among them.
     pub points: usize,
@@ -209,7 +209,9 @@ pub(crate) fn sweep(
     (asked, gap): (&SweepOptions, Option<usize>),
     shared: &Shared<'_>,
 ) -> Result<GapSweep, CheckError> {
-    let to = match (asked.to, widest(demands, gap)) {
+    let systems = records.first().map(|r| &r.assembly.system);
+    let provided = gap.and_then(|index| provided_in_row(systems?, index));
+    let to = match (asked.to, widest(demands, gap, provided)) {
         (Some(to), _) => to,
         (None, to) if to > asked.from.unwrap_or(0.0) => to,
         (None, 0.0) if asked.from.is_none() => {
@@ -261,13 +263,23 @@ pub fn even_widths(from: Option<f64>, to: f64, points: usize) -> Vec<f64> {
     (0..points).map(width).collect()
 }
 
-/// A little more than the maximum demand of the gaps that vary (m): the last width of a sweep.
+/// The maximum width (m) of the levels of a gap, where other gaps close beside it: buildings that
+/// were hit there can close this one beyond the demand, which does not see that.
+fn provided_in_row(system: &System, gap: usize) -> Option<f64> {
+    let gaps = system.gaps();
+    let levels = system.levels_of(gaps.get(gap)?).iter();
+    (gaps.len() > 1).then(|| levels.fold(0.0, |most, level| level.width.max(most)))
+}
+
+/// The last width of a sweep (m): a little more than the maximum demand of the gaps that vary,
+/// beyond which they are not touched. Where one gap varies among others, which can close it all the
+/// same, at least a little more than the width `provided` (m).
 #[must_use]
-pub fn widest(demands: &[RecordDemand], gap: Option<usize>) -> f64 {
+pub fn widest(demands: &[RecordDemand], gap: Option<usize>, provided: Option<f64>) -> f64 {
     let gaps = demands.iter().flat_map(|r| r.demand.iter().enumerate());
     let varied = gaps.filter(|(index, _)| gap.is_none_or(|g| g == *index));
     let peaks = varied.flat_map(|(_, levels)| levels);
-    1.05 * peaks.fold(0.0_f64, |m, p| m.max(p.value))
+    1.05 * peaks.fold(provided.unwrap_or(0.0), |m, p| m.max(p.value))
 }
 
 /// The run of a system at one width (m) of all its gaps, or of the one of this number;

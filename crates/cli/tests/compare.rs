@@ -154,6 +154,57 @@ fn answer(command: &str, case: &Path, more: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", text(&output.stderr)))
 }
 
+/// One model of two overturns the building: the conclusions say so, and are those of the other.
+#[test]
+fn a_model_that_brings_a_building_to_collapse_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let example = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+    let law = "height = \"3 m\"\np_delta = true\nlaw = { model = \"elastic_perfectly_plastic\", yield_force = \"110 kN\" }";
+    let records = root().join("ground_motions").display().to_string();
+    let case = example
+        .unwrap()
+        .replacen("height = \"3 m\"", law, 1)
+        .replace("damping_ratio = 0.35", "restitution = 0.65")
+        .replace("../../ground_motions", &records)
+        .replace("[ground_motion]", "[ground_motion]\nscale = 1.25");
+    let file = folder.path().join("case.toml");
+    std::fs::write(&file, case).unwrap();
+    let page = folder.path().join("page.html");
+    let models = ["--models", "jankowski_2005,gharib_hurmuzlu_2012,hertz_1882"];
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .arg("compare")
+        .arg(&file)
+        .args(models)
+        .arg("--report")
+        .arg(&page)
+        .output()
+        .unwrap();
+    let shown = text(&output.stdout);
+    let conclusions = shown.split_once("\nConclusions\n").unwrap().1;
+    assert!(
+        conclusions.starts_with(
+            "  pounding brings light to collapse: with gharib_hurmuzlu_2012 under el_centro_1940_ns"
+        ),
+        "{conclusions}"
+    );
+    assert!(
+        conclusions.contains("holds for all other models"),
+        "{shown}"
+    );
+    assert!(!conclusions.contains("for all models"), "{shown}");
+    let found = answer("compare", &file, &models);
+    let models = found["models"].as_array().unwrap();
+    let fallen = models
+        .iter()
+        .filter(|m| m["failures"][0]["collapsed"] == "light");
+    let names: Vec<_> = fallen.map(|m| m["name"].clone()).collect();
+    assert_eq!(names, ["gharib_hurmuzlu_2012"]);
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(page.contains(
+        "<strong>Pounding brings a building to collapse with gharib_hurmuzlu_2012</strong>: 1 of 3 models."
+    ));
+}
+
 /// Seven motions of which one does not close the gap: it has no force, and the spread and
 /// order of forces are those of the other six, exactly. Counts and energy of that record are
 /// zero.

@@ -498,6 +498,45 @@ fn the_level_of_the_least_margin_governs() {
     }
 }
 
+/// Storeys that yield under gravity: pounding overturns the building at some widths, at which
+/// nothing is said of ratios of peaks, and which are the worst.
+#[test]
+fn widths_at_which_a_building_collapses_are_the_worst() {
+    let folder = example_with("\"20 mm\"");
+    let file = folder.path().join("case.toml");
+    let case = std::fs::read_to_string(&file).unwrap();
+    let law = "height = \"3 m\"\np_delta = true\nlaw = { model = \"elastic_perfectly_plastic\", yield_force = \"110 kN\" }";
+    let case = case
+        .replacen("height = \"3 m\"", law, 1)
+        .replace("damping_ratio = 0.35", "restitution = 0.65")
+        .replace("[ground_motion]", "[ground_motion]\nscale = 1.2");
+    std::fs::write(&file, case).unwrap();
+    let sweep = ["--points", "3", "--from", "5 mm", "--to", "65 mm"];
+    let shown = text(&gap_in(folder.path(), &sweep).stdout);
+    assert!(shown.contains("to collapse"), "{shown}");
+    let worst = shown.lines().find(|l| l.starts_with("light: worst at "));
+    assert!(
+        worst
+            .unwrap()
+            .ends_with("where pounding brings it to collapse")
+    );
+    assert!(shown.contains("pounding brings light to collapse: light collapsed at t = "));
+    assert!(shown.contains("light: otherwise "), "{shown}");
+    assert!(
+        shown.contains("|       5.00 |            collapse |"),
+        "{shown}"
+    );
+    assert!(!shown.contains("of the sweep failed"), "{shown}");
+    let mut arguments = sweep.to_vec();
+    arguments.extend(["--json", "--report", "page.html"]);
+    let found = json(&gap_in(folder.path(), &arguments));
+    assert_eq!(found["records"][0]["collapsed"], "light");
+    assert_eq!(found["sweep"]["runs"][0][0]["collapsed"], "light");
+    let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+    assert!(page.contains("<strong>Pounding brings light to collapse</strong> at "));
+    assert!(page.contains("<strong>Pounding brings light to collapse</strong> under el_centro"));
+}
+
 /// Buildings that are alike move alike: no demand, no sweep, and an answer all the same.
 #[test]
 fn alike_buildings_need_no_sweep() {

@@ -45,13 +45,32 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         .filter(|m| m["failures"].as_array().is_some_and(|f| !f.is_empty()))
         .map(name)
         .collect();
+    let collapse = |model: &&Value| {
+        let mut failures = model["failures"].as_array().into_iter().flatten();
+        failures.any(|failure| failure["collapsed"].is_string())
+    };
+    let fallen: Vec<&str> = models.iter().filter(collapse).map(name).collect();
     let all = answer.list("/conclusions");
     let depends: Vec<&str> = all
         .iter()
         .filter(|c| c["holds"].as_str() == Some("depends on the model"))
         .filter_map(|c| c["statement"].as_str())
         .collect();
-    let mut points = vec![match depends.len() {
+    let mut points = Vec::new();
+    if !fallen.is_empty() {
+        points.push(format!(
+            "<strong>Pounding brings a building to collapse with {}</strong>: {} of {}. What follows counts the \
+             others only.",
+            escaped(&fallen.join(", ")),
+            fallen.len(),
+            counted(models.len(), "model"),
+        ));
+    }
+    points.push(match depends.len() {
+        0 if !fallen.is_empty() => format!(
+            "With the other models none of {} depends on the model.",
+            counted(all.len(), "conclusion")
+        ),
         0 => format!(
             "<strong>No.</strong> None of {} depends on the model.",
             counted(all.len(), "conclusion")
@@ -62,7 +81,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
             agreeing(&some, "depends", "depend"),
             escaped(&depends.join("; "))
         ),
-    }];
+    });
     let number =
         |q: &usize, which: &str| answer.number(&format!("/quantities/{q}/spread/{which}"), "");
     let between = |q: &usize| number(q, "between_models");

@@ -264,11 +264,14 @@ fn failures(answer: Answer<'_>) -> Vec<String> {
     let failed = answer.list("/records").iter().filter_map(|record| {
         let failure = record["failure"].as_str()?;
         let name = record["name"].as_str().unwrap_or_default();
-        Some(format!(
-            "The run with pounding under {} failed: {}.",
-            escaped(name),
-            escaped(failure)
-        ))
+        let (name, failure) = (escaped(name), escaped(failure));
+        Some(match record["collapsed"].as_str() {
+            Some(building) => format!(
+                "<strong>Pounding brings {} to collapse</strong> under {name}: {failure}.",
+                escaped(building)
+            ),
+            None => format!("The run with pounding under {name} failed: {failure}."),
+        })
     });
     failed.collect()
 }
@@ -510,10 +513,39 @@ fn swept(answer: Answer<'_>) -> String {
     let every = widths.div_ceil(ROWS);
     let shown = (0..widths).step_by(every);
     let shown = shown.map(|i| (i.to_string(), (i + 1).to_string()));
-    let table = answer.table("Sweep over widths", &columns, shown);
+    let table = collapses(answer, buildings) + &answer.table("Sweep over widths", &columns, shown);
     match every {
         1 => table,
         every => table + &note(&format!("One width of {every}; --csv writes all.")),
+    }
+}
+
+/// The widths at which pounding brings a building to collapse, a sentence for each.
+fn collapses(answer: Answer<'_>, buildings: &[Value]) -> String {
+    let runs = answer.list("/sweep/runs");
+    let sentence = |building: &Value| {
+        let falls = |runs: &Value| {
+            let mut runs = runs.as_array().into_iter().flatten();
+            runs.any(|run| run["collapsed"].is_string() && run["collapsed"] == building["name"])
+        };
+        let widths = runs.iter().enumerate().filter(|(_, runs)| falls(runs));
+        let widths: Vec<_> = widths.map(|(i, _)| i).collect();
+        let (first, last) = (widths.first()?, widths.last()?);
+        let say = |i: &usize| answer.say(&format!("/sweep/widths/{i}"), 1.0e3);
+        Some(format!(
+            "<strong>Pounding brings {} to collapse</strong> at {} of {}, between {} and {} mm: no ratio of peaks is \
+             worse.",
+            escaped(building["name"].as_str().unwrap_or_default()),
+            widths.len(),
+            counted(runs.len(), "width"),
+            say(first),
+            say(last),
+        ))
+    };
+    let found: Vec<_> = buildings.iter().filter_map(sentence).collect();
+    match found.is_empty() {
+        true => String::new(),
+        false => sentences(&found),
     }
 }
 

@@ -23,7 +23,7 @@ use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
     Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, Repeated,
-    amplification, demands, in_parallel, levels, rebuilt, step_warnings,
+    amplification, collapsed_building, demands, in_parallel, levels, rebuilt, step_warnings,
 };
 
 /// What is asked for.
@@ -283,6 +283,22 @@ impl Comparison {
     pub fn complete(&self) -> Vec<usize> {
         let all = 0..self.models.len();
         all.filter(|m| self.models[*m].is_complete()).collect()
+    }
+
+    /// Models (by number) that bring a building to collapse, with the record (by number) and the
+    /// building. They have no peaks: conclusions are drawn from the other models.
+    #[must_use]
+    pub fn collapses(&self) -> Vec<(usize, usize, &str)> {
+        let models = self.models.iter().enumerate();
+        let runs = models.flat_map(|(m, model)| {
+            let records = model.records.iter().enumerate();
+            records.map(move |(r, run)| (m, r, run))
+        });
+        runs.filter_map(|(m, r, run)| {
+            let building = collapsed_building(run.as_ref().err()?)?;
+            Some((m, r, building))
+        })
+        .collect()
     }
 
     /// Value of a quantity; NaN where a model failed or it has no meaning.

@@ -3,6 +3,7 @@
 
 mod code_answer;
 mod codes;
+mod collapse;
 mod demand;
 mod error;
 mod parallel;
@@ -17,6 +18,7 @@ mod systems;
 
 pub use code_answer::{CodeAnswer, LevelAnswer, OwnershipAnswer};
 pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words, wrong_rules};
+pub use collapse::collapsed_building;
 pub use demand::{
     Amplification, AmplifiedQuantity, GapLevel, RecordDemand, amplification, demands,
 };

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use pounding_time_history::{BuildingOutcome, Recorder, RunOptions, System, run};
 
+use super::collapse::collapsed_building;
 use super::demand::{Amplification, RecordDemand, amplification};
 use super::error::CheckError;
 use super::parallel::Progress;
@@ -135,7 +136,8 @@ impl GapSweep {
     }
 
     /// Maximum amplification of a quantity of a building over all widths and records;
-    /// `None` if every run failed.
+    /// `None` if every run failed. Runs in which a building collapsed have no peaks and are
+    /// worse than any: [`collapses`](Self::collapses).
     #[must_use]
     pub fn worst(
         &self,
@@ -162,10 +164,20 @@ impl GapSweep {
         worst
     }
 
-    /// Runs that failed.
+    /// Runs that failed; those in which a building collapsed did not.
     #[must_use]
     pub fn failures(&self) -> usize {
-        self.runs.iter().flatten().filter(|r| r.is_err()).count()
+        let diagnoses = self.runs.iter().flatten().filter_map(|r| r.as_ref().err());
+        diagnoses
+            .filter(|d| collapsed_building(d).is_none())
+            .count()
+    }
+
+    /// Whether pounding brings a building to collapse at one width, under some record.
+    #[must_use]
+    pub fn collapses(&self, width: usize, building: &str) -> bool {
+        let mut diagnoses = self.runs[width].iter().filter_map(|r| r.as_ref().err());
+        diagnoses.any(|d| collapsed_building(d) == Some(building))
     }
 }
 

@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 use pounding_study::comparison::{
     self, Comparison, LevelDifference, QuantityKind, ReferenceCollision, StoreyDifference,
 };
+use pounding_study::gap_check::collapsed_building;
 use pounding_time_history::LevelPlace;
 use serde::Serialize;
 
@@ -206,6 +207,9 @@ struct Calibrated<'c> {
 struct Failed<'c> {
     record: &'c str,
     diagnosis: &'c str,
+    /// The building that collapsed, if that is why.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    collapsed: Option<&'c str>,
 }
 
 impl<'c> Model<'c> {
@@ -218,7 +222,11 @@ impl<'c> Model<'c> {
         let runs = c.records.iter().zip(&m.records);
         let failures = runs.filter_map(|(record, run)| {
             let diagnosis = run.as_ref().err()?;
-            Some(Failed { record, diagnosis })
+            Some(Failed {
+                record,
+                diagnosis,
+                collapsed: collapsed_building(diagnosis),
+            })
         });
         Self {
             name: m.descriptor.name,

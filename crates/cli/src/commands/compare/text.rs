@@ -272,6 +272,12 @@ fn ranking(c: &Comparison) -> String {
 
 fn conclusions(c: &Comparison) -> String {
     let mut text = "\nConclusions\n".to_owned();
+    for (model, record, building) in c.collapses() {
+        text.push_str(&format!(
+            "  pounding brings {building} to collapse: with {} under {}, which what follows cannot count\n",
+            c.models[model].descriptor.name, c.records[record]
+        ));
+    }
     for x in &c.conclusions {
         let start = format!("  {} ({}): ", x.statement, x.statistic);
         text.push_str(&judgement(c, &start, &x.judgement));
@@ -293,7 +299,11 @@ fn judgement(c: &Comparison, start: &str, j: &Judgement) -> String {
         .zip(&c.records)
         .map(|((yes, all), record)| format!("{record} {yes} of {all}"))
         .collect();
-    let mut text = format!("{start}{} ({})\n", j.holds.name(), counts.join(", "));
+    let mut holds = j.holds.name().to_owned();
+    if !c.collapses().is_empty() {
+        holds = holds.replace("all models", "all other models");
+    }
+    let mut text = format!("{start}{holds} ({})\n", counts.join(", "));
     if j.holds != Holds::ByModel {
         return text;
     }

@@ -186,6 +186,9 @@ struct Record<'c> {
     /// By gap and level.
     impacts: Option<Vec<Vec<usize>>>,
     failure: Option<&'c str>,
+    /// The building that collapsed, if that is why.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    collapsed: Option<&'c str>,
 }
 
 impl<'c> Record<'c> {
@@ -194,6 +197,7 @@ impl<'c> Record<'c> {
             let levels = gaps.iter().map(|g| g.levels.iter().map(|l| l.impacts));
             levels.map(Iterator::collect).collect()
         });
+        let failure = record.pounding.as_ref().err().map(String::as_str);
         Self {
             name: &record.name,
             factor: record.factor,
@@ -201,7 +205,8 @@ impl<'c> Record<'c> {
             isolated: record.isolated.iter().map(Isolated::of).collect(),
             amplification: record.amplification().map(|a| Amplification::of_all(&a)),
             impacts,
-            failure: record.pounding.as_ref().err().map(String::as_str),
+            failure,
+            collapsed: failure.and_then(gap_check::collapsed_building),
         }
     }
 }
@@ -642,6 +647,9 @@ enum Run<'c> {
     },
     Failed {
         failure: &'c str,
+        /// The building that collapsed, if that is why.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        collapsed: Option<&'c str>,
     },
 }
 
@@ -654,7 +662,10 @@ impl<'c> Sweep<'c> {
                 peak_force: run.peak_force,
                 impact_energy: run.impact_energy,
             },
-            Err(failure) => Run::Failed { failure },
+            Err(failure) => Run::Failed {
+                failure,
+                collapsed: gap_check::collapsed_building(failure),
+            },
         };
         let runs = sweep.runs.iter();
         Self {

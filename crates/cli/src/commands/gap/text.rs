@@ -3,7 +3,9 @@
 use pounding_case::Case;
 use pounding_catalogue::wording::counted;
 use pounding_shear_building::OVERTURNING_RATIO;
-use pounding_study::gap_check::{Amplification, GapCheck, GapSweep, RecordDemand};
+use pounding_study::gap_check::{
+    Amplification, GapCheck, GapSweep, RecordDemand, collapsed_building,
+};
 
 use super::answer::answer;
 use super::rules;
@@ -72,7 +74,20 @@ fn what_is_folded(check: &GapCheck) -> String {
     }
     let failed = check.records.iter().filter(|r| r.pounding.is_err());
     let failed: String = failed
-        .map(|r| format!("warning: the run with pounding under {} failed\n", r.name))
+        .map(|r| {
+            let collapsed = r
+                .pounding
+                .as_ref()
+                .err()
+                .and_then(|d| collapsed_building(d));
+            match collapsed {
+                Some(building) => format!(
+                    "warning: pounding brings {building} to collapse under {}\n",
+                    r.name
+                ),
+                None => format!("warning: the run with pounding under {} failed\n", r.name),
+            }
+        })
         .collect();
     format!("\n{failed}--all also shows {}\n", shown.join(", "))
 }
@@ -227,7 +242,11 @@ fn provided(check: &GapCheck) -> String {
         let (with, gaps) = match pounding {
             Ok(pounding) => pounding,
             Err(diagnosis) => {
-                failures.push_str(&format!("{name}: the run failed: {diagnosis}\n"));
+                let what = match collapsed_building(diagnosis) {
+                    Some(building) => format!("pounding brings {building} to collapse"),
+                    None => "the run failed".to_owned(),
+                };
+                failures.push_str(&format!("{name}: {what}: {diagnosis}\n"));
                 continue;
             }
         };
@@ -318,7 +337,12 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
     for (i, width) in sweep.widths.iter().enumerate().step_by(every) {
         let mut row = vec![format!("{:.2}", width * 1e3)];
         for building in 0..buildings.len() {
-            let cell = |x: Option<f64>| x.map_or("-".to_owned(), |x| decimal(x, 3));
+            let falls = sweep.collapses(i, buildings[building]);
+            let cell = |x: Option<f64>| match x {
+                _ if falls => "collapse".to_owned(),
+                Some(x) => decimal(x, 3),
+                None => "-".to_owned(),
+            };
             row.extend(
                 Amplification::QUANTITIES.map(|(_, q)| cell(sweep.over_records(i, building, q))),
             );
@@ -347,20 +371,45 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
     text
 }
 
+/// Widths that are named one by one.
+const NAMED_WIDTHS: usize = 8;
+
+/// The widths at which pounding brings a building to collapse: nothing is worse.
+fn collapse(sweep: &GapSweep, building: &str) -> String {
+    let fallen = (0..sweep.widths.len()).filter(|i| sweep.collapses(*i, building));
+    let widths: Vec<String> = fallen
+        .map(|i| format!("{:.2}", sweep.widths[i] * 1e3))
+        .collect();
+    let Some((last, others)) = widths.split_last() else {
+        return String::new();
+    };
+    let which = match others {
+        [] => last.clone(),
+        _ if widths.len() <= NAMED_WIDTHS => format!("{} and {last}", others.join(", ")),
+        _ => format!("{} widths from {} to {last}", widths.len(), widths[0]),
+    };
+    format!("{building}: worst at {which} mm, where pounding brings it to collapse\n")
+}
+
 /// The worst width of every quantity: computed ones, nothing in between.
 fn worst(check: &GapCheck, sweep: &GapSweep, buildings: &[&str]) -> String {
     let mut text = String::new();
     for (building, name) in buildings.iter().enumerate() {
+        let falls = collapse(sweep, name);
+        text.push_str(&falls);
+        let elsewhere = if falls.is_empty() { "" } else { "otherwise " };
         for (quantity, of) in Amplification::QUANTITIES {
             let Some(w) = sweep.worst(building, of) else {
                 continue;
             };
             if w.amplification <= 1.0 {
-                text.push_str(&format!("{name}: no width raises the {quantity}\n"));
+                text.push_str(&format!(
+                    "{name}: {elsewhere}no width raises the {quantity}\n"
+                ));
                 continue;
             }
             text.push_str(&format!(
-                "{name}: {quantity} worst at {:.2} mm: x{} at storey {} under {}\n",
+                "{name}: {elsewhere}{quantity} worst at {:.2} mm: x{} at storey {} under {}\n",
                 w.width * 1e3,
                 decimal(w.amplification, 3),
                 w.storey + 1,

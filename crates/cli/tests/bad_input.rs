@@ -179,7 +179,7 @@ fn speeds_and_threads_are_above_zero() {
         ),
         ("compare case.toml --threads 0", "0 is not in 1..=4096"),
         ("gap case.toml --threads 0", "0 is not in 1..=4096"),
-        ("gap case.toml --points 1000000000", "100000 widths at most"),
+        ("gap case.toml --points 1000000000", "at most 100000"),
     ] {
         let arguments: Vec<&str> = arguments.split(' ').collect();
         let output = run_in(folder.path(), CASE, &record(), &arguments);

@@ -449,6 +449,30 @@ fn example_with(width: &str) -> tempfile::TempDir {
     folder
 }
 
+/// Options out of range: the message says what must be, the help which argument it is.
+#[test]
+fn options_out_of_range_are_named() {
+    let folder = example_with("\"20 mm\"");
+    for (argument, value, allowed) in [
+        ("--probability", "1.2", "at least 0 and less than 1"),
+        ("--confidence", "1", "greater than 0 and less than 1"),
+        ("--points", "1", "two or more"),
+    ] {
+        let output = gap_in(folder.path(), &[argument, value]);
+        assert_eq!(output.status.code(), Some(2));
+        let said = text(&output.stderr).replace('│', " ");
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert!(
+            said.contains(&format!("= {value} is out of range: it must be {allowed}")),
+            "{said}"
+        );
+        assert!(
+            said.contains(&format!("give `{argument}` a value that is")),
+            "{said}"
+        );
+    }
+}
+
 /// Widths of 40, 95 and 130 mm against demands of 49, 92 and 117 mm: the lowest level closes, and
 /// answer, numbers and page say so, not what the roof demands.
 #[test]
@@ -557,7 +581,12 @@ fn alike_buildings_need_no_sweep() {
     assert_eq!(widths.as_array().map(Vec::len), Some(0));
     let output = call(&["--from", "10 mm"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(text(&output.stderr).contains("give the last width too"));
+    let said = text(&output.stderr);
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        said.contains("out of range: it must be less than"),
+        "{said}"
+    );
     let swept = json(&call(&["--to", "10 mm", "--points", "2", "--json"]))["sweep"].clone();
     assert_eq!(swept["runs"][0][0]["impacts"], 0, "{swept}");
 }

@@ -55,8 +55,9 @@ pub fn references(
     {
         return Err(CheckError::Option {
             option: "restitution",
+            argument: "--restitution",
             value: e,
-            reason: "it is greater than 0 and at most 1",
+            allowed: "greater than 0 and at most 1",
         });
     }
     let mut with = Vec::new();

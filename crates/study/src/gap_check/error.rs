@@ -77,14 +77,16 @@ pub enum CheckError {
         reason: String,
     },
     /// An option out of range.
-    #[error("{option} = {value} is out of range: {reason}")]
+    #[error("{option} = {value} is out of range: it must be {allowed}")]
     Option {
         /// Option.
         option: &'static str,
+        /// How the command line calls it.
+        argument: &'static str,
         /// Value.
         value: f64,
         /// What is allowed.
-        reason: &'static str,
+        allowed: &'static str,
     },
     /// A model that is not known.
     #[error("unknown impact model \"{name}\"")]
@@ -128,7 +130,9 @@ impl CheckError {
                     .to_owned(),
             ),
             Self::NoRecords { .. } => Some("name record files, or a folder of them".to_owned()),
-            Self::Option { reason, .. } => Some((*reason).to_owned()),
+            Self::Option {
+                argument, allowed, ..
+            } => Some(format!("give `{argument}` a value that is {allowed}")),
             Self::UnknownModel { help, .. } => Some(help.clone()),
             Self::Calibration { help, .. } => Some((*help).to_owned()),
         }

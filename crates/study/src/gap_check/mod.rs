@@ -336,20 +336,29 @@ pub fn gap_check_dealt(
 }
 
 fn check_options(options: &GapCheckOptions) -> Result<(), CheckError> {
-    let refuse = |option, value, reason| {
+    let refuse = |(option, argument), value, allowed| {
         Err(CheckError::Option {
             option,
+            argument,
             value,
-            reason,
+            allowed,
         })
     };
     let p = options.target_probability;
     if !(0.0..1.0).contains(&p) {
-        return refuse("target probability", p, "it is at least 0 and less than 1");
+        return refuse(
+            ("target probability", "--probability"),
+            p,
+            "at least 0 and less than 1",
+        );
     }
     let c = options.confidence;
     if !(c > 0.0 && c < 1.0) {
-        return refuse("confidence", c, "it lies between 0 and 1");
+        return refuse(
+            ("confidence", "--confidence"),
+            c,
+            "greater than 0 and less than 1",
+        );
     }
     if let Some(sweep) = &options.sweep {
         sweep.check()?;

@@ -29,38 +29,42 @@ pub struct SweepOptions {
     pub points: usize,
 }
 
+/// The first width in words, and on the command line.
+const FIRST_WIDTH: (&str, &str) = ("first width of the sweep", "--from");
+
 impl SweepOptions {
     pub(crate) fn check(&self) -> Result<(), CheckError> {
-        let refuse = |option, value, reason| {
+        let refuse = |(option, argument), value, allowed| {
             Err(CheckError::Option {
                 option,
+                argument,
                 value,
-                reason,
+                allowed,
             })
         };
         if self.points < 2 {
             return refuse(
-                "points of the sweep",
+                ("number of widths in the sweep", "--points"),
                 self.points as f64,
-                "a sweep has two widths or more",
+                "two or more",
             );
         }
         if self.points > MOST_POINTS {
             return refuse(
-                "points of the sweep",
+                ("number of widths in the sweep", "--points"),
                 self.points as f64,
-                "a sweep has 100000 widths at most",
+                "at most 100000",
             );
         }
         let from = self.from.unwrap_or(0.0);
         if !(from.is_finite() && from >= 0.0) {
-            return refuse("first width of the sweep", from, "it is zero or more");
+            return refuse(FIRST_WIDTH, from, "zero or more");
         }
         match self.to {
             Some(to) if !(to.is_finite() && to > from) => refuse(
-                "last width of the sweep",
+                ("last width of the sweep", "--to"),
                 to,
-                "it is greater than the first width",
+                "greater than the first width",
             ),
             _ => Ok(()),
         }
@@ -239,9 +243,10 @@ pub(crate) fn sweep(
         }
         (None, _) => {
             return Err(CheckError::Option {
-                option: "first width of the sweep",
+                option: FIRST_WIDTH.0,
+                argument: FIRST_WIDTH.1,
                 value: asked.from.unwrap_or(0.0),
-                reason: "it is not less than what any record demands: give the last width too",
+                allowed: "less than the demand of some record, where `--to` is not given",
             });
         }
     };

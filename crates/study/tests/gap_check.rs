@@ -172,8 +172,13 @@ fn the_sweep_of_one_gap_in_a_row_covers_its_width() {
     let gap = &one.gaps[1];
     assert!(gap.demand[0] < 0.02 && gap.records_driven == 1 && !gap.adequate);
     let sweep = one.sweep.unwrap();
-    assert!((sweep.widths[20] / (1.05 * 0.06) - 1.0).abs() < 1e-12);
-    assert!((sweep.widths[19] / (1.05 * 0.06 * 20.0 / 21.0) - 1.0).abs() < 1e-12);
+    let last = sweep.widths[20];
+    assert!(last > 1.05 * 0.06, "{last}");
+    // There the gap stays open, and the building moves as far as its neighbour drives it; a tenth
+    // less stops it.
+    let moved = |i: usize| sweep.runs[i][0].as_ref().unwrap().amplification[1][0].displacement;
+    assert!((moved(20) / moved(19) - 1.0).abs() < 1e-6);
+    assert!(moved(18) < 0.99 * moved(20), "{} {}", moved(18), moved(20));
     let worst = sweep.worst(1, |a| a.displacement).unwrap();
     assert!(worst.width > 0.03, "{worst:?}");
     // All alike: beyond the maximum demand nothing is touched.

@@ -56,7 +56,7 @@ pub struct GapArguments {
     #[arg(long, value_name = "WIDTH")]
     pub from: Option<String>,
     /// Last width of the sweep [default: a little more than the maximum demand; of one gap in a row than
-    /// its width too]
+    /// its width, and than what its neighbours push closed]
     #[arg(long, value_name = "WIDTH")]
     pub to: Option<String>,
     /// Gap whose width varies in the sweep [default: all, with the same width]

@@ -30,9 +30,7 @@ pub(crate) fn answer(prepared: Prepared, separation: &Separation) -> Result<Answ
     let mut answer = Answer::default();
     answer.say("gaps", check.gaps.iter().map(gap).collect::<Value>());
     for index in 0..check.gaps.len() {
-        let levels = check.gaps[index].levels.iter().map(|level| level.width);
-        let provided = (check.gaps.len() > 1).then(|| levels.fold(0.0, f64::max));
-        let to = widest(&check.records, Some(index), provided);
+        let to = widest(&records, &check.records, Some(index));
         let widths = if to > 0.0 {
             even_widths(None, to, POINTS)
         } else {

@@ -2,7 +2,9 @@
 
 use std::sync::Arc;
 
-use pounding_time_history::{BuildingOutcome, Recorder, RunOptions, System, run};
+use pounding_time_history::{
+    BuildingOutcome, Recorder, RelativeDisplacement, RunOptions, System, run,
+};
 
 use super::collapse::collapsed_building;
 use super::demand::{Amplification, RecordDemand, amplification};
@@ -225,31 +227,26 @@ pub(crate) fn sweep(
     (asked, gap): (&SweepOptions, Option<usize>),
     shared: &Shared<'_>,
 ) -> Result<GapSweep, CheckError> {
-    let systems = records.first().map(|r| &r.assembly.system);
-    let provided = gap.and_then(|index| provided_in_row(systems?, index));
-    let to = match (asked.to, widest(demands, gap, provided)) {
-        (Some(to), _) => to,
-        (None, to) if to > asked.from.unwrap_or(0.0) => to,
-        (None, 0.0) if asked.from.is_none() => {
-            // Nothing to make, which is dealt out as well.
-            let on = (shared.threads, shared.progress);
-            let none = |_: usize| Err::<SweepRun, _>(String::new());
-            shared.deal.runs(shared.identity, 0, on, none)?;
-            return Ok(GapSweep {
-                gap: asked.gap.clone(),
-                widths: Vec::new(),
-                runs: Vec::new(),
-            });
-        }
-        (None, _) => {
+    let to = asked.to.unwrap_or_else(|| widest(records, demands, gap));
+    if asked.to.is_none() && to <= asked.from.unwrap_or(0.0) {
+        if let Some(from) = asked.from {
             return Err(CheckError::Option {
                 option: FIRST_WIDTH.0,
                 argument: FIRST_WIDTH.1,
-                value: asked.from.unwrap_or(0.0),
+                value: from,
                 allowed: "less than the demand of some record, where `--to` is not given",
             });
         }
-    };
+        // Nothing to make, which is dealt out as well.
+        let on = (shared.threads, shared.progress);
+        let none = |_: usize| Err::<SweepRun, _>(String::new());
+        shared.deal.runs(shared.identity, 0, on, none)?;
+        return Ok(GapSweep {
+            gap: asked.gap.clone(),
+            widths: Vec::new(),
+            runs: Vec::new(),
+        });
+    }
     let widths = even_widths(asked.from, to, asked.points);
     let count = widths.len() * records.len();
     let make = |number: usize| {
@@ -280,23 +277,44 @@ pub fn even_widths(from: Option<f64>, to: f64, points: usize) -> Vec<f64> {
     (0..points).map(width).collect()
 }
 
-/// The maximum width (m) of the levels of a gap, where other gaps close beside it: buildings that
-/// were hit there can close this one beyond the demand, which does not see that.
-fn provided_in_row(system: &System, gap: usize) -> Option<f64> {
-    let gaps = system.gaps();
-    let levels = system.levels_of(gaps.get(gap)?).iter();
-    (gaps.len() > 1).then(|| levels.fold(0.0, |most, level| level.width.max(most)))
-}
-
 /// The last width of a sweep (m): a little more than the maximum demand of the gaps that vary,
-/// beyond which they are not touched. Where one gap varies among others, which can close it all the
-/// same, at least a little more than the width `provided` (m).
+/// beyond which they are not touched. Where one gap varies among others, buildings that were hit
+/// there can close it beyond its demand: then a little more than what would keep it open, with the
+/// others as they are, and than its own width.
 #[must_use]
-pub fn widest(demands: &[RecordDemand], gap: Option<usize>, provided: Option<f64>) -> f64 {
+pub fn widest(records: &[CaseUnderRecord], demands: &[RecordDemand], gap: Option<usize>) -> f64 {
+    let in_row = |(record, gap): (&CaseUnderRecord, usize)| {
+        let (system, options) = (&record.assembly.system, &record.assembly.options);
+        let gaps = system.gaps();
+        let levels = system.levels_of(gaps.get(gap).filter(|_| gaps.len() > 1)?);
+        let provided = levels.iter().fold(0.0_f64, |m, l| m.max(l.width));
+        Some(provided.max(demand_in_row(system, options, gap).unwrap_or(0.0)))
+    };
+    let alone = gap
+        .into_iter()
+        .flat_map(|gap| records.iter().map(move |r| (r, gap)));
+    let pushed = alone.filter_map(in_row).fold(0.0, f64::max);
     let gaps = demands.iter().flat_map(|r| r.demand.iter().enumerate());
     let varied = gaps.filter(|(index, _)| gap.is_none_or(|g| g == *index));
     let peaks = varied.flat_map(|(_, levels)| levels);
-    1.05 * peaks.fold(provided.unwrap_or(0.0), |m, p| m.max(p.value))
+    1.05 * peaks.fold(pushed, |m, p| m.max(p.value))
+}
+
+/// A width (m) that no building closes.
+const OPEN: f64 = 1.0e3;
+
+/// The maximum approach (m) at the levels of a gap that cannot close, with the others as they are;
+/// `None` where that run fails.
+fn demand_in_row(system: &System, options: &RunOptions, gap: usize) -> Option<f64> {
+    let opened = rebuilt(system, |index, level| {
+        let width = if index == gap { OPEN } else { level.width };
+        (width, Arc::clone(&level.model))
+    });
+    let mut approach = RelativeDisplacement::of_levels(system);
+    run(&opened.ok()?, options, &mut [&mut approach], &mut |_| {}).ok()?;
+    let levels = &system.gaps()[gap];
+    let peaks = approach.peaks().iter().skip(levels.first_level);
+    Some(peaks.take(levels.levels).fold(0.0, |m, p| m.max(p.value)))
 }
 
 /// The run of a system at one width (m) of all its gaps, or of the one of this number;

@@ -197,16 +197,16 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     let widths: Vec<_> = (answer.list(&at("levels")).iter())
         .map(|level| &level["width"])
         .collect();
-    let width = match widths.iter().all(|width| *width == widths[0]) {
-        true => "A width",
-        false => "One width at all levels",
+    let levels = match widths.iter().all(|width| *width == widths[0]) {
+        true => "",
+        false => " at all levels",
     };
     let alone = match driven {
         Some(_) => " while the other gaps stay open",
         None => "",
     };
     let mut required = format!(
-        "{width} of {} mm is needed so that {} closes it{alone}.",
+        "A width of {} mm{levels} is needed so that {} closes it{alone}.",
         answer.say(&at("required/by_count"), 1.0e3),
         match allowed {
             0 => "no record".to_owned(),

@@ -211,6 +211,11 @@ fn of_parameter(
 fn of_motion(schema: &Value, case: &Case) -> Vec<Control> {
     let group = "Ground motion".to_owned();
     let file = &case.ground_motion.file.value;
+    let across = case.ground_motion.across.as_ref();
+    let stays = across.map_or_else(String::new, |across| {
+        let file = across.value.file.value.display();
+        format!("; the record across the row, {file}, stays")
+    });
     let record = Control {
         group: group.clone(),
         label: "file".to_owned(),
@@ -221,7 +226,7 @@ fn of_motion(schema: &Value, case: &Case) -> Vec<Control> {
         value: json!(file.display().to_string()),
         slider: None,
         logarithmic: false,
-        allowed: "a record in the page, or one dropped on it".to_owned(),
+        allowed: format!("a record in the page, or one dropped on it{stays}"),
         explanation: explained(schema, "ground_motion", "file"),
         page: "reference/ground-motions.md".to_owned(),
     };

@@ -19,7 +19,8 @@ pub enum Change {
         /// `model` and its parameters.
         keys: Vec<(String, String)>,
     },
-    /// The record with all that says how it is read; its scale stays.
+    /// The record with all that says how it is read; its scale stays, and so does the record
+    /// across the row.
     Record {
         /// `file`, and how it is read where its own header does not say it.
         keys: Vec<(String, String)>,
@@ -58,7 +59,7 @@ fn one(text: &str, change: &Change) -> Result<String, (String, String)> {
             vec![Edit::new(&entry(text, &path(place)?)?, value.clone())]
         }
         Change::Model { gap, keys } => with_model(text, &path(gap)?, keys.clone())?,
-        Change::Record { keys } => with_motion(text, &["scale"], keys.clone())?,
+        Change::Record { keys } => with_motion(text, &["scale", "across"], keys.clone())?,
     };
     Ok(apply(text, &edits))
 }
@@ -96,6 +97,18 @@ mod tests {
             text,
             "[[gap]]\nmodel = \"linear_elastic\"\nstiffness = 2e8\nwidth = \"118 mm\" # as built\n\n\n\n[ground_motion]\nfile = \"b.csv\"\n\n\nscale = 2\n"
         );
+        // The record across the row stays, wherever it stands.
+        for across in [
+            "across = { file = \"ew.csv\", scale = 2 }\n",
+            "\n[ground_motion.across]\nfile = \"ew.csv\"\nscale = 2\n",
+        ] {
+            let text = edited(&format!("{CASE}{across}"), &changes[3..]).unwrap();
+            let expected = "[ground_motion]\nfile = \"b.csv\"\n\n\nscale = 2\n";
+            assert!(
+                text.ends_with(&format!("{expected}{across}")),
+                "{across}: {text}"
+            );
+        }
         let refused = edited(CASE, &[entry("gap.1.width", "1")]).unwrap_err();
         assert!(refused.reason.contains("1 entry"), "{refused}");
         assert!(edited(CASE, &[entry("gap..width", "1")]).is_err());

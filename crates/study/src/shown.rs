@@ -108,10 +108,10 @@ fn scales_of(case: &Case) -> Vec<(String, f64)> {
     all.filter_map(factor).collect()
 }
 
-/// The case with a record in our own layout, and no word of its former one.
+/// The case with a record in our own layout, and no word of its former one along the row.
 fn with_file(text: &str, file: &str) -> Result<String, String> {
     let file = toml::Value::String(file.to_owned()).to_string();
-    let edits = with_motion(text, &["scale"], vec![("file".to_owned(), file)]);
+    let edits = with_motion(text, &["scale", "across"], vec![("file".to_owned(), file)]);
     Ok(apply(text, &edits.map_err(|(reason, _)| reason)?))
 }
 

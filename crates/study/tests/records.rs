@@ -210,3 +210,110 @@ fn failed_runs_have_their_own_identities() {
     ids.dedup();
     assert_eq!(ids.len(), 9);
 }
+
+/// The pair that turns in plan, with a short record across the row in a case of its own; `across`
+/// stands at the end of the file.
+fn study_that_turns(folder: &Path, across: &str, text: &str) -> Result<Study, StudyError> {
+    let case = std::fs::read_to_string(root().join("examples/pair_that_turns/case.toml")).unwrap();
+    let case: String = case
+        .replace("../../ground_motions", &motions())
+        .replace("20 s", "5 s")
+        .lines()
+        .filter(|line| !line.starts_with("across"))
+        .fold(String::new(), |text, line| text + line + "\n");
+    let across = across.replace("MOTIONS", &motions());
+    let case = case.replace("[analysis]", &format!("{across}\n[analysis]"));
+    std::fs::write(folder.join("case.toml"), case).unwrap();
+    let text = format!(
+        "case = \"case.toml\"\n{}",
+        text.replace("MOTIONS", &motions())
+    );
+    std::fs::create_dir_all(folder.join("studies")).unwrap();
+    let text = text.replace("case.toml", "../case.toml");
+    Study::parse(&text, &folder.join("studies/study.toml"))
+}
+
+/// What floors do across the row in a case alone.
+fn across_alone(text: &str, folder: &Path) -> Vec<f64> {
+    let case = Case::parse(text, &folder.join("case.toml")).unwrap();
+    let assembly = assemble(&case).unwrap();
+    let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+    let responses = outcome.buildings.iter().flat_map(|b| &b.responses);
+    let across = responses.filter(|r| r.name.starts_with("displacement_across"));
+    across.map(|r| r.peak.value).collect()
+}
+
+/// The record across the row of the case stays beside every record along it that brings none of
+/// its own, which is said; the cases of the runs, shown, give the numbers of the runs.
+#[test]
+fn records_keep_the_record_across_the_row() {
+    let record = "file = \"MOTIONS/kobe_1995_jma_ns.csv\"";
+    let headed = format!("[ground_motion.across]\n{record}\nscale = {{ pga = \"0.2 g\" }}\n");
+    let inline = format!("across = {{ {record}, scale = {{ pga = \"0.2 g\" }} }}\n");
+    let plain = "[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\", { name = \"fault\", file = \"MOTIONS/kobe_1995_jma_ns.csv\" }]\n";
+    let intensity =
+        "[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.2 g\", \"0.4 g\"]\n";
+    let made = "[[variable]]\nsynthetic = { model = \"rezaeian_der_kiureghian_2010\", count = 1, duration = \"6 s\", significant_duration = \"3 s\", middle_time = \"2 s\", middle_frequency = \"4 Hz\" }\n";
+    let said = "all 2 records along the row with the record across it of the case";
+    for (across, text, warned) in [
+        (&inline, plain.to_owned(), said),
+        (&headed, plain.to_owned(), said),
+        (&inline, format!("{plain}{intensity}[ida]\n"), said),
+        (&inline, made.to_owned(), "record seed_1 along the row"),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        let study = study_that_turns(folder.path(), across, &text).unwrap();
+        let (found, reader) = rows(&study, folder.path(), false);
+        let warnings = &reader.description.warnings;
+        let told = warnings.iter().any(|w| w.starts_with(warned));
+        assert!(told, "{text}: {warnings:?}");
+        let found = column(&found, &reader, "peak_displacement_across");
+        for (number, values) in found.iter().enumerate() {
+            let shown = case_of_run(&study, number).unwrap();
+            assert!(shown.contains("kobe_1995"), "{shown}");
+            if text.contains("synthetic") {
+                assert!(values.iter().all(|x| *x > 1e-3), "{values:?}");
+                continue;
+            }
+            let alone = across_alone(&shown, folder.path());
+            assert_eq!(alone.len(), 4);
+            for (a, b) in values.iter().zip(&alone) {
+                assert!((a / b - 1.0).abs() < 1e-12 && *b > 1e-3, "{shown}: {a} {b}");
+            }
+        }
+    }
+}
+
+/// A record brings its own across the row, whose file is relative to the study, and no other
+/// record takes it.
+#[test]
+fn records_bring_their_own_across_the_row() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(folder.path().join("studies")).unwrap();
+    for (name, to) in [
+        ("el_centro_1940_ns.csv", "own.csv"),
+        ("kobe_1995_jma_ns.csv", "other.csv"),
+    ] {
+        let to = folder.path().join("studies").join(to);
+        std::fs::copy(Path::new(&motions()).join(name), to).unwrap();
+    }
+    let text = "[[variable]]\nrecords = [{ name = \"a\", file = \"own.csv\", across = \"own.csv\" }, { name = \"b\", file = \"own.csv\", across = { scale = 2, file = \"other.csv\" } }, { name = \"c\", file = \"own.csv\" }]\n";
+    let across = "across = \"MOTIONS/kobe_1995_jma_ns.csv\"\n";
+    let study = study_that_turns(folder.path(), across, text).unwrap();
+    let (found, reader) = rows(&study, folder.path(), false);
+    let warnings = reader.description.warnings.join("\n");
+    assert!(warnings.contains("record c along the row"), "{warnings}");
+    let found = column(&found, &reader, "peak_displacement_across");
+    for (number, values) in found.iter().enumerate() {
+        let shown = case_of_run(&study, number).unwrap();
+        assert_eq!(*values, across_alone(&shown, folder.path()), "{shown}");
+    }
+    for (kobe, doubled) in found[2].iter().zip(&found[1]) {
+        assert!((doubled / kobe - 2.0).abs() < 0.3, "{doubled} {kobe}");
+    }
+    let differs = found[0].iter().zip(&found[2]);
+    assert!(
+        differs.clone().all(|(a, c)| (a / c - 1.0).abs() > 1e-3),
+        "{found:?}"
+    );
+}

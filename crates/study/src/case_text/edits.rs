@@ -256,7 +256,8 @@ fn rewritten(
         true => Ok(edits),
         false => Err((
             format!("a table in `{path}` has a header of its own in the case"),
-            "write it in one line, such as scale = { pga = 3 }".to_owned(),
+            "write it in one line, such as scale = { pga = 3 } or across = { file = \"ew.csv\" }"
+                .to_owned(),
         )),
     }
 }

@@ -21,7 +21,7 @@ use super::{Ending, ID, Layout, Row};
 use crate::case_text::{Edit, Lines, Variant, apply, canonical};
 use crate::error::StudyError;
 use crate::gap_check::Repeated;
-use crate::study_file::{IntensityMeasure, RecordKind, Study, Target, Value};
+use crate::study_file::{IntensityMeasure, RecordKind, Study, Target, Value, beside_that_across};
 use pounding_files::checksum::hexadecimal;
 
 /// Buildings and motions kept for runs to come.
@@ -97,6 +97,7 @@ impl<'s> Runner<'s> {
                 gap.name
             )
         }));
+        warnings.extend(beside_that_across(study));
         if !missing.is_empty() {
             warnings.push(format!(
                 "[output] chooses {}, which no building or gap of this study has",
@@ -449,6 +450,10 @@ fn key(study: &Study, point: &[Value]) -> Key {
         buildings: Vec::new(),
         motion: Vec::new(),
     };
+    let across = study.records.iter().any(|record| match &record.kind {
+        RecordKind::File { case, .. } => case.ground_motion.across.is_some(),
+        RecordKind::Made { .. } => false,
+    });
     for (variable, value) in study.variables.iter().zip(point) {
         let bits = match value {
             Value::Number(x) => x.to_bits(),
@@ -458,7 +463,13 @@ fn key(study: &Study, point: &[Value]) -> Key {
             Target::Model { .. } => {}
             Target::Entry { path, .. } if path.of_gap() => {}
             Target::Entry { .. } => key.buildings.push(bits),
-            Target::Record | Target::Intensity(_) => key.motion.push(bits),
+            Target::Record | Target::Intensity(_) => {
+                // The motions of buildings across the row go with them.
+                if matches!(variable.target, Target::Record) && across {
+                    key.buildings.push(bits);
+                }
+                key.motion.push(bits);
+            }
         }
     }
     key

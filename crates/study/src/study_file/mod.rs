@@ -18,6 +18,7 @@ pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
 pub use intensity::IntensityMeasure;
 pub use pounding_results::study::Value;
 pub use read::study_schema;
+pub(crate) use records::beside_that_across;
 pub use values::{Spacing, Values};
 
 use pounding_case::Case;

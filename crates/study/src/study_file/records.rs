@@ -17,11 +17,12 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::{Value, json};
+use toml::de::DeValue;
 
 use super::context::Context;
 use super::values::{Whole, all};
-use super::{RecordKind, RecordSource};
-use crate::case_text::{Variant, with_motion};
+use super::{RecordKind, RecordSource, Study, Target, Variable};
+use crate::case_text::{Edit, Variant, with_motion};
 
 /// A record: the name of its file, or a table.
 pub(super) type Record = TableOr<RecordTable, String>;
@@ -61,6 +62,66 @@ static KEYS: LazyLock<Vec<String>> = LazyLock::new(|| {
         .map(|(key, _)| key.clone())
         .collect()
 });
+
+/// Keys of the record of the case that act on every record without one of its own.
+const KEPT: [&str; 2] = ["process", "across"];
+
+/// A file of a study, as a case in any folder names it.
+fn absolute(file: &str, folder: &Path) -> String {
+    let path = folder.join(file);
+    let path = std::path::absolute(&path).unwrap_or(path);
+    toml::Value::String(path.display().to_string()).to_string()
+}
+
+/// The value of a key of a record with the files that it names, which are relative to the folder
+/// of the study, as a case in any folder names them.
+fn with_files(key: &str, text: &str, folder: &Path) -> String {
+    let named = match (key, DeValue::parse(text)) {
+        ("response" | "across", Ok(value)) => value,
+        _ => return text.to_owned(),
+    };
+    let file = match named.get_ref() {
+        DeValue::Table(across) => across.get("file"),
+        _ => Some(&named),
+    };
+    match file.map(|file| (file.get_ref().as_str(), file.span())) {
+        Some((Some(name), place)) => {
+            let mut text = text.to_owned();
+            text.replace_range(place, &absolute(name, folder));
+            text
+        }
+        _ => text.to_owned(),
+    }
+}
+
+/// What the user should know of a study whose records stand beside the record across the row
+/// that its case names: the two may be of different earthquakes.
+pub(crate) fn beside_that_across(study: &Study) -> Option<String> {
+    let across = &study.base.ground_motion.across.as_ref()?.value.file.value;
+    let varies = |v: &Variable| matches!(v.target, Target::Record);
+    if !study.variables.iter().any(varies) {
+        return None;
+    }
+    let keeps = |record: &&RecordSource| match &record.kind {
+        RecordKind::File { edits, .. } => {
+            let is_across = |edit: &Edit| edit.entry.path.to_string() == "ground_motion.across";
+            !edits.iter().any(is_across)
+        }
+        RecordKind::Made { .. } => true,
+    };
+    let kept: Vec<&RecordSource> = study.records.iter().filter(keeps).collect();
+    let of_all = kept.len() == study.records.len();
+    let which = match kept.as_slice() {
+        [] => return None,
+        [one] => format!("record {}", one.name),
+        _ if of_all => format!("all {} records", kept.len()),
+        some => format!("{} of {} records", some.len(), study.records.len()),
+    };
+    Some(format!(
+        "{which} along the row with the record across it of the case, {}: components of different earthquakes are no motion of one; give a record its own, such as {{ file = \"ns.csv\", across = {{ file = \"ew.csv\" }} }}",
+        across.display()
+    ))
+}
 
 /// Reads `records` and `synthetic` of a variable.
 pub(super) fn records(
@@ -124,12 +185,11 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
         TableOr::Value(file) => (None, file, Vec::new()),
         TableOr::Table(table) => (table.name.value(), table.file.value()?, table.others.0),
     };
-    let mut processed = false;
     for (Located { value: key, span }, value) in others {
         if KEYS.contains(&key) {
             let Some(place) = value.span() else { continue };
-            processed |= key == "process";
-            options.push((key, reader.source[place].to_owned()));
+            let text = with_files(&key, &reader.source[place], &context.folder);
+            options.push((key, text));
         } else if !value.is_wrong() {
             let nearest = suggestion::misspelt(&key, KEYS.iter());
             let guess = nearest.map_or_else(String::new, |k| format!("did you mean `{k}`? "));
@@ -137,18 +197,14 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
             reader.refuse::<()>(span, format!("unknown key `{key}` in a record"), help);
         }
     }
-    let path = context.folder.join(&file);
-    let path = std::path::absolute(&path).unwrap_or(path);
-    let shown = toml::Value::String(path.display().to_string()).to_string();
-    options.insert(0, ("file".to_owned(), shown));
+    options.insert(0, ("file".to_owned(), absolute(&file, &context.folder)));
     let base = &context.base.as_ref()?.case;
-    // What the case does to its own record it does to all, unless one says otherwise.
-    let kept: &[&str] = if processed {
-        &["scale"]
-    } else {
-        &["scale", "process"]
-    };
-    let edits = match with_motion(&base.source, kept, options) {
+    // What the case does to its own record it does to all, and its record across the row stays
+    // beside all, unless one says otherwise.
+    let own = |key: &str| options.iter().any(|(known, _)| known == key);
+    let mut kept = vec!["scale"];
+    kept.extend(KEPT.into_iter().filter(|key| !own(key)));
+    let edits = match with_motion(&base.source, &kept, options) {
         Ok(edits) => edits,
         Err((message, help)) => return reader.refuse(span, message, help),
     };

@@ -220,6 +220,14 @@ fn contradictions_are_told() {
     let model = "[[variable]]\nname = \"m\"\npath = \"gap.0.model\"\nvalues = [{ model = \"hertz_1882\", stiffness = 1e9 }]\n";
     let step = "[[variable]]\nname = \"dt\"\npath = \"ground_motion.time_step\"\nvalues = [0.02]\n";
     let with_ida = |lines: &str| format!("{records}{intensity}[ida]\n{lines}\n");
+    let limit = |lines: &str| {
+        with_ida(&format!(
+            "[[ida.limit]]\nname = \"x\"\nexceeds = 1\n{lines}"
+        ))
+    };
+    let named = |name: &str| {
+        format!("[[ida.limit]]\nname = \"{name}\"\ndemand = \"impacts\"\nlevel = 3\nexceeds = 1")
+    };
     let same = "vary the same entry";
     let bench = Bench::new("");
     for (study, reason) in [
@@ -290,6 +298,31 @@ fn contradictions_are_told() {
                 "[[ida.limit]]\nname = \"x\"\ndemand = \"drift_ratio\"\nbuilding = \"light\"\nstorey = 4\nexceeds = 1",
             ),
             "no storey 4",
+        ),
+        (limit("demand = \"impacts\"\nlevel = 7"), "no level 7"),
+        (
+            limit("demand = \"impacts\"\nlevel = 4"),
+            "it has 3 (1 is light-heavy 1-1,",
+        ),
+        (
+            limit("demand = \"drift_ratio\"\nlevel = 2"),
+            "it is of storeys, not of a level",
+        ),
+        (
+            limit("demand = \"impacts\"\nbuilding = \"light\"\nstorey = 1"),
+            "it has no `building`",
+        ),
+        (
+            limit("demand = \"contact_force\"\nbuilding = \"light\""),
+            "name a `level` in its place",
+        ),
+        (
+            limit(&format!("demand = \"impacts\"\n{}", named("x"))),
+            "two limits have the name \"x\"",
+        ),
+        (
+            with_ida(&named("pounding at the gaps of the case")),
+            "every analysis has a state",
         ),
     ] {
         bench.study(&format!("case = \"case.toml\"\n{study}"));

@@ -11,7 +11,7 @@ use super::goodness::{self, Capacity, FitRemark, GoodnessOfFit};
 use super::hazard::mean_annual_frequency;
 use crate::error::StudyError;
 use crate::fractiles::fractiles;
-use crate::study_file::{IdaSettings, Study, Value};
+use crate::study_file::{IdaSettings, POUNDING, Study, Value};
 use pounding_results::study::ResultReader;
 
 /// Runs at one intensity.
@@ -193,7 +193,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     let first_impacts = first_gap + gaps.len();
     // Who has collapsed has been through every state before.
     let pounds = |r: &Run| r.collapsed || r.demands[first_impacts..].iter().any(|n| *n > 0.0);
-    let mut results = vec![evaluation.limit("pounding at the gaps of the case", &pounds)];
+    let mut results = vec![evaluation.limit(POUNDING, &pounds)];
     for (i, (demand, exceeds)) in limits.iter().enumerate() {
         let reached = |r: &Run| r.collapsed || r.demands[first_limit + i] > *exceeds;
         results.push(evaluation.limit(&demand.name, &reached));

@@ -13,6 +13,8 @@ pub(super) struct Base {
     pub case: Case,
     /// First period of each building (s).
     pub first_periods: Vec<f64>,
+    /// Names of the contact levels of all gaps, in the order of results.
+    pub levels: Vec<String>,
 }
 
 /// What is known of the case.

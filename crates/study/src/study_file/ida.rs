@@ -101,6 +101,18 @@ impl DemandKind {
         Some(OfBuilding { name, has, of })
     }
 
+    /// Whether it belongs to the contact levels of gaps.
+    fn of_levels(self) -> bool {
+        matches!(
+            self,
+            Self::ContactForce
+                | Self::ColumnShear
+                | Self::Impulse
+                | Self::Impacts
+                | Self::IsolatedDemand
+        )
+    }
+
     /// Whether only floors that turn in plan have it.
     fn of_floors_that_turn(self) -> bool {
         matches!(
@@ -162,7 +174,8 @@ pub struct Limit {
     pub demand: DemandKind,
     /// Index of the building whose storeys count; `None`: all buildings.
     pub building: Option<usize>,
-    /// Storey from zero; `None`: the worst storey. For gaps: the level.
+    /// Storey from zero; `None`: the worst storey. For demands at gaps the level, from zero, over
+    /// the levels of all gaps.
     pub place: Option<usize>,
     /// Value that it exceeds (SI).
     pub exceeds: f64,
@@ -242,7 +255,8 @@ struct LimitTable {
     building: Optional<String>,
     /// Storey from 1 at the bottom, by default the worst
     storey: Optional<Whole<1>>,
-    /// Level of gaps from 1, for demands at gaps
+    /// Contact level, for demands at gaps: from 1, over the levels of all gaps in the order of
+    /// the case and from the bottom; by default the worst
     level: Optional<Whole<1>>,
     /// Value that it exceeds (SI, or with a unit)
     exceeds: Field<Written>,
@@ -304,8 +318,17 @@ impl IdaTable {
     ) -> Option<IdaSettings> {
         let limits = self.limit.stated().and_then(|limits| {
             let limits = limits.map_or_else(Vec::new, |limits| limits.value.0);
-            let read = |limit: Field<LimitTable>| limit.value()?.read(reader, context);
-            all(limits.into_iter().map(read))
+            let mut names = vec![POUNDING.to_owned()];
+            let read = |limit: Field<LimitTable>| {
+                let limit = limit.value()?;
+                let name = limit.name(reader, &mut names);
+                let limit = limit.read(reader, context);
+                Some(Limit {
+                    name: name?,
+                    ..limit?
+                })
+            };
+            all(limits.into_iter().map(read).collect::<Vec<_>>())
         });
         if let (Some(target), None) = (self.target_frequency.span(), &self.hazard) {
             let message = "a target frequency needs a hazard curve";
@@ -382,7 +405,77 @@ fn widths(reader: &Reader<'_>, gaps: Located<TableOr<Numbers, List<Written>>>) -
     Some((0..count).map(number).collect())
 }
 
+/// The state that every analysis has.
+pub(crate) const POUNDING: &str = "pounding at the gaps of the case";
+
 impl LimitTable {
+    /// Its name, by which answers and tables tell it from those before it.
+    fn name(&self, reader: &Reader<'_>, before: &mut Vec<String>) -> Option<String> {
+        let Field::Given(Located { value: name, span }) = &self.name else {
+            return None;
+        };
+        if before.contains(name) {
+            let message = match name.as_str() {
+                POUNDING => format!("every analysis has a state \"{name}\" already"),
+                name => format!("two limits have the name \"{name}\""),
+            };
+            return reader.refuse(span.clone(), message, "give each limit its own `name`");
+        }
+        before.push(name.clone());
+        Some(name.clone())
+    }
+
+    /// Refuses places that the demand does not have, and numbers of levels that the case does
+    /// not have.
+    fn place(
+        reader: &Reader<'_>,
+        context: &Context,
+        demand: DemandKind,
+        [building, storey, level]: [Option<Range<usize>>; 3],
+        number: Option<usize>,
+    ) -> Option<()> {
+        if demand.of_building().is_some() {
+            return Some(());
+        }
+        if !demand.of_levels() {
+            return match level {
+                None => Some(()),
+                Some(span) => reader.refuse(
+                    span,
+                    "it is of storeys, not of a level",
+                    "name `building` and `storey`",
+                ),
+            };
+        }
+        let wrong = building.map(|span| ("building", span));
+        if let Some((key, span)) = wrong.or(storey.map(|span| ("storey", span))) {
+            let message = format!("the demand is of contact levels of gaps: it has no `{key}`");
+            let help = "name a `level` in its place, or leave it out: then the worst level counts";
+            return reader.refuse(span, message, help);
+        }
+        let (Some(number), Some(span)) = (number, level) else {
+            return Some(());
+        };
+        let levels = &context.base.as_ref()?.levels;
+        if number <= levels.len() {
+            return Some(());
+        }
+        let message = format!("the case has no level {number}");
+        let mut named = levels.iter().enumerate().take(SHOWN).map(|(i, name)| {
+            let number = i + 1;
+            format!("{number} is {name}")
+        });
+        let list: Vec<String> = named.by_ref().collect();
+        let more = if levels.len() > SHOWN { ", ..." } else { "" };
+        let help = format!(
+            "levels count from 1, over all gaps of the case and from the bottom: it has {} ({}{more})",
+            levels.len(),
+            list.join(", ")
+        );
+        reader.refuse(span, message, help)
+    }
+
+    /// The limit, without its name.
     fn read(self, reader: &Reader<'_>, context: &Context) -> Option<Limit> {
         let demand = self.demand.value();
         let exceeds_at = self.exceeds.span();
@@ -408,6 +501,11 @@ impl LimitTable {
         let storey = self.storey.stated();
         let level = self.level.stated();
         let (building, storey, level) = (building?, storey?, level?);
+        if let Some(demand) = demand {
+            let at = [places.0.clone(), places.1.clone(), places.2.clone()];
+            let number = level.as_ref().map(|level| level.value.0);
+            Self::place(reader, context, demand, at, number)?;
+        }
         if let Some(Located {
             value: Whole(n),
             span,
@@ -442,10 +540,6 @@ impl LimitTable {
             }
         }
         if demand.of_floors_that_turn() {
-            if let Some(span) = places.2 {
-                let message = "it is of storeys, not of a level";
-                return reader.refuse(span, message, "name `building` and `storey`");
-            }
             let buildings = &context.base.as_ref()?.case.buildings;
             let mut asked = match building {
                 Some(index) => buildings[index..=index].iter(),
@@ -468,7 +562,7 @@ impl LimitTable {
             }
         }
         Some(Limit {
-            name: self.name.value()?,
+            name: String::new(),
             demand,
             building,
             place: storey.or(level).map(|number| number.value.0 - 1),
@@ -476,6 +570,9 @@ impl LimitTable {
         })
     }
 }
+
+/// Levels that are named where there are more.
+const SHOWN: usize = 12;
 
 /// The curve through points, or from a file.
 fn hazard_curve(

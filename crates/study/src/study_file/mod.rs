@@ -14,6 +14,7 @@ use std::path::{Path as FilePath, PathBuf};
 use std::sync::Arc;
 
 pub use hazard_file::hazard_schema;
+pub(crate) use ida::POUNDING;
 pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
 pub use intensity::IntensityMeasure;
 pub use pounding_results::study::Value;

@@ -294,9 +294,14 @@ fn base(source: &str, path: &Path, own_record: bool) -> Result<Base, StudyError>
         building.modes().period[building.modes().fundamental()]
     };
     let first_periods = system.buildings().iter().map(first).collect();
+    let levels = system.gaps().iter().flat_map(|gap| {
+        let levels = system.levels_of(gap).iter();
+        levels.map(|level| format!("{} {}", gap.name, level.place.label()))
+    });
     Ok(Base {
         case,
         first_periods,
+        levels: levels.collect(),
     })
 }
 

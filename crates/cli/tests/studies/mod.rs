@@ -9,6 +9,7 @@ mod examples;
 mod failing;
 mod interrupted;
 mod merging;
+mod open_answers;
 mod output;
 mod parquet;
 mod plans;

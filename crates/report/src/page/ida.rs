@@ -33,7 +33,8 @@ pub fn ida(answer: &Value, target: Option<f64>, drawn: &[Picture], inputs: &Inpu
                 "By width of the gap {}",
                 gap["gap"].as_str().unwrap_or_default()
             );
-            body.push_str(&section(&title, &fits(answer, &widths)));
+            let remarks = sentences(&of_widths(gap));
+            body.push_str(&section(&title, &(fits(answer, &widths) + &remarks)));
         }
     }
     body.push_str(&section("Runs by intensity", &counts(answer)));
@@ -58,6 +59,15 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
                 answer.say_percent(&at("fit/confidence")),
                 answer.say(&at("fit/dispersion"), 1.0),
             ),
+            "step" if answer.at(&at("fit/lower")).as_f64() == Some(0.0) => {
+                match answer.at(&at("fit/upper")).is_null() {
+                    true => "one intensity gives no fragility".to_owned(),
+                    false => format!(
+                        "reached by some at the lowest intensity already, by all from {} {unit} on",
+                        answer.say(&at("fit/upper"), scale)
+                    ),
+                }
+            }
             "step" => format!(
                 "first reached above {} {unit}",
                 answer.say(&at("fit/lower"), scale)
@@ -109,8 +119,9 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
         let frequency = answer.say(&at("minimum/mean_annual_frequency"), 1.0);
         points.push(match minimum["width"].is_null() {
             false => format!(
-                "<strong>Gap {name} needs {} mm</strong> for a mean annual frequency of {asked} 1/year; there it \
+                "<strong>Gap {name} needs {}{} mm</strong> for a mean annual frequency of {asked} 1/year; there it \
                  is {frequency} 1/year.",
+                if minimum["upper_bound"] == true { "at most " } else { "" },
                 answer.say(&at("minimum/width"), 1.0e3)
             ),
             true => format!(
@@ -118,6 +129,9 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
                  frequency that they can show is {frequency} 1/year."
             ),
         });
+        let remarks = 0..answer.list(&at("minimum/remarks")).len();
+        let remark = |r: usize| answer.quote(&at(&format!("minimum/remarks/{r}")));
+        points.extend(remarks.map(|r| format!("Gap {name}: {}.", remark(r))));
     }
     points.push(format!(
         "{} over {} and {}; intensity: {}.",
@@ -130,6 +144,20 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
         answer.quote("/measure"),
     ));
     points
+}
+
+/// What must be said of the fragilities by width.
+fn of_widths(gap: &Value) -> Vec<String> {
+    let widths = gap["widths"].as_array().into_iter().flatten();
+    let of_width = |state: &Value| -> Vec<String> {
+        let name = escaped(state["name"].as_str().unwrap_or_default());
+        let remarks = state["remarks"].as_array().into_iter().flatten();
+        let remarks = remarks.filter_map(Value::as_str);
+        remarks
+            .map(|said| format!("{name}: {}.", escaped(said)))
+            .collect()
+    };
+    widths.flat_map(of_width).collect()
 }
 
 /// Fitted fragilities of the states of a list.

@@ -2,16 +2,17 @@
 
 use std::collections::BTreeMap;
 
+use pounding_case::Dimension;
 use pounding_catalogue::STANDARD_GRAVITY;
 
 use super::bootstrap::{FrequencyBounds, frequency_bounds};
 use super::demands::{Demand, of_gap, of_limit, usual};
 use super::fragility::{Counts, FragilityFit, fit};
-use super::goodness::{self, Capacity, FitRemark, GoodnessOfFit};
-use super::hazard::mean_annual_frequency;
+use super::goodness::{self, Capacity, FitRemark, GoodnessOfFit, ShownIntensity};
+use super::hazard::{self, least_frequency, mean_annual_frequency};
 use crate::error::StudyError;
 use crate::fractiles::fractiles;
-use crate::study_file::{IdaSettings, POUNDING, Study, Value};
+use crate::study_file::{HazardCurve, IdaSettings, POUNDING, Study, Value};
 use pounding_results::study::ResultReader;
 
 /// Runs at one intensity.
@@ -59,7 +60,7 @@ pub struct GapResult {
 }
 
 /// The least gap for a mean annual frequency.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct MinimumGap {
     /// Width (m); `None` if the intensities of the analysis do not reach far enough to tell,
     /// or no width does because the isolated buildings collapse.
@@ -67,6 +68,54 @@ pub struct MinimumGap {
     /// Frequency of pounding at this width (1/year); without a width the least that the
     /// analysis can show.
     pub frequency: f64,
+    /// What the intensities leave open: then the width is an upper bound.
+    pub open: Option<OpenGap>,
+    /// What must be said of the frequency.
+    pub remarks: Vec<FitRemark>,
+}
+
+/// Why a least gap is an upper bound: at narrower widths runs are missing where the frequency
+/// passes the target.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct OpenGap {
+    /// Width (m) that is too narrow whatever the missing runs would say; zero if none is.
+    pub wider_than: f64,
+    /// Highest intensity at which no run closes a gap a little narrower; `None`: there is none.
+    pub from: Option<ShownIntensity>,
+    /// Lowest intensity from which on all runs close it; `None`: there is none.
+    pub to: Option<ShownIntensity>,
+    /// Intensity that is exceeded with the target frequency.
+    pub wanted: Option<ShownIntensity>,
+}
+
+impl std::fmt::Display for OpenGap {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "the least gap may be as small as {:.1} mm: ",
+            1e3 * self.wider_than
+        )?;
+        match (self.from, self.to) {
+            (None, Some(to)) => {
+                write!(f, "too little was computed at intensities below {to}")
+            }
+            (Some(from), Some(to)) => write!(
+                f,
+                "too little was computed at intensities between {from} and {to}"
+            ),
+            (Some(from), None) => {
+                write!(f, "too little was computed at intensities above {from}")
+            }
+            (None, None) => write!(f, "too few intensities were computed"),
+        }?;
+        match self.wanted {
+            Some(wanted) => write!(
+                f,
+                "; add intensities around {wanted}, which is exceeded with the target frequency"
+            ),
+            None => write!(f, "; add intensities"),
+        }
+    }
 }
 
 /// Pounding of one pair of neighbours by width of the gap.
@@ -327,15 +376,29 @@ impl Evaluation<'_> {
             let records = self.of_records(reached);
             frequency_bounds(self.intensities, &records, hazard, confidence)
         });
+        let mut remarks = goodness::remarks(&fit, goodness.as_ref(), &counts, &capacities);
+        remarks.extend(hazard.into_iter().flat_map(|h| self.of_frequency(&fit, h)));
         LimitResult {
             name: name.to_owned(),
-            remarks: goodness::remarks(&fit, goodness.as_ref(), &counts, &capacities),
+            remarks,
             goodness,
             frequency,
             frequency_bounds: bounds,
             counts,
             fit,
         }
+    }
+
+    fn shown(&self, si: f64) -> ShownIntensity {
+        ShownIntensity {
+            si,
+            in_g: self.settings.measure.dimension() == Dimension::ACCELERATION,
+        }
+    }
+
+    /// What must be said of the frequency of a state.
+    fn of_frequency(&self, fit: &FragilityFit, hazard: &HazardCurve) -> Vec<FitRemark> {
+        hazard::remarks(fit, hazard, self.intensities, |x| self.shown(x))
     }
 
     /// Where each sample first reaches a state. One with a run that failed is left out where
@@ -439,21 +502,135 @@ impl Evaluation<'_> {
         demands.push(0.0);
         demands.sort_by(|a, b| b.total_cmp(a));
         demands.dedup();
-        let mut best = None;
-        for width in demands {
-            let fit = fit(&self.counts(&|r| r.demands[column] > width));
+        let mut best: Option<MinimumGap> = None;
+        let fitted = |width: f64| fit(&self.counts(&|r| r.demands[column] > width));
+        for (i, width) in demands.iter().enumerate() {
+            let fit = fitted(*width);
             let frequency = mean_annual_frequency(&fit, hazard).unwrap_or(f64::INFINITY);
-            if frequency > target {
-                return Some(best.unwrap_or(MinimumGap {
+            if frequency <= target {
+                best = Some(MinimumGap {
+                    width: Some(*width),
+                    frequency,
+                    open: None,
+                    remarks: self.of_frequency(&fit, hazard),
+                });
+                continue;
+            }
+            let Some(best) = &mut best else {
+                return Some(MinimumGap {
                     width: None,
                     frequency,
+                    open: None,
+                    remarks: Vec::new(),
+                });
+            };
+            if least_frequency(&fit, hazard) <= target {
+                best.open = Some(self.open(&fit, hazard, target, || {
+                    let too_narrow = |w: &&f64| least_frequency(&fitted(**w), hazard) > target;
+                    demands[i..].iter().find(too_narrow).copied()
                 }));
             }
-            best = Some(MinimumGap {
-                width: Some(width),
-                frequency,
-            });
+            break;
         }
         best
+    }
+
+    /// What a fit leaves open of a least gap.
+    fn open(
+        &self,
+        fit: &FragilityFit,
+        hazard: &HazardCurve,
+        target: f64,
+        too_narrow: impl Fn() -> Option<f64>,
+    ) -> OpenGap {
+        let (from, to) = match *fit {
+            FragilityFit::Step { lower, upper } => (lower, upper),
+            FragilityFit::Always { from } => (0.0, from),
+            _ => (0.0, f64::INFINITY),
+        };
+        OpenGap {
+            wider_than: too_narrow().unwrap_or(0.0),
+            from: (from > 0.0).then(|| self.shown(from)),
+            to: to.is_finite().then(|| self.shown(to)),
+            wanted: hazard.intensity(target).map(|x| self.shown(x)),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+    use crate::study_file::IntensityMeasure;
+
+    /// Records whose demand grows in proportion to the intensity, at quantiles of a lognormal
+    /// distribution, and the least gap by these intensities (g).
+    fn least_gap(intensities: &[f64]) -> MinimumGap {
+        let points = [0.02, 0.5, 10.0].map(|x| (x * STANDARD_GRAVITY, 2e-4 / f64::powi(x, 2)));
+        let settings = IdaSettings {
+            record: 0,
+            intensity: 1,
+            measure: IntensityMeasure::PeakGroundAcceleration,
+            gaps: Vec::new(),
+            limits: Vec::new(),
+            hazard: Some(HazardCurve::new(points.to_vec()).unwrap()),
+            hazard_file: None,
+            target_frequency: Some(2e-3),
+            confidence: 0.95,
+        };
+        let quantile = pounding_ground_motion::distributions::normal_quantile;
+        let levels = || intensities.iter().enumerate();
+        let runs = (0..30).flat_map(|record| {
+            let per_g = 0.2 * (0.4 * quantile((record as f64 + 0.5) / 30.0)).exp();
+            levels().map(move |(level, g)| Run {
+                level,
+                record,
+                sample: record,
+                failed: false,
+                collapsed: false,
+                demands: vec![per_g * g],
+            })
+        });
+        let runs: Vec<Run> = runs.collect();
+        let intensities: Vec<f64> = intensities.iter().map(|g| g * STANDARD_GRAVITY).collect();
+        let evaluation = Evaluation {
+            settings: &settings,
+            intensities: &intensities,
+            runs: &runs,
+        };
+        evaluation.minimum(0, 2e-3).unwrap()
+    }
+
+    /// The frequency of a width `w` is `k0 (w / 0.2)^-2 exp(2 beta^2)`: the target asks for
+    /// 0.2 sqrt(0.1 exp(0.32)) = 74.2 mm. Intensities that reach around 0.316 g find it; those
+    /// that lie above or below give an upper bound, and say so with what lies below it.
+    #[test]
+    fn gaps_that_the_intensities_leave_open_are_bounds() {
+        let exact = 0.2 * (0.1 * f64::exp(0.32)).sqrt();
+        let fine: Vec<f64> = (0..16).map(|i| 0.05 * 1.35_f64.powi(i)).collect();
+        let found = least_gap(&fine);
+        assert!(
+            (found.width.unwrap() / exact - 1.0).abs() < 0.06,
+            "{found:?}"
+        );
+        assert_eq!((found.open, found.remarks.len()), (None, 0));
+        for (intensities, place) in [
+            (vec![3.0, 4.0], "intensities below"),
+            (vec![0.05, 0.06], "intensities above"),
+            (vec![0.1, 3.0], "intensities above 0.100 g"),
+        ] {
+            let found = least_gap(&intensities);
+            let Some(width) = found.width else {
+                // Which was said before.
+                assert!(intensities[1] < 0.1, "{found:?}");
+                continue;
+            };
+            let open = found.open.unwrap();
+            assert!(open.wider_than < exact && exact < width, "{found:?}");
+            let said = open.to_string();
+            assert!(said.contains(place), "{said}");
+            assert!(said.contains("around 0.316 g"), "{said}");
+        }
     }
 }

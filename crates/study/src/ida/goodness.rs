@@ -2,6 +2,7 @@
 
 use std::fmt;
 
+use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_ground_motion::distributions::chi_square_exceedance;
 
 use super::fragility::{Counts, Fragility, FragilityFit};
@@ -53,6 +54,11 @@ pub enum FitRemark {
         /// Its probability.
         p_value: f64,
     },
+    /// The analysis has too few records.
+    FewRecords {
+        /// So many.
+        records: usize,
+    },
     /// Too few records reach the state.
     FewReach {
         /// Records that reach it at some intensity.
@@ -67,10 +73,15 @@ pub enum FitRemark {
         /// Of so many.
         of: usize,
     },
-    /// The median lies beyond the intensities of the analysis: the curve is extrapolated.
+    /// The median lies above the intensities of the analysis: the curve is extrapolated.
     MedianBeyond {
         /// Highest intensity (SI).
         highest: f64,
+    },
+    /// The median lies below the intensities of the analysis: the curve is extrapolated.
+    MedianBelow {
+        /// Lowest intensity (SI).
+        lowest: f64,
     },
     /// The fraction stays the same over the last intensities, which no lognormal curve does.
     Plateau {
@@ -88,6 +99,79 @@ pub enum FitRemark {
     },
     /// Too few classes for a test.
     NotTested,
+    /// The hazard curve begins where the state is reached already, and the frequency leaves out
+    /// what is below.
+    BelowHazard {
+        /// First intensity of the curve.
+        first: ShownIntensity,
+        /// Probability of the state there (-).
+        probability: f64,
+        /// What is left out if the first power law went on (1/year).
+        uncounted: f64,
+    },
+    /// Part of the frequency comes from above the hazard curve.
+    AboveHazard {
+        /// Last intensity of the curve.
+        last: ShownIntensity,
+        /// Which part (-).
+        share: f64,
+    },
+    /// Part of the frequency comes from below the intensities of the analysis.
+    FromBelow {
+        /// Lowest intensity.
+        lowest: ShownIntensity,
+        /// Which part (-).
+        share: f64,
+    },
+    /// Part of the frequency comes from above the intensities of the analysis.
+    FromAbove {
+        /// Highest intensity.
+        highest: ShownIntensity,
+        /// Which part (-).
+        share: f64,
+    },
+}
+
+impl FitRemark {
+    /// Whether it is of the frequency, and not of the fragility.
+    #[must_use]
+    pub fn is_of_frequency(&self) -> bool {
+        matches!(
+            self,
+            Self::BelowHazard { .. }
+                | Self::AboveHazard { .. }
+                | Self::FromBelow { .. }
+                | Self::FromAbove { .. }
+        )
+    }
+}
+
+/// An intensity as people read it: accelerations in g.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ShownIntensity {
+    /// Value (SI).
+    pub si: f64,
+    /// Whether it is an acceleration; else it is a velocity.
+    pub in_g: bool,
+}
+
+impl fmt::Display for ShownIntensity {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.in_g {
+            true => write!(f, "{} g", figures(self.si / STANDARD_GRAVITY)),
+            false => write!(f, "{} m/s", figures(self.si)),
+        }
+    }
+}
+
+/// Three significant figures.
+fn figures(x: f64) -> String {
+    let size = x.abs();
+    if !(1e-3..1e4).contains(&size) {
+        return format!("{x:.2e}");
+    }
+    let decimals = (2.0 - size.log10().floor()).max(0.0) as usize;
+    format!("{x:.decimals$}")
 }
 
 impl fmt::Display for FitRemark {
@@ -103,7 +187,38 @@ impl fmt::Display for FitRemark {
             Self::FewMiss { records, of } => write!(f, "only {records} of {of} records miss it"),
             Self::MedianBeyond { .. } => write!(
                 f,
-                "the median lies beyond the intensities: the curve is extrapolated"
+                "the median lies above the intensities: the curve is extrapolated"
+            ),
+            Self::MedianBelow { .. } => write!(
+                f,
+                "the median lies below the intensities: the curve is extrapolated"
+            ),
+            Self::FewRecords { records } => write!(f, "there are only {records} records"),
+            Self::BelowHazard {
+                first,
+                probability,
+                uncounted,
+            } => {
+                write!(
+                    f,
+                    "the hazard curve begins at {first}, where the probability of the state is {probability:.2} already: what weaker motions add is not counted, neither in the frequency nor in its bounds ({} per year if the first power law of the curve went on); begin the curve lower",
+                    figures(*uncounted)
+                )
+            }
+            Self::AboveHazard { last, share } => write!(
+                f,
+                "{:.0} % of the frequency comes from above {last}, where the hazard curve ends and its last power law is taken to go on; end the curve higher",
+                100.0 * share
+            ),
+            Self::FromBelow { lowest, share } => write!(
+                f,
+                "{:.0} % of the frequency comes from below {lowest}, where no run was made; add lower intensities",
+                100.0 * share
+            ),
+            Self::FromAbove { highest, share } => write!(
+                f,
+                "{:.0} % of the frequency comes from above {highest}, where no run was made; add higher intensities",
+                100.0 * share
             ),
             Self::Plateau { fraction, .. } => write!(
                 f,
@@ -196,16 +311,25 @@ pub(super) fn remarks(
         None => remarks.push(FitRemark::NotTested),
     }
     let reach = capacities.iter().filter(|c| c.first < counts.len()).count();
-    if reach < FEW {
+    let miss = capacities.iter().filter(|c| c.first > 0 || c.returns);
+    let miss = miss.count();
+    if of < FEW {
+        remarks.push(FitRemark::FewRecords { records: of });
+    }
+    if reach < FEW.min(of) {
         remarks.push(FitRemark::FewReach { records: reach, of });
     }
-    let miss = capacities.iter().filter(|c| c.first > 0).count();
-    if miss < FEW {
+    if miss < FEW.min(of) {
         remarks.push(FitRemark::FewMiss { records: miss, of });
     }
-    let highest = counts.iter().fold(0.0_f64, |m, c| m.max(c.intensity));
+    let made = || counts.iter().filter(|c| c.runs > 0).map(|c| c.intensity);
+    let highest = made().fold(0.0, f64::max);
     if fragility.median > highest {
         remarks.push(FitRemark::MedianBeyond { highest });
+    }
+    let lowest = made().fold(f64::INFINITY, f64::min);
+    if fragility.median < lowest {
+        remarks.push(FitRemark::MedianBelow { lowest });
     }
     remarks.extend(plateau(counts));
     remarks
@@ -367,5 +491,56 @@ mod tests {
         assert!(said.contains(&FitRemark::NotTested));
         let beyond = |r: &FitRemark| matches!(r, FitRemark::MedianBeyond { .. });
         assert!(said.iter().any(beyond), "{said:?}");
+    }
+
+    /// A median below the intensities, records that reach a state and miss it again, and few
+    /// records in all.
+    #[test]
+    fn low_medians_and_few_records() {
+        let table = |reached: &[usize], runs: usize| -> Vec<Counts> {
+            let levels = reached.iter().enumerate();
+            let one = |(i, reached): (usize, &usize)| Counts {
+                intensity: 0.5 + 0.1 * i as f64,
+                runs,
+                reached: *reached,
+            };
+            levels.map(one).collect()
+        };
+        let at = |first: usize, returns: bool| Capacity { first, returns };
+        let counts = table(&[7, 8, 9], 10);
+        let all = [
+            vec![at(0, false); 7],
+            vec![at(1, false), at(2, false), at(3, false)],
+        ]
+        .concat();
+        let said = remarks(&fit(&counts), None, &counts, &all);
+        let below = FitRemark::MedianBelow { lowest: 0.5 };
+        assert!(said.contains(&below), "{said:?}");
+        assert!(said.contains(&FitRemark::FewMiss { records: 3, of: 10 }));
+        // One of ten reaches it at once, misses it, and reaches it again: it does miss it.
+        let counts = table(&[10, 9, 10, 10], 10);
+        let all = [vec![at(0, false); 9], vec![at(0, true)]].concat();
+        let fitted = FragilityFit::Lognormal(curve(0.2, 0.5));
+        let said = remarks(&fitted, None, &counts, &all);
+        assert!(
+            said.contains(&FitRemark::FewMiss { records: 1, of: 10 }),
+            "{said:?}"
+        );
+        // Of three records all are few, which is said once.
+        let counts = table(&[1, 2, 3], 3);
+        let all = [at(0, false), at(1, false), at(2, true)];
+        let said = remarks(&fitted, None, &counts, &all);
+        assert!(
+            said.contains(&FitRemark::FewRecords { records: 3 }),
+            "{said:?}"
+        );
+        assert!(
+            !said.iter().any(|r| matches!(r, FitRemark::FewReach { .. })),
+            "{said:?}"
+        );
+        assert!(said.contains(&FitRemark::FewMiss { records: 2, of: 3 }));
+        let shown = |si, in_g| ShownIntensity { si, in_g }.to_string();
+        assert_eq!(shown(0.5 * STANDARD_GRAVITY, true), "0.500 g");
+        assert_eq!(shown(12.34, false), "12.3 m/s");
     }
 }

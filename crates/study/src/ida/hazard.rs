@@ -3,6 +3,7 @@
 use pounding_ground_motion::distributions::normal_distribution;
 
 use super::fragility::{Fragility, FragilityFit};
+use super::goodness::{FitRemark, ShownIntensity};
 use crate::study_file::HazardCurve;
 
 impl HazardCurve {
@@ -28,15 +29,124 @@ impl HazardCurve {
     }
 
     fn with_fragility(&self, f: &Fragility) -> f64 {
+        self.between(f, 0.0, f64::INFINITY)
+    }
+
+    /// What the intensities between these two count.
+    fn between(&self, f: &Fragility, from: f64, to: f64) -> f64 {
         let last = self.points.len() - 2;
         let segments = self.points.windows(2).enumerate();
         segments
             .map(|(i, p)| {
-                let (factor, slope) = Self::segment(p[0], p[1]);
                 let end = if i == last { f64::INFINITY } else { p[1].0 };
-                part(f, (factor, slope), p[0].0, end)
+                let (from, to) = (p[0].0.max(from), end.min(to));
+                match from < to {
+                    true => part(f, Self::segment(p[0], p[1]), from, to),
+                    false => 0.0,
+                }
             })
             .sum()
+    }
+
+    /// The intensity that is exceeded with this frequency (1/year); `None` below the first point.
+    pub(super) fn intensity(&self, frequency: f64) -> Option<f64> {
+        if frequency > self.points[0].1 {
+            return None;
+        }
+        let above = self.points.partition_point(|p| p.1 > frequency);
+        let i = above.clamp(1, self.points.len() - 1);
+        let (factor, slope) = Self::segment(self.points[i - 1], self.points[i]);
+        Some((factor / frequency).powf(1.0 / slope))
+    }
+
+    /// What a state that is reached by all above an intensity would count below the first point,
+    /// if the first power law went on there.
+    fn missing_above(&self, intensity: f64) -> f64 {
+        let first = self.points[0];
+        if intensity >= first.0 {
+            return 0.0;
+        }
+        let (factor, slope) = Self::segment(first, self.points[1]);
+        factor * intensity.powf(-slope) - first.1
+    }
+}
+
+/// Part of a frequency that may be left out below the hazard curve without a word.
+const NEGLIGIBLE: f64 = 0.01;
+/// Part of a frequency that may come from above the hazard curve without a word.
+const FROM_ABOVE: f64 = 0.25;
+/// Part of a frequency that may come from intensities of which no run tells, without a word.
+const FROM_OUTSIDE: f64 = 0.25;
+
+/// What must be said of a frequency: where the hazard curve or the intensities of the analysis,
+/// which rise, leave out what it needs.
+pub(super) fn remarks(
+    fit: &FragilityFit,
+    hazard: &HazardCurve,
+    intensities: &[f64],
+    shown: impl Fn(f64) -> ShownIntensity,
+) -> Vec<FitRemark> {
+    let Some(frequency) = mean_annual_frequency(fit, hazard) else {
+        return Vec::new();
+    };
+    let (first, last) = (hazard.points[0], hazard.points[hazard.points.len() - 1]);
+    let reached_above = |x: f64| (hazard.missing_above(x), f64::from(x > last.0), 1.0);
+    let (uncounted, above, probability) = match fit {
+        FragilityFit::Lognormal(f) => {
+            let law = HazardCurve::segment(first, hazard.points[1]);
+            let above = hazard.between(f, last.0, f64::INFINITY) / frequency;
+            (part(f, law, 0.0, first.0), above, f.probability(first.0))
+        }
+        FragilityFit::Step { lower, .. } => reached_above(*lower),
+        FragilityFit::Never { up_to } => reached_above(*up_to),
+        FragilityFit::Always { .. } | FragilityFit::None => return Vec::new(),
+    };
+    let mut remarks = Vec::new();
+    if uncounted > NEGLIGIBLE * frequency {
+        remarks.push(FitRemark::BelowHazard {
+            first: shown(first.0),
+            probability,
+            uncounted,
+        });
+    }
+    if above > FROM_ABOVE {
+        remarks.push(FitRemark::AboveHazard {
+            last: shown(last.0),
+            share: above,
+        });
+    }
+    let FragilityFit::Lognormal(f) = fit else {
+        return remarks;
+    };
+    let made = || intensities.iter().copied().filter(|x| *x > 0.0);
+    let lowest = made().fold(f64::INFINITY, f64::min);
+    let highest = made().fold(0.0, f64::max);
+    let share = hazard.between(f, 0.0, lowest) / frequency;
+    if share > FROM_OUTSIDE {
+        remarks.push(FitRemark::FromBelow {
+            lowest: shown(lowest),
+            share,
+        });
+    }
+    let share = hazard.between(f, highest, f64::INFINITY) / frequency;
+    if share > FROM_OUTSIDE {
+        remarks.push(FitRemark::FromAbove {
+            highest: shown(highest),
+            share,
+        });
+    }
+    remarks
+}
+
+/// The least frequency (1/year) that counts leave possible: where they leave a step between two
+/// intensities, the state may be reached at the higher alone.
+pub(super) fn least_frequency(fit: &FragilityFit, hazard: &HazardCurve) -> f64 {
+    match fit {
+        FragilityFit::Lognormal(f) => hazard.with_fragility(f),
+        FragilityFit::Step { upper: x, .. } | FragilityFit::Always { from: x } if x.is_finite() => {
+            hazard.frequency(*x)
+        }
+        _ => 0.0,
     }
 }
 
@@ -49,6 +159,9 @@ fn part(f: &Fragility, (factor, slope): (f64, f64), from: f64, to: f64) -> f64 {
     let at = |x: f64| {
         if x.is_infinite() {
             return (0.0, 1.0);
+        }
+        if x == 0.0 {
+            return (0.0, 0.0);
         }
         (
             factor * x.powf(-slope) * normal_distribution(z(x)),
@@ -79,13 +192,13 @@ fn part(f: &Fragility, (factor, slope): (f64, f64), from: f64, to: f64) -> f64 {
 /// Intensities below the first point of the curve count nothing; above the last point its
 /// last power law goes on. A step counts with its lower end and a state that is never
 /// reached as if it were reached right above the last intensity, both of which err on the
-/// safe side; `None` where the counts give no curve, or are above zero already at the
-/// least intensity.
+/// safe side as far as the curve reaches down to there; `None` where the counts give no curve, or
+/// a step that begins at the least intensity.
 #[must_use]
 pub fn mean_annual_frequency(fit: &FragilityFit, hazard: &HazardCurve) -> Option<f64> {
     match fit {
         FragilityFit::Lognormal(f) => Some(hazard.with_fragility(f)),
-        FragilityFit::Step { lower, .. } => Some(hazard.frequency(*lower)),
+        FragilityFit::Step { lower, .. } => (*lower > 0.0).then(|| hazard.frequency(*lower)),
         FragilityFit::Never { up_to } => Some(hazard.frequency(*up_to)),
         FragilityFit::Always { .. } | FragilityFit::None => None,
     }
@@ -139,6 +252,64 @@ mod tests {
         assert!((found / sum - 1.0).abs() < 1e-8, "{found} {sum}");
     }
 
+    /// A curve that begins in the middle of a fragility says what it leaves out: with one power
+    /// law all parts together are the closed form.
+    #[test]
+    fn what_a_curve_leaves_out_is_told() {
+        let (k0, k, median, beta) = (2.0e-4_f64, 2.2_f64, 0.4_f64, 0.5_f64);
+        let law = |x: f64| (x, k0 * x.powf(-k));
+        let shown = |si: f64| ShownIntensity { si, in_g: false };
+        let all = k0 * median.powf(-k) * (0.5 * k * k * beta * beta).exp();
+        let fit = FragilityFit::Lognormal(fragility(median, beta));
+        let wide = [0.01, 9.0];
+        let short = HazardCurve::new(vec![law(0.3), law(3.0)]).unwrap();
+        let counted = mean_annual_frequency(&fit, &short).unwrap();
+        let said = remarks(&fit, &short, &wide, shown);
+        let [
+            FitRemark::BelowHazard {
+                first,
+                probability,
+                uncounted,
+            },
+        ] = said[..]
+        else {
+            panic!("{said:?}")
+        };
+        assert_eq!(first.si, 0.3);
+        assert!((probability - 0.282_515).abs() < 1e-5, "{probability}");
+        assert!(((uncounted + counted) / all - 1.0).abs() < 1e-10);
+        let whole = HazardCurve::new(vec![law(0.01), law(3.0)]).unwrap();
+        assert_eq!(remarks(&fit, &whole, &wide, shown), []);
+        // It ends below the fragility, or no run was made where the frequency comes from.
+        let ends = HazardCurve::new(vec![law(0.01), law(0.3)]).unwrap();
+        let said = remarks(&fit, &ends, &wide, shown);
+        assert!(
+            matches!(said[..], [FitRemark::AboveHazard { .. }]),
+            "{said:?}"
+        );
+        let said = remarks(&fit, &whole, &[0.5, 0.6], shown);
+        assert!(
+            matches!(said[..], [FitRemark::FromBelow { .. }]),
+            "{said:?}"
+        );
+        // A step below the first point.
+        let step = FragilityFit::Step {
+            lower: 0.2,
+            upper: 0.25,
+        };
+        let said = remarks(&step, &short, &wide, shown);
+        let expected = law(0.2).1 - law(0.3).1;
+        let [FitRemark::BelowHazard { uncounted, .. }] = said[..] else {
+            panic!("{said:?}")
+        };
+        assert!((uncounted / expected - 1.0).abs() < 1e-12);
+        for x in [0.3, 0.7, 2.9, 30.0] {
+            let again = short.intensity(short.frequency(x)).unwrap();
+            assert!((again / x - 1.0).abs() < 1e-12);
+        }
+        assert_eq!(short.intensity(1.0), None);
+    }
+
     #[test]
     fn steps_take_their_safe_side() {
         let curve = HazardCurve::new(vec![(0.1, 1e-2), (1.0, 1e-4)]).unwrap();
@@ -154,5 +325,11 @@ mod tests {
             mean_annual_frequency(&FragilityFit::Always { from: 0.1 }, &curve),
             None
         );
+        // One intensity, at which some reach it and others do not.
+        let one = FragilityFit::Step {
+            lower: 0.0,
+            upper: f64::INFINITY,
+        };
+        assert_eq!(mean_annual_frequency(&one, &curve), None);
     }
 }

@@ -9,8 +9,9 @@ mod hazard;
 
 pub use bootstrap::{FrequencyBounds, RESAMPLES};
 pub use evaluation::{
-    GapResult, IdaReport, IntensityLevel, LimitResult, MinimumGap, PoundingDemand, evaluate,
+    GapResult, IdaReport, IntensityLevel, LimitResult, MinimumGap, OpenGap, PoundingDemand,
+    evaluate,
 };
 pub use fragility::{Counts, Fragility, FragilityFit, fit};
-pub use goodness::{Capacity, FitRemark, GoodnessOfFit, POOR};
+pub use goodness::{Capacity, FitRemark, GoodnessOfFit, POOR, ShownIntensity};
 pub use hazard::mean_annual_frequency;

@@ -1,6 +1,6 @@
 //! The analysis for machines: SI units, full precision.
 
-use pounding_study::{FragilityFit, IdaReport, LimitResult, POOR};
+use pounding_study::{FragilityFit, IdaReport, LimitResult, MinimumGap, POOR};
 use serde::Serialize;
 
 use crate::study::Finished;
@@ -125,6 +125,11 @@ struct Width<'a> {
 struct Minimum {
     width: Option<f64>,
     mean_annual_frequency: f64,
+    /// Whether the width is an upper bound, as runs are missing at narrower ones.
+    upper_bound: bool,
+    /// Width that is too narrow whatever the missing runs would say.
+    wider_than: Option<f64>,
+    remarks: Vec<String>,
 }
 
 impl<'a> Analysis<'a> {
@@ -156,10 +161,7 @@ impl<'a> Analysis<'a> {
             Gap {
                 gap: &g.gap,
                 widths: widths.collect(),
-                minimum: g.minimum.map(|m| Minimum {
-                    width: m.width,
-                    mean_annual_frequency: m.frequency,
-                }),
+                minimum: g.minimum.as_ref().map(Minimum::of),
             }
         });
         Self {
@@ -169,6 +171,20 @@ impl<'a> Analysis<'a> {
             levels: levels.collect(),
             limits: limits.collect(),
             gaps: gaps.collect(),
+        }
+    }
+}
+
+impl Minimum {
+    fn of(minimum: &MinimumGap) -> Self {
+        let open = minimum.open.iter().map(ToString::to_string);
+        let remarks = minimum.remarks.iter().map(ToString::to_string);
+        Self {
+            width: minimum.width,
+            mean_annual_frequency: minimum.frequency,
+            upper_bound: minimum.open.is_some(),
+            wider_than: minimum.open.map(|open| open.wider_than),
+            remarks: open.chain(remarks).collect(),
         }
     }
 }

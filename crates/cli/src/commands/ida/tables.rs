@@ -2,7 +2,8 @@
 
 use pounding_catalogue::wording::counted;
 use pounding_study::{
-    FitRemark, FragilityFit, IdaReport, IdaSettings, LimitResult, POOR, PoundingDemand, RESAMPLES,
+    FitRemark, FragilityFit, IdaReport, IdaSettings, LimitResult, MinimumGap, POOR, PoundingDemand,
+    RESAMPLES,
 };
 
 use crate::tables::{Table, new_table};
@@ -158,7 +159,10 @@ fn poor_fits<'s>(
                 remark => text.push_str(&format!("  {name}: {remark}\n")),
             }
         }
-        let shows = |r: &FitRemark| !matches!(r, FitRemark::NotTested | FitRemark::Returns { .. });
+        let shows = |r: &FitRemark| {
+            let of_counts = matches!(r, FitRemark::NotTested | FitRemark::Returns { .. });
+            !of_counts && !r.is_of_frequency()
+        };
         let FragilityFit::Lognormal(fit) = state.fit else {
             continue;
         };
@@ -209,14 +213,20 @@ fn widths(
         let named = named.map(|w| (format!("{:.1} mm", w.width * 1e3), &w.result));
         text.push_str(&poor_fits(report, named));
     }
-    if let (Some(minimum), Some(target)) = (gap.minimum, settings.target_frequency) {
+    if let (Some(minimum), Some(target)) = (&gap.minimum, settings.target_frequency) {
         text.push_str(&match minimum.width {
             Some(width) => format!(
-                "Least gap of {} for a mean annual frequency of {}: {:.1} mm, with {}\n",
+                "Least gap of {} for a mean annual frequency of {}: {}{:.1} mm, with {}\n{}",
                 gap.gap,
                 digits(target),
+                if minimum.open.is_some() {
+                    "at most "
+                } else {
+                    ""
+                },
                 width * 1e3,
-                digits(minimum.frequency)
+                digits(minimum.frequency),
+                beside(minimum)
             ),
             None => format!(
                 "The intensities do not reach far enough{} to find the gap of {} for a mean annual frequency of {}: the least that they can show is {}\n",
@@ -232,6 +242,15 @@ fn widths(
         });
     }
     text
+}
+
+/// What must be said of a least gap, a line each.
+fn beside(minimum: &MinimumGap) -> String {
+    let open = minimum.open.iter().map(ToString::to_string);
+    let remarks = minimum.remarks.iter().map(ToString::to_string);
+    open.chain(remarks)
+        .map(|said| format!("  {said}\n"))
+        .collect()
 }
 
 fn counts(limit: &LimitResult) -> String {
@@ -260,6 +279,9 @@ fn frequency(limit: &LimitResult, (scale, unit): (f64, &str)) -> String {
                 digits(from / scale)
             )
         }
+        (None, FragilityFit::Step { .. }) => {
+            "- (some reach it already at the lowest intensity)".to_owned()
+        }
         (None, _) => "- (no fragility)".to_owned(),
     }
 }
@@ -282,6 +304,13 @@ fn fitted(limit: &LimitResult, confidence: f64, scale: f64) -> [String; 2] {
                 f.median_bounds(confidence).map(|b| b / scale),
             ),
             with(f.dispersion, f.dispersion_bounds(confidence)),
+        ],
+        FragilityFit::Step { lower, upper } if lower <= 0.0 => [
+            match upper.is_finite() {
+                true => format!("below {}", intensity(upper)),
+                false => "not known: one intensity".to_owned(),
+            },
+            "-".to_owned(),
         ],
         FragilityFit::Step { lower, upper } if upper.is_finite() => [
             format!("between {} and {}", intensity(lower), intensity(upper)),

@@ -215,6 +215,9 @@ pub(super) fn of_building(kind: QuantityKind, building: &BuildingOutcome) -> f64
     peaks.map(|p| p.value).fold(0.0, f64::max)
 }
 
+/// Part of the energy that the ground puts in below which what impacts dissipate is round-off.
+const ROUND_OFF: f64 = 1.0e-12;
+
 /// Whether some impact of a rigid law was a jump of the velocity, which has neither a force
 /// nor an acceleration.
 pub(super) fn jumps(outcome: &Outcome, rigid: bool) -> bool {
@@ -246,7 +249,16 @@ pub(super) fn value(quantity: &Quantity, outcome: &Outcome, jumps: bool) -> f64 
         }
         QuantityKind::Impulse => maximum(|l| l.impulse_max),
         QuantityKind::ApproachVelocity => maximum(|l| l.approach_velocity_max),
-        QuantityKind::ImpactEnergy => levels.iter().map(|l| l.energy_dissipated).sum(),
+        QuantityKind::ImpactEnergy => {
+            let lost: f64 = levels.iter().map(|l| l.energy_dissipated).sum();
+            let most = outcome.energy.end.input.abs();
+            // What round-off leaves of the zero of an elastic law is none, of either sign.
+            if lost.abs() > ROUND_OFF * most {
+                lost
+            } else {
+                0.0
+            }
+        }
         _ => restitution(outcome, quantity.index),
     }
 }

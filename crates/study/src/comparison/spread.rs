@@ -66,6 +66,17 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
     let columns: Vec<Vec<f64>> = (0..records).map(|r| of_record(values, r)).collect();
     let finite = |row: &Vec<f64>| row.iter().copied().filter(|x| x.is_finite()).collect();
     let rows: Vec<Vec<f64>> = values.iter().map(finite).collect();
+    let most = rows.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+    // A model whose values are round-off beside those of the others has none.
+    let rows: Vec<Vec<f64>> = rows
+        .into_iter()
+        .map(
+            |row| match row.iter().all(|x| x.abs() <= ROUND_OFF * most) {
+                true => vec![0.0; row.len()],
+                false => row,
+            },
+        )
+        .collect();
     let ratio = |column: &Vec<f64>| {
         let low = column.iter().copied().fold(f64::INFINITY, f64::min);
         let high = column.iter().copied().fold(0.0, f64::max);
@@ -168,6 +179,17 @@ mod tests {
                 .greatest_ratio
                 .is_nan()
         );
+    }
+
+    /// Nor has it a spread between records: that is of the other model alone, as if zeros stood
+    /// there.
+    #[test]
+    fn no_spread_of_round_off() {
+        let other = vec![4.0e3, 5.0e3];
+        let found = spread(&[vec![1.0e-12, -7.0e-12], other.clone()]);
+        let zeros = spread(&[vec![0.0, 0.0], other]);
+        assert_eq!(found.between_records, zeros.between_records);
+        assert!(found.between_records < 0.2);
     }
 
     #[test]

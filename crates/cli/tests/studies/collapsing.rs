@@ -239,3 +239,35 @@ fn a_hazard_file_says_its_units() {
     );
     assert!(told.contains("intensity (g),frequency (1/year)"), "{told}");
 }
+
+/// The page of a sweep: demands that are infinite count, other peaks are said to be of the runs that
+/// stood, runs have their numbers, and a part says that it is one.
+#[test]
+fn a_page_says_what_collapses_leave_out() {
+    let bench = bench();
+    bench.study(&STUDY[..STUDY.find("[ida]").unwrap()].replace(
+        "case = \"case.toml\"",
+        "case = \"case.toml\"\n[output]\nisolated_demand = true\nchunk = 1",
+    ));
+    bench.text("sweep study.toml -o out.h5 --report page.html");
+    let page = String::from_utf8(bench.bytes("page.html")).unwrap();
+    for said in [
+        "that neither failed nor collapsed",
+        "; of runs that collapsed it is not known",
+        "of the runs that stood",
+        "infinite",
+        " in run ",
+    ] {
+        assert!(page.contains(said), "{said}");
+    }
+    assert!(!page.contains("in row "));
+    assert!(!page.contains("A part of the study"));
+    // The run of the greatest force can be shown.
+    let number = page.split(" in run ").nth(1).unwrap();
+    let number = number.split(|c: char| !c.is_ascii_digit()).next().unwrap();
+    bench.text(&format!("sweep study.toml --show {number}"));
+    bench.text("sweep study.toml -o part.h5 --shard 2/2 --report part.html");
+    let page = String::from_utf8(bench.bytes("part.html")).unwrap();
+    let said = "<strong>A part of the study</strong>, shard 2/2: 4 of its 8 runs";
+    assert!(page.contains(said));
+}

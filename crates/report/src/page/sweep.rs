@@ -34,6 +34,10 @@ struct Runs {
     coordinates: Vec<Vec<f64>>,
     /// Columns of the layout.
     values: Vec<Vec<f64>>,
+    /// For each row the number of its run.
+    numbers: Vec<usize>,
+    /// For each row whether a building collapsed.
+    fell: Vec<bool>,
     failed: Vec<(usize, String)>,
     collapsed: Vec<(usize, String)>,
 }
@@ -102,6 +106,8 @@ fn read(result: &ResultReader) -> Result<Runs, StudyFileError> {
     let mut runs = Runs {
         coordinates: vec![Vec::new(); result.description.coordinates.len()],
         values: vec![Vec::new(); result.description.layout.columns()],
+        numbers: Vec::new(),
+        fell: Vec::new(),
         failed: Vec::new(),
         collapsed: Vec::new(),
     };
@@ -118,6 +124,8 @@ fn read(result: &ResultReader) -> Result<Runs, StudyFileError> {
             for (column, value) in runs.values.iter_mut().zip(&row.values) {
                 column.push(*value);
             }
+            runs.numbers.push(row.run);
+            runs.fell.push(row.ending.collapsed());
             let diagnosis = row.ending.diagnosis().unwrap_or_default().to_owned();
             if row.ending.failed() {
                 runs.failed.push((row.run, diagnosis));
@@ -131,20 +139,37 @@ fn read(result: &ResultReader) -> Result<Runs, StudyFileError> {
 }
 
 fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
-    let layout = &result.description.layout;
+    let d = &result.description;
+    let layout = &d.layout;
     let mut points = vec![format!(
         "<strong>{}</strong>: {} failed and {} collapsed.",
         counted(result.rows, "run"),
         runs.failed.len(),
         runs.collapsed.len()
     )];
+    if !d.part.is_whole() {
+        points.push(format!(
+            "<strong>A part of the study</strong>, {}: {} of its {}. All that follows is of these.",
+            escaped(&d.part.to_string()),
+            result.rows,
+            counted(d.runs, "run")
+        ));
+    }
+    let ended = runs.failed.len() + runs.collapsed.len();
     let impacts = columns(layout, "impacts");
     if !impacts.is_empty() {
         let touches = |row: &usize| impacts.iter().any(|c| runs.values[*c][*row] > 0.0);
         let closed = (0..result.rows).filter(touches).count();
         points.push(format!(
-            "In {} a gap closes, with up to {} impacts at a level.",
+            "In {}{} a gap closes, with up to {} impacts at a level.",
             counted(closed, "run"),
+            match ended {
+                0 => String::new(),
+                _ => format!(
+                    " of the {} that neither failed nor collapsed",
+                    result.rows - ended
+                ),
+            },
             number(
                 "maximum impacts",
                 1.0,
@@ -168,7 +193,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         let from = format!("maximum {name}");
         let most_shown = number(&from, factor, &figures(factor * most));
         points.push(format!(
-            "The {} is at most {} {}{}{}.",
+            "The {} is at most {} {}{}{}{}.",
             quantity
                 .long_name
                 .replace("maximum ", "peak ")
@@ -179,9 +204,13 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
             unit,
             at.map_or(String::new(), |at| format!(", at {}", escaped(&at))),
             row.map_or(String::new(), |row| format!(
-                " in row {} of the result",
-                row + 1
+                " in run {}",
+                runs.numbers[row]
             )),
+            match runs.collapsed.len() {
+                0 => "",
+                _ => "; of runs that collapsed it is not known",
+            },
         ));
     }
     points
@@ -308,19 +337,28 @@ fn statistics(result: &ResultReader, runs: &Runs) -> String {
     }
     columns_shown.push(Column::count_of("runs", "known *"));
     out.push_str(&table("Of the run", &columns_shown, rows));
-    out + &note(
-        "Runs: those in which the quantity has a value; a time of first contact, for one, is of runs with contact.",
-    )
+    let collapsed = match runs.collapsed.len() {
+        0 => String::new(),
+        n => format!(
+            " {} collapsed, of which only the isolated demand is known: all other minima, medians and maxima are of the runs that stood.",
+            counted(n, "run")
+        ),
+    };
+    out + &note(&format!(
+        "Runs: those in which the quantity has a value; a time of first contact, for one, is of runs with contact.{collapsed}"
+    ))
 }
 
 /// Minimum, median and maximum of a column, and how many runs have a value.
 fn cells_of(values: &[f64], quantity: &Quantity) -> [String; 4] {
     let (factor, _) = unit_of(quantity.unit);
-    let mut known: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    // Demands of buildings that collapse by themselves are infinite, and so known.
+    let mut known: Vec<f64> = values.iter().copied().filter(|x| !x.is_nan()).collect();
     known.sort_by(f64::total_cmp);
     let [least, most] = [known.first(), known.last()].map(|x| x.copied().unwrap_or(f64::NAN));
     let shown = |x: f64| match quantity.name {
         "impacts" if x.fract() == 0.0 => x.to_string(),
+        _ if x == f64::INFINITY => "infinite".to_owned(),
         _ => figures(factor * x),
     };
     [
@@ -362,7 +400,10 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
             let (factor, _) = unit_of(quantity.unit);
             let of_row = |row: &usize| {
                 let values = found.iter().map(|c| runs.values[*c][*row]);
-                factor * values.fold(f64::NAN, f64::max)
+                match runs.fell[*row] {
+                    true => f64::INFINITY,
+                    false => factor * values.fold(f64::NAN, f64::max),
+                }
             };
             let curve = |name: &str, part: f64| Curve {
                 name: name.to_owned(),
@@ -370,10 +411,11 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
                     .iter()
                     .filter_map(|(x, rows)| {
                         let mut known: Vec<f64> =
-                            rows.iter().map(of_row).filter(|y| y.is_finite()).collect();
+                            rows.iter().map(of_row).filter(|y| !y.is_nan()).collect();
                         known.sort_by(f64::total_cmp);
                         let place = (part * known.len().saturating_sub(1) as f64).round() as usize;
-                        known.get(place).map(|y| (scale * x, *y))
+                        let y = known.get(place).filter(|y| y.is_finite());
+                        y.map(|y| (scale * x, *y))
                     })
                     .collect(),
             };
@@ -399,6 +441,11 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
         }
         let words = format!("Peaks of the runs over {}", coordinate.long_name);
         out.push_str(&figure(&figure_of_size(&panels, SIZE), &words));
+    }
+    if !out.is_empty() && !runs.collapsed.is_empty() {
+        out.push_str(&note(
+            "Runs that collapsed count as above everything: a curve has no point where its share of the runs lies among them.",
+        ));
     }
     Ok(out)
 }

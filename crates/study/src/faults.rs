@@ -17,6 +17,7 @@ use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
 use pounding_hysteresis::help_among_gaps;
 use pounding_time_history::TimeHistoryError;
 
+use crate::case_text::root_key;
 use crate::gap_check::unknown_words;
 
 /// Buildings of more storeys take too long to be looked at for the sake of a message alone.
@@ -71,6 +72,22 @@ fn parse_case_of(
     own_record: bool,
     files: Option<&GivenFiles>,
 ) -> Result<Case, CaseError> {
+    if let Some(span) = root_key(
+        source,
+        &["variable", "case"],
+        &["building", "ground_motion"],
+    ) {
+        let file = path.display().to_string();
+        let message = "this is a study, not a case";
+        let help = "give it to `pounding sweep`, or with [ida] to `pounding ida`; the case is what it names as `case`";
+        return Err(CaseError::new(
+            &file,
+            source,
+            span,
+            message,
+            Some(help.to_owned()),
+        ));
+    }
     let mut case = Case::parse_or_draft(source, path).map_err(|refusal| {
         let more = refusal.draft.map(|mut draft| {
             draft.case.given_files = files.cloned();

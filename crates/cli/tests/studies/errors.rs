@@ -333,3 +333,35 @@ fn contradictions_are_told() {
     bench.study(&format!("case = \"case.toml\"\n{records}{scale}"));
     bench.text("sweep study.toml -o out.h5");
 }
+
+/// A case in the place of a study, and a study in that of a case, are one mistake each; what is
+/// wrong with a hazard curve is said once.
+#[test]
+fn the_other_kind_of_file_leads_to_its_command() {
+    let bench =
+        Bench::new("case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [1]\n");
+    for (command, place, said) in [
+        ("sweep case.toml", "case.toml:", "give it to `pounding run`"),
+        ("ida case.toml", "case.toml:", "this is a case, not a study"),
+        (
+            "run study.toml --no-output",
+            "study.toml:",
+            "`pounding sweep`",
+        ),
+        (
+            "check study.toml",
+            "study.toml:",
+            "this is a study, not a case",
+        ),
+    ] {
+        let told = bench.complaint(command, 2);
+        assert!(told.contains(said) && told.contains(place), "{told}");
+        assert!(!told.contains("unknown key"), "{told}");
+    }
+    bench.study("case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.2 g\"]\n[ida]\nhazard = [[1, 1e-3], [2, 1e-2]]\n");
+    let told = bench.complaint("ida study.toml", 2);
+    assert!(
+        told.contains("the hazard curve: intensities must rise"),
+        "{told}"
+    );
+}

@@ -197,6 +197,18 @@ pub(crate) fn building_names(source: &str) -> Vec<String> {
     names.map(Option::unwrap_or_default).collect()
 }
 
+/// Where the first of these keys stands at the root of a text that is TOML and has none of the
+/// others there: what kind of file it is.
+pub(crate) fn root_key(source: &str, keys: &[&str], others: &[&str]) -> Option<Range<usize>> {
+    let tree = DeTable::parse(source).ok()?;
+    let root = tree.get_ref();
+    if others.iter().any(|key| root.contains_key(*key)) {
+        return None;
+    }
+    let mut found = keys.iter().filter_map(|key| root.get_key_value(*key));
+    found.next().map(|(key, _)| key.span())
+}
+
 /// A case without all that says which record to read and how, but for some keys, and with these
 /// keys, as TOML, instead.
 pub(crate) fn with_motion(

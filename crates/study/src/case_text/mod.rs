@@ -9,7 +9,9 @@ mod identity;
 mod path;
 mod variant;
 
-pub(crate) use edits::{Edit, Entry, Lost, apply, building_names, entry, with_model, with_motion};
+pub(crate) use edits::{
+    Edit, Entry, Lost, apply, building_names, entry, root_key, with_model, with_motion,
+};
 pub(crate) use identity::{Lines, canonical};
 pub(crate) use path::Path;
 pub(crate) use variant::Variant;

@@ -17,6 +17,7 @@ use serde::de::{Deserializer, SeqAccess, Visitor};
 use super::context::Context;
 use super::values::{Numbers, Whole, all, not_both};
 use super::{IntensityMeasure, hazard_file};
+use crate::error::StudyError;
 
 /// A demand whose exceedance is asked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
@@ -616,7 +617,11 @@ fn hazard_curve(
     };
     measure?;
     let curve = HazardCurve::new(points);
-    reader.errors.keep(curve.map_err(|e| wrong(&e.to_string())))
+    let wrong = |error| match error {
+        StudyError::Evaluation { reason, .. } => wrong(&reason),
+        other => wrong(&other.to_string()),
+    };
+    reader.errors.keep(curve.map_err(wrong))
 }
 
 impl HazardCurve {
@@ -625,8 +630,8 @@ impl HazardCurve {
     /// # Errors
     /// Fewer than two points, values that are not positive, intensities that do not rise
     /// or frequencies that do not fall.
-    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, crate::StudyError> {
-        let wrong = |reason: &str| crate::StudyError::Evaluation {
+    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, StudyError> {
+        let wrong = |reason: &str| StudyError::Evaluation {
             what: "hazard curve",
             reason: reason.to_owned(),
         };

@@ -15,6 +15,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::de::DeTable;
 
+use crate::case_text::root_key;
 use crate::faults::{parse_case, with_all};
 
 use super::context::{Base, Context};
@@ -153,6 +154,19 @@ pub fn study_schema() -> serde_json::Value {
 
 pub(super) fn study(source: &str, file: &Path) -> Result<Study, StudyError> {
     let name = file.display().to_string();
+    if let Some(span) = root_key(
+        source,
+        &["building", "ground_motion"],
+        &["variable", "case"],
+    ) {
+        let message = "this is a case, not a study";
+        let help = "give it to `pounding run`, `gap` or `compare`; a study names a case and what varies in it, see docs/reference/studies.md";
+        let error = CaseError::new(&name, source, span, message, Some(help.to_owned()));
+        return Err(StudyError::Text {
+            error: Box::new(error),
+            source_text: source.to_owned(),
+        });
+    }
     let errors = Errors::default();
     let reader = Reader {
         file: &name,

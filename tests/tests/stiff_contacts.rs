@@ -2,8 +2,13 @@
 //! be taken for the motion. Against the pair of order 8(5,3) in physical coordinates.
 #![allow(clippy::unwrap_used)]
 
+use std::sync::Arc;
+
 use pounding_gap_element::{ModelParameters, registry};
+use pounding_shear_building::{Damping, ShearBuilding};
 use pounding_time_history::{Floor, MethodChoice, Outcome, RunOptions, System, run};
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
 use verification::{single_storey, synthetic_motion};
 
 const DURATION: f64 = 3.0;
@@ -48,5 +53,96 @@ fn contacts_of_microseconds_are_followed() {
                 assert!((a / b - 1.0).abs() < 1e-6, "{place}: {a} {b}");
             }
         }
+    }
+}
+
+/// Models with laws in powers, damped throughout and in the approach alone, affine, and without closed form.
+const MODELS: [&str; 8] = [
+    "pant_2010",
+    "papi_toopchi_2022",
+    "jankowski_2005",
+    "exact_linear",
+    "muthukumar_desroches_2006",
+    "polycarpou_2013",
+    "anagnostopoulos_2004",
+    "lapshin_yurin_2016",
+];
+
+/// Two buildings of any mass and period, from a plate to a tower block.
+#[derive(Debug, Clone)]
+struct Pair {
+    /// Storeys, decimal logarithms of mass (kg) and of the first period (s), and damping ratio.
+    buildings: [(usize, f64, f64, f64); 2],
+    /// Width of the gap (m).
+    width: f64,
+    model: usize,
+    /// Decimal logarithm of the contact stiffness.
+    stiffness: f64,
+    restitution: f64,
+}
+
+fn pairs() -> impl Strategy<Value = Pair> {
+    let building = || (1_usize..5, 3.0..8.0_f64, -1.7..1.0_f64, 0.0..0.3_f64);
+    let width = prop_oneof![Just(0.0), 1e-5..0.1_f64];
+    let contact = (0..MODELS.len(), 6.0..13.0_f64, 0.05..0.95_f64);
+    (building(), building(), width, contact).prop_map(|(a, b, width, contact)| Pair {
+        buildings: [a, b],
+        width,
+        model: contact.0,
+        stiffness: contact.1,
+        restitution: contact.2,
+    })
+}
+
+fn building(name: &str, (storeys, mass, period, ratio): (usize, f64, f64, f64)) -> ShearBuilding {
+    let (mass, omega) = (
+        10_f64.powf(mass),
+        std::f64::consts::TAU / 10_f64.powf(period),
+    );
+    let angle = std::f64::consts::PI / (2.0 * (2.0 * storeys as f64 + 1.0));
+    let stiffness = mass * (omega / (2.0 * angle.sin())).powi(2);
+    let damping = Damping::Rayleigh {
+        alpha: ratio * omega,
+        beta: ratio / omega,
+    };
+    let all = |x: f64| vec![x; storeys];
+    ShearBuilding::new(
+        name.to_owned(),
+        all(mass),
+        all(stiffness),
+        all(3.0),
+        damping,
+    )
+    .unwrap()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 48,
+        rng_seed: RngSeed::Fixed(1940),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    })]
+
+    /// Whatever stands beside whatever is followed to the end, with a ledger that closes.
+    #[test]
+    fn pairs_of_any_mass_and_period_are_followed(pair in pairs()) {
+        let buildings = [building("a", pair.buildings[0]), building("b", pair.buildings[1])];
+        let levels = pair.buildings[0].0.min(pair.buildings[1].0);
+        let mut system =
+            System::new(buildings.map(Arc::new).into(), synthetic_motion().unwrap());
+        let parameters = ModelParameters::from_pairs(&[
+            ("stiffness", 10_f64.powf(pair.stiffness)),
+            ("restitution", pair.restitution),
+        ]);
+        let model = registry::build(MODELS[pair.model], &parameters).unwrap();
+        let model: Arc<dyn pounding_gap_element::ImpactModel> = model.into();
+        let levels = (0..levels).map(|s| {
+            (Floor::Storey(0, s), Floor::Storey(1, s), pair.width, Arc::clone(&model))
+        });
+        let names = ["a".to_owned(), "b".to_owned()];
+        system.add_gap("a-b", names, levels.collect()).unwrap();
+        let outcome = go(&system, MethodChoice::EventDriven { relative_tolerance: 1e-10 });
+        prop_assert!(outcome.energy.residual_ratio.abs() < 1e-6);
     }
 }

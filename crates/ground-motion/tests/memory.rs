@@ -61,7 +61,12 @@ fn child() {
     let Some(before) = status("VmRSS:") else {
         return;
     };
-    let chosen = read_bytes("file", &bytes, &options).is_ok();
+    let mut chosen = read_bytes("file", &bytes, &options).is_ok();
+    // Values that are no counts have no sensitivity, which is found out once they are read.
+    if !chosen {
+        options.sensitivity = None;
+        chosen = read_bytes("file", &bytes, &options).is_ok();
+    }
     let used = status("VmHWM:").unwrap().saturating_sub(before);
     // Several components without a choice between them are read all the same.
     let read = chosen || read_all_bytes("file", &bytes, &options).is_ok();

@@ -29,6 +29,7 @@ mod version;
 
 use std::ffi::OsString;
 use std::io::Write;
+use std::path::PathBuf;
 
 use clap::{CommandFactory, FromArgMatches};
 use pounding_files::FileUse;
@@ -89,6 +90,13 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(()) => 0,
         Err(failure) => failure.report(),
     }
+}
+
+/// The same within a program that interprets another one, to which this process gave its own arguments.
+#[must_use]
+pub fn run_within(interpreter: PathBuf, arguments: impl IntoIterator<Item = OsString>) -> u8 {
+    separate::take_program(interpreter);
+    run(arguments)
 }
 
 /// The version, or what a command answers.

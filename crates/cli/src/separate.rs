@@ -18,7 +18,6 @@ use pounding_files::{FileUse, remove_left_by};
 use pounding_results::watch::{Watcher, watch};
 
 use crate::arguments::ColorChoice;
-use crate::color;
 use crate::failure::Failure;
 
 /// The hidden option that tells the child that it is one.
@@ -51,8 +50,16 @@ const OWN_CODES: std::ops::RangeInclusive<i32> = 0..=6;
 
 /// Files that this process reads for another one, in the order of its arguments.
 static FILES: OnceLock<Vec<PathBuf>> = OnceLock::new();
+/// The program that a child is, where it is not the file of this process.
+static PROGRAM: OnceLock<PathBuf> = OnceLock::new();
 /// The child of this process.
 static CHILD: Mutex<Option<u32>> = Mutex::new(None);
+
+/// Makes children of this program, which takes the arguments of this process: an interpreter, whose file
+/// may be a link that says where its packages are.
+pub fn take_program(program: PathBuf) {
+    let _ = PROGRAM.set(program);
+}
 
 /// Who reads.
 pub enum Reading {
@@ -111,16 +118,18 @@ pub fn by_child(
         return Ok(Ok(Reading::Here(WithoutChecksum::Refuse)));
     }
     let failed = |e: std::io::Error| Failure::output(&e, "a process that reads");
-    let program = std::env::current_exe().map_err(failed)?;
+    let program = match PROGRAM.get() {
+        Some(program) => program.clone(),
+        None => std::env::current_exe().map_err(failed)?,
+    };
     let given: Vec<OsString> = std::env::args_os().skip(1).collect();
     let mut command = Command::new(program);
+    command.args(&given).arg(format!("--{OPTION}")).args(more);
     // Its errors are shown by this process, as the terminal of this one can.
-    if color::among(&given) == ColorChoice::Auto
-        && ColorChoice::Auto.is_on(std::io::stderr().is_terminal())
-    {
+    let colored = |a: &OsString| a.to_string_lossy().starts_with("--color");
+    if !given.iter().any(colored) && ColorChoice::Auto.is_on(std::io::stderr().is_terminal()) {
         command.arg("--color=always");
     }
-    command.args(given).arg(format!("--{OPTION}")).args(more);
     let Ended {
         ending,
         said,

@@ -13,13 +13,16 @@ mod values;
 mod watch;
 
 use std::ffi::OsString;
+use std::path::PathBuf;
 
 use pyo3::prelude::*;
 
 /// Does what the command line does with these arguments, and returns its exit code.
 #[pyfunction]
-fn command_line(py: Python<'_>, arguments: Vec<OsString>) -> u8 {
-    py.detach(|| pounding_cli::run(std::iter::once("pounding".into()).chain(arguments)))
+fn command_line(py: Python<'_>, arguments: Vec<OsString>) -> PyResult<u8> {
+    let interpreter: PathBuf = py.import("sys")?.getattr("executable")?.extract()?;
+    let arguments = std::iter::once("pounding".into()).chain(arguments);
+    Ok(py.detach(|| pounding_cli::run_within(interpreter, arguments)))
 }
 
 /// The module.

@@ -164,6 +164,42 @@ pub fn single_storey(name: &str, mass: f64, stiffness: f64) -> Arc<ShearBuilding
     }
 }
 
+/// A building of equal storeys with this first period (s), and this damping ratio of it.
+#[derive(Debug, Clone, Copy)]
+pub struct EqualStoreys {
+    /// Number of storeys.
+    pub storeys: usize,
+    /// Mass of each (kg).
+    pub mass: f64,
+    /// First period (s).
+    pub period: f64,
+    /// Damping ratio of the first mode, half of it from the masses.
+    pub ratio: f64,
+}
+
+impl EqualStoreys {
+    /// The building.
+    ///
+    /// # Panics
+    /// If the numbers are not possible.
+    #[must_use]
+    pub fn building(self, name: &str) -> ShearBuilding {
+        let angle = std::f64::consts::PI / (2.0 * (2.0 * self.storeys as f64 + 1.0));
+        let omega = std::f64::consts::TAU / self.period;
+        let stiffness = self.mass * (omega / (2.0 * angle.sin())).powi(2);
+        let damping = Damping::Rayleigh {
+            alpha: self.ratio * omega,
+            beta: self.ratio / omega,
+        };
+        let all = |x: f64| vec![x; self.storeys];
+        let [mass, stiffness, height] = [self.mass, stiffness, 3.0].map(all);
+        match ShearBuilding::new(name.to_owned(), mass, stiffness, height, damping) {
+            Ok(building) => building,
+            Err(error) => panic!("{error}"),
+        }
+    }
+}
+
 /// The rigid impact model with this restitution.
 ///
 /// # Panics

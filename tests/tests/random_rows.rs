@@ -8,13 +8,13 @@
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, SeparationRule, registry};
-use pounding_shear_building::{Damping, ShearBuilding};
+use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{
     Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run,
 };
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use verification::synthetic_motion;
+use verification::{EqualStoreys, synthetic_motion};
 
 const DURATION: f64 = 6.0;
 /// Affine, powers of the penetration, powers with a dashpot, with a change of phase, and one
@@ -85,22 +85,13 @@ fn rows(
 }
 
 fn building(index: usize, (storeys, period, ratio): (usize, f64, f64)) -> ShearBuilding {
-    const MASS: f64 = 4.0e4;
-    // The first period of a uniform chain.
-    let angle = std::f64::consts::PI / (2.0 * (2.0 * storeys as f64 + 1.0));
-    let omega = std::f64::consts::TAU / period;
-    let stiffness = MASS * (omega / (2.0 * angle.sin())).powi(2);
-    ShearBuilding::new(
-        format!("b{index}"),
-        vec![MASS; storeys],
-        vec![stiffness; storeys],
-        vec![3.0; storeys],
-        Damping::Rayleigh {
-            alpha: ratio * omega,
-            beta: ratio / omega,
-        },
-    )
-    .unwrap()
+    let equal = EqualStoreys {
+        storeys,
+        mass: 4.0e4,
+        period,
+        ratio,
+    };
+    equal.building(&format!("b{index}"))
 }
 
 impl Row {

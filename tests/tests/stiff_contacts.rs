@@ -5,11 +5,11 @@
 use std::sync::Arc;
 
 use pounding_gap_element::{ModelParameters, registry};
-use pounding_shear_building::{Damping, ShearBuilding};
+use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{Floor, MethodChoice, Outcome, RunOptions, System, run};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use verification::{single_storey, synthetic_motion};
+use verification::{EqualStoreys, single_storey, synthetic_motion};
 
 const DURATION: f64 = 3.0;
 
@@ -95,25 +95,13 @@ fn pairs() -> impl Strategy<Value = Pair> {
 }
 
 fn building(name: &str, (storeys, mass, period, ratio): (usize, f64, f64, f64)) -> ShearBuilding {
-    let (mass, omega) = (
-        10_f64.powf(mass),
-        std::f64::consts::TAU / 10_f64.powf(period),
-    );
-    let angle = std::f64::consts::PI / (2.0 * (2.0 * storeys as f64 + 1.0));
-    let stiffness = mass * (omega / (2.0 * angle.sin())).powi(2);
-    let damping = Damping::Rayleigh {
-        alpha: ratio * omega,
-        beta: ratio / omega,
+    let equal = EqualStoreys {
+        storeys,
+        mass: 10_f64.powf(mass),
+        period: 10_f64.powf(period),
+        ratio,
     };
-    let all = |x: f64| vec![x; storeys];
-    ShearBuilding::new(
-        name.to_owned(),
-        all(mass),
-        all(stiffness),
-        all(3.0),
-        damping,
-    )
-    .unwrap()
+    equal.building(name)
 }
 
 proptest! {

@@ -41,7 +41,7 @@ pub fn shown(text: &str) -> Cow<'_, str> {
 /// The source of an excerpt, with every character at the place where it was: [`rendered`] shows it.
 pub fn source(text: String) -> String {
     match text.contains(ESCAPE) {
-        true => text.replace(ESCAPE, "\u{1a}"),
+        true => text.replace(ESCAPE, SUBSTITUTE.encode_utf8(&mut [0; 4])),
         false => text,
     }
 }

@@ -11,8 +11,8 @@ use crate::error::StudyError;
 /// A case that can be assembled.
 pub(super) struct Base {
     pub case: Case,
-    /// First period of each building (s).
-    pub first_periods: Vec<f64>,
+    /// Fundamental period of each building along the row (s).
+    pub fundamental_periods: Vec<f64>,
     /// Names of the contact levels of all gaps, in the order of results.
     pub levels: Vec<String>,
 }

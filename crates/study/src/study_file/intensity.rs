@@ -184,7 +184,7 @@ fn periods(
     }
     let buildings = building.stated()?.map(|names| names.value.into_list());
     let at = buildings.map(|names| all(names.iter().map(|name| context.building(reader, name))));
-    let first = context.base.as_ref().map(|base| &base.first_periods);
+    let first = context.base.as_ref().map(|base| &base.fundamental_periods);
     match at {
         Some(at) => {
             let (at, first) = at.zip(first)?;

@@ -307,14 +307,14 @@ fn base(source: &str, path: &Path, own_record: bool) -> Result<Base, StudyError>
         let building: &pounding_shear_building::ShearBuilding = b;
         building.modes().period[building.modes().fundamental()]
     };
-    let first_periods = system.buildings().iter().map(first).collect();
+    let fundamental_periods = system.buildings().iter().map(first).collect();
     let levels = system.gaps().iter().flat_map(|gap| {
         let levels = system.levels_of(gap).iter();
         levels.map(|level| format!("{} {}", gap.name, level.place.label()))
     });
     Ok(Base {
         case,
-        first_periods,
+        fundamental_periods,
         levels: levels.collect(),
     })
 }

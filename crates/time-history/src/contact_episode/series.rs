@@ -202,10 +202,6 @@ impl Series {
         for touch in &self.touches {
             for k in [self.last - 1, self.last] {
                 let term = touch.delta[k].abs();
-                // Terms that overflow, as those of steps far too long do, reach nowhere.
-                if !(term.is_finite() && touch.force[k].is_finite()) {
-                    return 0.0;
-                }
                 if term > allowed {
                     reach = reach.min(libm::pow(allowed / term, 1.0 / k as f64));
                 }

@@ -209,9 +209,7 @@ impl StepLength {
 }
 
 fn factor(error: f64) -> f64 {
-    if error.is_nan() {
-        FACTORS[0]
-    } else if error > 0.0 {
+    if error > 0.0 {
         (0.9 / error.sqrt().sqrt().sqrt()).clamp(FACTORS[0], FACTORS[1])
     } else {
         FACTORS[1]

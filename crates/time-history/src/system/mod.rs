@@ -315,31 +315,17 @@ impl System {
             self.levels.push(level);
         }
         let own = &self.levels[first_level..];
-        let jumps = |l: &&ContactLevel| l.model.rigid_restitution().is_some();
-        let turned = |l: &&ContactLevel| l.place.across.is_some();
-        let mut rigid = own.iter().filter(jumps).filter(turned);
-        if let Some(level) = rigid.find(|l| {
-            let same = |other: &&ContactLevel| other.place.storeys == l.place.storeys;
-            own.iter().filter(same).count() > 1
-        }) {
-            return Err(TimeHistoryError::JumpsAtPoints {
-                gap: name.to_owned(),
-                model: level.model.descriptor().name,
-            });
-        }
-        let sticks = |l: &&ContactLevel| {
-            let mut transitions = l.model.transitions(Phase::Approach).iter();
-            transitions.any(|t| matches!(t.target, Target::StickOrSlip))
-        };
-        for level in own.iter().filter(turned).filter(sticks) {
+        for level in own.iter().filter(|l| l.place.across.is_some()) {
             let same = |other: &&ContactLevel| other.place.storeys == level.place.storeys;
             let points = own.iter().filter(same).count();
-            if points > 2 {
-                return Err(TimeHistoryError::FrictionAtPoints {
-                    gap: name.to_owned(),
-                    model: level.model.descriptor().name,
-                    points,
-                });
+            let gap = name.to_owned();
+            let model = level.model.descriptor().name;
+            let mut transitions = level.model.transitions(Phase::Approach).iter();
+            if level.model.rigid_restitution().is_some() && points > 1 {
+                return Err(TimeHistoryError::JumpsAtPoints { gap, model });
+            }
+            if transitions.any(|t| matches!(t.target, Target::StickOrSlip)) && points > 2 {
+                return Err(TimeHistoryError::FrictionAtPoints { gap, model, points });
             }
         }
         self.gaps.push(Gap {

@@ -484,7 +484,7 @@ fn the_level_of_the_least_margin_governs() {
     ] {
         let list = widths.map(|width| format!("\"{width} mm\"")).join(", ");
         let folder = example_with(&format!("[{list}]"));
-        let arguments = ["--points", "0", "--report", "page.html"];
+        let arguments = ["--points", "3", "--report", "page.html"];
         let output = gap_in(folder.path(), &arguments);
         let shown = text(&output.stdout);
         assert_eq!(
@@ -517,6 +517,10 @@ fn the_level_of_the_least_margin_governs() {
         assert!(page.contains(&format!("Level {level}-{level} governs: ")));
         assert!(page.contains(" mm at all levels is needed so that no record closes it"));
         assert!(!page.contains("minimum width of its levels"));
+        // A width of the sweep is that of all levels, the one that is provided is not.
+        assert!(page.contains(&format!(
+            "provided at level {level}-{level}: {provided}.0 mm"
+        )));
     }
 }
 

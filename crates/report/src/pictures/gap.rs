@@ -65,7 +65,12 @@ fn limits(check: &GapCheck, varied: Option<&str>) -> Vec<Limit> {
         });
     };
     let level = &gap.levels[gap.governing.level];
-    add("provided".to_owned(), level.width, "");
+    // A width of the sweep is that of all levels.
+    let provided = match gap.of_one_width() {
+        true => "provided".to_owned(),
+        false => format!("provided at level {}:", level.place.label()),
+    };
+    add(provided, level.width, "");
     let by_code = gap.code.as_ref().map(|code| {
         let widths = code.deciding().filter_map(|case| case.governing());
         // Readings of a disputed rule are no required width.

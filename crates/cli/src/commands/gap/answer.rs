@@ -118,14 +118,14 @@ fn required(check: &GapCheck, gap: &GapReport) -> String {
     text
 }
 
-/// Where the demand is greatest, and what is provided there, if it is the same at all levels.
+/// Where the demand is the maximum, and what is provided there, if it is the same at all levels.
 fn provided(gap: &GapReport) -> String {
     if !gap.of_one_width() {
         return String::new();
     }
     let level = &gap.levels[gap.governing.level];
     format!(
-        "  provided {:.1} mm at level {}, where the demand is greatest\n",
+        "  provided {:.1} mm at level {}, where the demand is the maximum\n",
         level.width * 1e3,
         level.place.label()
     )

@@ -12,6 +12,8 @@ use proptest::test_runner::RngSeed;
 use verification::{EqualStoreys, single_storey, synthetic_motion};
 
 const DURATION: f64 = 3.0;
+/// As long (s) the light frame is held.
+const HELD: f64 = 3.0;
 
 /// A building as good as free beside a wall that it touches at rest.
 fn beside_a_wall(model: &str, stiffness: f64) -> System {
@@ -133,4 +135,53 @@ proptest! {
         let outcome = go(&system, MethodChoice::EventDriven { relative_tolerance: 1e-10 });
         prop_assert!(outcome.energy.residual_ratio.abs() < 1e-6);
     }
+}
+
+/// A light frame between two heavy buildings that hold it: stability, not accuracy, limits the steps. The step control
+/// must find that limit, and neither run into it before every step nor try a series that reaches a thousandth of a sample.
+#[test]
+fn steps_that_stability_limits_are_seldom_rejected() {
+    let heavy = building("a", (3, 6.477, -0.678, 0.18));
+    let light = building("b", (2, 2.494, -1.013, 0.22));
+    let other = building("c", (4, 6.968, -0.214, 0.0));
+    let buildings = [heavy, light, other].map(Arc::new);
+    let mut system = System::new(buildings.into(), synthetic_motion().unwrap());
+    for (left, name, restitution) in [(0, "hu_guo_2015", 0.24), (1, "hertz_1882", 0.91)] {
+        let descriptor = registry::find(name).unwrap();
+        let parameters = descriptor.example_parameters(restitution);
+        let model = registry::build(name, &parameters).unwrap();
+        let model: Arc<dyn pounding_gap_element::ImpactModel> = model.into();
+        let level = |s| {
+            (
+                Floor::Storey(left, s),
+                Floor::Storey(left + 1, s),
+                0.0,
+                Arc::clone(&model),
+            )
+        };
+        let names = [left, left + 1].map(|b| ["a", "b", "c"][b].to_owned());
+        system
+            .add_gap(&names.join("-"), names, vec![level(0), level(1)])
+            .unwrap();
+    }
+    let options = RunOptions {
+        method: MethodChoice::EventDriven {
+            relative_tolerance: 1e-9,
+        },
+        duration: Some(HELD),
+        energy_tolerance: None,
+    };
+    let outcome = run(&system, &options, &mut [], &mut |_| {}).unwrap();
+    let statistics = outcome.statistics;
+    // One step is a thousandth of a sample.
+    assert!(statistics.steps > 100_000, "{statistics:?}");
+    assert!(
+        statistics.rejected < statistics.steps / 20,
+        "{statistics:?}"
+    );
+    // Twelve evaluations a step, and what is rejected.
+    assert!(
+        statistics.evaluations < 14 * statistics.steps,
+        "{statistics:?}"
+    );
 }

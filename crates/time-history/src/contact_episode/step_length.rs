@@ -15,6 +15,11 @@ pub(crate) struct StepLength {
     since: Option<f64>,
     /// Step (s) in the variable of the present start.
     growing: f64,
+    /// Part of the even steps tried lately that were rejected, and whether stability limits them.
+    rejections: f64,
+    limited: bool,
+    /// Series of powers in a row that did not reach far, and the steps of the pair since.
+    short_series: u32,
 }
 
 /// A step to try.
@@ -44,6 +49,16 @@ const FACTORS: [f64; 2] = [0.2, 4.0];
 const CAREFUL: f64 = 1.2;
 /// Growth of steps in the variable of a start.
 const GROWING: f64 = 1.5;
+/// After so many series that did not reach far, one is tried every so many steps.
+const SHORT_SERIES: u32 = 16;
+/// Weight of one even step in the part that was rejected lately.
+const LATELY: f64 = 1.0 / 16.0;
+/// Where more of them are rejected than the greater part, and until it is less than the smaller
+/// one, stability limits the steps: the error of one that is short enough says that a step several
+/// times as long will do, which is rejected.
+const REJECTIONS: [f64; 2] = [0.05, 0.4];
+/// Growth of such steps: they come back to the limit slowly.
+const LIMITED: f64 = 1.02;
 /// A penetration (m) as small as this has just begun.
 const CLOSED: f64 = 1.0e-15;
 /// What is nearer than this (s) is there.
@@ -58,6 +73,9 @@ impl StepLength {
             first: GUESS,
             since: None,
             growing: GUESS,
+            rejections: 0.0,
+            limited: false,
+            short_series: 0,
         }
     }
 
@@ -116,6 +134,9 @@ impl StepLength {
         penetrations: impl Iterator<Item = (f64, f64)>,
         rest: f64,
     ) -> Option<f64> {
+        if self.short_series > SHORT_SERIES && !self.short_series.is_multiple_of(SHORT_SERIES) {
+            return None;
+        }
         let mut longest = rest;
         for (delta, rate) in penetrations {
             if delta <= 0.0 {
@@ -137,8 +158,16 @@ impl StepLength {
 
     /// A series was taken over `length` (s).
     pub(crate) fn accept_series(&mut self, length: f64) {
+        self.short_series = 0;
         self.since = None;
         self.next = self.next.max(length);
+    }
+
+    /// A series did not reach far.
+    pub(crate) fn refuse_series(&mut self) {
+        if self.short_series < SHORT_SERIES {
+            self.short_series += 1;
+        }
     }
 
     /// A step of this error was rejected; returns the shorter one to try.
@@ -157,6 +186,7 @@ impl StepLength {
                 Proposal { length, ..*tried }
             }
             Pace::Plain | Pace::End(_) => {
+                self.note_even_step(1.0);
                 self.next = factor * tried.length;
                 Proposal {
                     pace: Pace::Plain,
@@ -169,6 +199,9 @@ impl StepLength {
 
     /// A step was taken over `length` (s), of the `tried` one or cut short.
     pub(crate) fn accept(&mut self, tried: &Proposal, length: f64, error: f64) {
+        if self.short_series >= SHORT_SERIES {
+            self.short_series = self.short_series.wrapping_add(1).max(SHORT_SERIES);
+        }
         let factor = factor(error);
         match tried.pace {
             Pace::Start => {
@@ -195,6 +228,11 @@ impl StepLength {
                 }
             }
             Pace::Plain => {
+                self.note_even_step(0.0);
+                let factor = match self.limited {
+                    true => factor.min(LIMITED),
+                    false => factor,
+                };
                 let wanted = factor * tried.length;
                 // A step cut short says nothing against a longer one.
                 self.next = if tried.length < self.next {
@@ -205,6 +243,15 @@ impl StepLength {
             }
             Pace::End(_) => {}
         }
+    }
+}
+
+impl StepLength {
+    /// An even step was rejected (1) or taken (0).
+    fn note_even_step(&mut self, rejected: f64) {
+        self.rejections += LATELY * (rejected - self.rejections);
+        let [leave, enter] = REJECTIONS;
+        self.limited = self.rejections > if self.limited { leave } else { enter };
     }
 }
 

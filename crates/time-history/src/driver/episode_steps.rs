@@ -73,6 +73,7 @@ impl Driver<'_> {
         if !e.affine {
             let reach = e.series.reach(SERIES_SIZE * e.tolerance);
             if reach < FAR_ENOUGH {
+                e.lengths.refuse_series();
                 return Ok(None);
             }
             if reach < 1.0 {

@@ -67,6 +67,13 @@ pub fn of_check(error: CheckError, case: &Case) -> Failure {
         CheckError::Record { source, record } => {
             Failure::assembly(*source, "").within(&format!("record {record}"))
         }
+        CheckError::AllCollapse {
+            records,
+            record,
+            source,
+        } => Failure::assembly(*source, "").within(&format!(
+            "under all {records} records a building collapses without contact; record {record}"
+        )),
         error @ CheckError::OwnLaw { .. } => Failure::computation(error.to_string(), help),
         error @ CheckError::Unwritten { .. } => Failure::unwritten(error.to_string(), help),
         error => Failure::input(error.to_string(), help),

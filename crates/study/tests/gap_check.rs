@@ -87,7 +87,7 @@ fn target_probability() {
     let gap = &first.gaps[0];
     assert_eq!(gap.demand.len(), 2);
     let lesser = gap.demand[0].min(gap.demand[1]);
-    assert_eq!(gap.required.by_count, lesser);
+    assert_eq!(gap.required.by_count, Some(lesser));
     let fit = gap.required.lognormal.as_ref().unwrap();
     let mean = (gap.demand[0] * gap.demand[1]).sqrt();
     assert!((fit.width / mean - 1.0).abs() < 1.0e-9, "median of two");

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import os
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -209,11 +210,17 @@ class GapCheck:
 
     @property
     def demand(self) -> pandas.DataFrame:
-        """The width (m) that each record would just not close, a column for each gap."""
+        """The width (m) that each record would just not close, a column for each gap.
+
+        Infinite under records, the last ones, that bring a building to collapse without
+        contact.
+        """
         import pandas as pd
 
-        names = [record["name"] for record in self.answer["records"]]
-        columns = {gap["name"]: gap["demand"] for gap in self.answer["gaps"]}
+        collapsed = self.answer["collapsed"]
+        names = [record["name"] for record in [*self.answer["records"], *collapsed]]
+        infinite = [math.inf] * len(collapsed)
+        columns = {gap["name"]: gap["demand"] + infinite for gap in self.answer["gaps"]}
         return pd.DataFrame(columns, index=pd.Index(names, name="record"))
 
     @property

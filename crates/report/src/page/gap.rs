@@ -18,6 +18,7 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
     let answer = Answer(answer);
     let gaps = answer.list("/gaps").len();
     let mut points: Vec<String> = (0..gaps).flat_map(|g| verdict(answer, g)).collect();
+    points.extend(collapsed(answer));
     points.extend(failures(answer));
     let warned: Vec<String> = answer
         .list("/warnings")
@@ -168,13 +169,23 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     } else {
         points.push(format!("<strong>Gap {name} {}.</strong>", word(adequate)));
     }
-    let records = answer.list("/records").len();
+    let collapsed = answer.list("/collapsed").len();
+    let records = answer.list("/records").len() + collapsed;
     let allowed = answer.number(&at("required/allowed_contacts"), "") as usize;
     let governing = answer.at(&at("governing/level")).as_u64();
     let governing = governing.map_or(0, |level| level.saturating_sub(1));
+    let known = !answer.at(&at("required/by_count")).is_null();
+    let governs = match known {
+        false => String::new(),
+        true => format!(
+            " Level {} governs: {} mm are required there and {} mm are provided.",
+            answer.quote(&at(&format!("levels/{governing}/level"))),
+            answer.say(&at("governing/required"), 1.0e3),
+            answer.say(&at("governing/provided"), 1.0e3),
+        ),
+    };
     points.push(format!(
-        "{} of {} {} its buildings into contact; {} may. Level {} governs: {} mm are required there and {} mm \
-         are provided.",
+        "{} of {} {} its buildings into contact; {} may.{governs}",
         answer.at(&at("records_in_contact")),
         counted(records, "record"),
         agreeing(&records, "brings", "bring"),
@@ -182,9 +193,6 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             0 => "none".to_owned(),
             some => some.to_string(),
         },
-        answer.quote(&at(&format!("levels/{governing}/level"))),
-        answer.say(&at("governing/required"), 1.0e3),
-        answer.say(&at("governing/provided"), 1.0e3),
     ));
     let driven = answer.at(&at("records_driven_by_neighbours")).as_u64();
     let driven = driven.filter(|count| *count > 0);
@@ -193,6 +201,13 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             "Under {count} of them only because another gap of the row closes: the widths here do not see that, make \
              the other gap wide enough first."
         ));
+    }
+    if !known {
+        points.push(format!(
+            "No width is enough: under {} a building collapses without contact.",
+            counted(collapsed, "record")
+        ));
+        return points;
     }
     let widths: Vec<_> = (answer.list(&at("levels")).iter())
         .map(|level| &level["width"])
@@ -258,6 +273,21 @@ fn taken(answer: Answer<'_>, of: &str) -> String {
     let others = answer.list(&format!("{of}/others")).len();
     parts.extend((0..others).map(|i| answer.quote(&format!("{of}/others/{i}"))));
     parts.join("; ")
+}
+
+/// The records under which a building collapses without contact.
+fn collapsed(answer: Answer<'_>) -> Vec<String> {
+    let records = answer.list("/collapsed").iter().map(|record| {
+        let text = |key: &str| escaped(record[key].as_str().unwrap_or_default());
+        format!(
+            "<strong>{} collapses without contact</strong> under {}: {}. No gap is wide enough for that: the record \
+             counts as one that brings the buildings into contact, and all else here is of the other records.",
+            text("building"),
+            text("name"),
+            text("diagnosis"),
+        )
+    });
+    records.collect()
 }
 
 fn failures(answer: Answer<'_>) -> Vec<String> {

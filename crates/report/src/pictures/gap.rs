@@ -81,11 +81,11 @@ fn limits(check: &GapCheck, varied: Option<&str>) -> Vec<Limit> {
     match by_code {
         Some((code, Some(width))) => add(format!("required by {code}"), width, "7 3"),
         Some((_, None)) => {}
-        None => add(
-            "required by the records".to_owned(),
-            gap.required.by_count,
-            "7 3",
-        ),
+        None => {
+            if let Some(width) = gap.required.by_count {
+                add("required by the records".to_owned(), width, "7 3");
+            }
+        }
     }
     limits
 }
@@ -105,7 +105,7 @@ pub fn spectra(check: &GapCheck) -> Chart {
             name: match (suite, number) {
                 (true, 0) => format!("{} records", spectra.records.len()),
                 (true, _) => String::new(),
-                (false, _) => check.records[number].name.clone(),
+                (false, _) => spectra.names[number].clone(),
             },
             points: over(record),
             look: if suite {

@@ -19,6 +19,9 @@ pub struct CodeAnswer {
     pub statistic: Statistic,
     /// Whether there are as many records as it asks for.
     pub enough_records: bool,
+    /// Records under which a building collapses without contact: no statistic holds their
+    /// displacements, and the code gives no answer.
+    pub collapsed: usize,
     /// That statistic of the demand (m), the maximum approach of the buildings without contact:
     /// what the records say themselves, beside any rule.
     pub demand: f64,
@@ -108,11 +111,11 @@ impl CodeAnswer {
     }
 
     /// Whether the gap is wide enough by the code; `None` if it gives no answer, as where there
-    /// are fewer records than it asks for. Where the case does not say who owns the ground, it
+    /// are fewer records than it asks for, or buildings collapse without contact. Where the case does not say who owns the ground, it
     /// must be for both.
     #[must_use]
     pub fn satisfied(&self) -> Option<bool> {
-        if !self.enough_records {
+        if !self.enough_records || self.collapsed > 0 {
             return None;
         }
         let answers: Option<Vec<bool>> = self.deciding().map(OwnershipAnswer::satisfied).collect();
@@ -127,7 +130,7 @@ pub(super) fn code_answer(
     (code, date): (Code, Option<Date>),
     place: &GapPlace<'_>,
     inputs: &Inputs<'_>,
-    (records, distinct): (&[RecordDemand], usize),
+    (records, distinct, collapsed): (&[RecordDemand], usize, usize),
     demand: &[f64],
 ) -> CodeAnswer {
     let statistic = code.suite.statistic(distinct);
@@ -159,6 +162,7 @@ pub(super) fn code_answer(
     CodeAnswer {
         statistic,
         enough_records: distinct >= code.suite.least,
+        collapsed,
         demand: statistic.of(demand),
         ownership: inputs.ownership(),
         cases,

@@ -185,8 +185,16 @@ pub fn demands(
     threads: usize,
     progress: Progress<'_>,
 ) -> Result<Vec<RecordDemand>, CheckError> {
-    let results = in_parallel(records.len(), threads, progress, |i| one(&records[i]));
-    results.into_iter().collect()
+    by_record(records, threads, progress).into_iter().collect()
+}
+
+/// The same, with what keeps each record from a demand.
+pub(super) fn by_record(
+    records: &[CaseUnderRecord],
+    threads: usize,
+    progress: Progress<'_>,
+) -> Vec<Result<RecordDemand, CheckError>> {
+    in_parallel(records.len(), threads, progress, |i| one(&records[i]))
 }
 
 fn one(record: &CaseUnderRecord) -> Result<RecordDemand, CheckError> {

@@ -21,6 +21,19 @@ pub enum CheckError {
         /// Why.
         source: Box<AssemblyError>,
     },
+    /// Under every record of several a building collapses without contact, so that there is no
+    /// demand.
+    #[error(
+        "under all {records} records a building collapses without contact; record {record}: {source}"
+    )]
+    AllCollapse {
+        /// How many.
+        records: usize,
+        /// The first of them.
+        record: String,
+        /// Its collapse.
+        source: Box<AssemblyError>,
+    },
     /// The run with the gaps' own laws failed under a record, so that models have no
     /// reference.
     #[error("record {record}: the run with the case's own law failed: {diagnosis}")]
@@ -112,7 +125,7 @@ impl CheckError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Case(error) => error.help.clone(),
-            Self::Record { source, .. } => source.help(),
+            Self::Record { source, .. } | Self::AllCollapse { source, .. } => source.help(),
             Self::Separation(error) => error.help(),
             Self::Word { help, .. } => help.clone(),
             Self::OwnLaw { .. } => Some(

@@ -18,7 +18,7 @@ mod systems;
 
 pub use code_answer::{CodeAnswer, LevelAnswer, OwnershipAnswer};
 pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words, wrong_rules};
-pub use collapse::collapsed_building;
+pub use collapse::{CollapsedRecord, collapsed_building};
 pub use demand::{
     Amplification, AmplifiedQuantity, GapLevel, RecordDemand, amplification, demands,
 };
@@ -38,6 +38,8 @@ pub(crate) use demand::levels;
 pub(crate) use parallel::in_parallel;
 pub(crate) use records::step_warnings;
 pub use systems::rebuilt;
+
+use std::borrow::Cow;
 
 use pounding_case::{Case, Separation};
 use pounding_time_history::NamedPeak;
@@ -67,13 +69,17 @@ pub struct GapReport {
     pub between: [String; 2],
     /// Contact levels from the bottom.
     pub levels: Vec<GapLevel>,
-    /// The level and the record that decide the verdict.
+    /// The level and the record that decide the verdict, of the records that have a demand.
     pub governing: Governing,
     /// Maximum demand over the levels for each record (m): the uniform width that the
     /// record would just not close.
     pub demand: Vec<f64>,
-    /// Records that close the provided gap at some level.
+    /// Records that close the provided gap at some level, those that
+    /// [collapsed](Self::records_collapsed) among them.
     pub records_in_contact: usize,
+    /// Of these, records under which a building collapses without contact: they have no demand,
+    /// and are in contact at every width.
+    pub records_collapsed: usize,
     /// Of these, records that close it only because another gap of the row closes: the
     /// demand does not see them.
     pub records_driven: usize,
@@ -160,9 +166,13 @@ pub struct ColumnDemand {
 pub struct GapCheck {
     /// What was asked for.
     pub options: GapCheckOptions,
-    /// Each record with its demands, isolated responses and responses with pounding.
+    /// Each record with its demands, isolated responses and responses with pounding, but for those
+    /// that [`collapsed`](Self::collapsed). At least one.
     pub records: Vec<RecordDemand>,
-    /// Records that are one motion under several names: codes count each motion once.
+    /// Records under which a building collapses without contact.
+    pub collapsed: Vec<CollapsedRecord>,
+    /// Records that are one motion under several names, by their order as given: codes count each
+    /// motion once.
     pub repeated: Repeated,
     /// Spectra of the records as they are used, beside the target of the case's scale.
     pub spectra: SuiteSpectra,
@@ -179,6 +189,12 @@ pub struct GapCheck {
 pub(crate) const SAME: f64 = 1.0e-6;
 
 impl GapReport {
+    /// Records, those that collapsed among them.
+    #[must_use]
+    pub fn records(&self) -> usize {
+        self.demand.len() + self.records_collapsed
+    }
+
     /// Whether all levels have the same width.
     #[must_use]
     pub fn of_one_width(&self) -> bool {
@@ -196,11 +212,11 @@ impl GapReport {
     }
 
     /// Records whose demand exceeds a width (m) that may differ between them, by more than
-    /// two computations of one number differ.
+    /// two computations of one number differ, and those that collapsed.
     #[must_use]
     pub fn records_beyond(&self, width: impl Fn(usize) -> Option<f64>) -> usize {
         let beyond = |r: &usize| width(*r).is_some_and(|w| w < self.demand[*r] * (1.0 - SAME));
-        (0..self.demand.len()).filter(beyond).count()
+        (0..self.demand.len()).filter(beyond).count() + self.records_collapsed
     }
 
     /// Least ratio of such a width to the demand (-), with its record. A record that demands
@@ -251,7 +267,8 @@ impl GapCheck {
 ///
 /// # Errors
 /// A case without gaps, unknown provisions, options out of range, or isolated buildings
-/// that cannot be integrated. Runs with pounding that fail are kept with their diagnosis.
+/// that cannot be integrated, or collapse under every record. Runs with pounding that fail are kept
+/// with their diagnosis.
 pub fn gap_check(
     case: &Case,
     separation: &Separation,
@@ -284,9 +301,20 @@ pub fn gap_check_dealt(
     let gap = swept.and_then(|s| s.gap.as_deref());
     let gap = gap.map(|name| sweep::find(&first.assembly.system, name));
     let gap = gap.transpose()?;
-    let runs = swept.map_or(0, |s| s.points) * records.len();
-    let total = records.len() + runs;
-    let demands = demands(records, options.threads, &|done, _| progress(done, total))?;
+    let runs = |records: usize| swept.map_or(0, |s| s.points) * records;
+    let total = records.len() + runs(records.len());
+    let tell = |done, _| progress(done, total);
+    let (demands, collapsed) = stand_or_collapse(records, options.threads, &tell)?;
+    // Under the others nothing is known that runs of the sweep could be compared with.
+    let standing: Cow<'_, [CaseUnderRecord]> = match collapsed.is_empty() {
+        true => Cow::Borrowed(records),
+        false => {
+            let stands = |number: &usize| !collapsed.iter().any(|c| c.number == *number);
+            let standing = (0..records.len()).filter(stands);
+            standing.map(|number| records[number].clone()).collect()
+        }
+    };
+    let total = records.len() + runs(standing.len());
     let repeated = Repeated::among(records);
     let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
     let mut gaps = Vec::new();
@@ -297,10 +325,11 @@ pub fn gap_check_dealt(
         };
         let codes = codes::by_code(&place, &chosen.provisions, &inputs, &demands);
         let combinations = codes::combinations(&place, &inputs, &demands)?;
-        let mut report = report(&place, &demands, options, (codes, combinations))?;
+        let suite = (&demands[..], collapsed.len());
+        let mut report = report(&place, suite, options, (codes, combinations))?;
         report.code = chosen.code.clone().map(|code| {
             let code = (code, chosen.date);
-            let records = (&demands[..], repeated.distinct);
+            let records = (&demands[..], repeated.distinct, collapsed.len());
             code_answer::code_answer(code, &place, &inputs, records, &report.demand)
         });
         gaps.push(report);
@@ -314,12 +343,13 @@ pub fn gap_check_dealt(
             threads: options.threads,
             progress: &tell,
         };
-        sweep::sweep(records, &demands, (asked, gap), &shared)
+        sweep::sweep(&standing, &demands, (asked, gap), &shared)
     });
     Ok(GapCheck {
         options: options.clone(),
         spectra: spectra::spectra(case, records, options.threads)?,
         records: demands,
+        collapsed,
         gaps,
         sweep: sweep.transpose()?,
         warnings: first
@@ -333,6 +363,42 @@ pub fn gap_check_dealt(
             .collect(),
         repeated,
     })
+}
+
+/// The records that have a demand, and those under which a building collapses without contact.
+///
+/// # Errors
+/// As [`demands`], and where no record has a demand.
+fn stand_or_collapse(
+    records: &[CaseUnderRecord],
+    threads: usize,
+    progress: Progress<'_>,
+) -> Result<(Vec<RecordDemand>, Vec<CollapsedRecord>), CheckError> {
+    let (mut standing, mut collapsed, mut first) = (Vec::new(), Vec::new(), None);
+    let results = demand::by_record(records, threads, progress);
+    for (record, result) in records.iter().enumerate().zip(results) {
+        match result {
+            Ok(demand) => standing.push(demand),
+            Err(error) => {
+                let Some(found) = CollapsedRecord::of(record, &error) else {
+                    return Err(error);
+                };
+                collapsed.push(found);
+                first = first.or(Some(error));
+            }
+        }
+    }
+    match first {
+        Some(CheckError::Record { record, source }) if standing.is_empty() && records.len() > 1 => {
+            Err(CheckError::AllCollapse {
+                records: records.len(),
+                record,
+                source,
+            })
+        }
+        Some(error) if standing.is_empty() => Err(error),
+        _ => Ok((standing, collapsed)),
+    }
 }
 
 fn check_options(options: &GapCheckOptions) -> Result<(), CheckError> {
@@ -368,7 +434,7 @@ fn check_options(options: &GapCheckOptions) -> Result<(), CheckError> {
 
 fn report(
     place: &codes::GapPlace<'_>,
-    records: &[RecordDemand],
+    (records, collapsed): (&[RecordDemand], usize),
     options: &GapCheckOptions,
     (codes, combinations): (Vec<CodeGap>, Vec<CombinationGap>),
 ) -> Result<GapReport, CheckError> {
@@ -384,19 +450,23 @@ fn report(
     // A building that was hit on its other side can close a gap that it would have left open.
     let driven = |r: &&RecordDemand| !touches(r) && r.closed(place.gap);
     let records_driven = records.iter().filter(driven).count();
-    let records_in_contact = records.iter().filter(touches).count() + records_driven;
-    let allowed = required::allowed_contacts(options.target_probability, records.len());
+    let touching = records.iter().filter(touches).count();
+    let records_in_contact = touching + records_driven + collapsed;
+    let all = records.len() + collapsed;
+    let required = required::required_gap(&demand, collapsed, options);
+    let allowed = required.allowed_contacts;
     let widths: Vec<f64> = levels.iter().map(|l| l.width).collect();
     let by_level = |r: &RecordDemand| (0..levels.len()).map(|l| at(r, l)).collect();
     let by_record: Vec<Vec<f64>> = records.iter().map(by_level).collect();
     Ok(GapReport {
         name: gap.name.clone(),
         between: gap.between.clone(),
-        governing: Governing::of(&widths, &by_record, allowed),
-        contact_bounds: binomial_bounds(records_in_contact, records.len(), options.confidence),
-        required: required::required_gap(&demand, options),
+        governing: Governing::of(&widths, &by_record, allowed.saturating_sub(collapsed)),
+        contact_bounds: binomial_bounds(records_in_contact, all, options.confidence),
+        required,
         adequate: records_in_contact <= allowed,
         records_in_contact,
+        records_collapsed: collapsed,
         records_driven,
         suite: SuiteStatistics::of(&demand),
         code: None,

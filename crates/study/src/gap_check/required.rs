@@ -22,8 +22,9 @@ pub struct LognormalFit {
 /// The uniform width of a gap for a target probability of contact.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RequiredGap {
-    /// Smallest width that no more than the target part of the records exceeds (m).
-    pub by_count: f64,
+    /// Smallest width that no more than the target part of the records exceeds (m); `None` where
+    /// buildings collapse without contact under more of them.
+    pub by_count: Option<f64>,
     /// Records that may exceed it.
     pub allowed_contacts: usize,
     /// By a lognormal distribution, or why there is none.
@@ -36,15 +37,24 @@ pub(crate) fn allowed_contacts(target_probability: f64, records: usize) -> usize
     (target_probability * records as f64 + 1.0e-9).floor() as usize
 }
 
-/// From the maximum demand of each record (m).
-pub(crate) fn required_gap(demand: &[f64], options: &GapCheckOptions) -> RequiredGap {
-    let allowed = allowed_contacts(options.target_probability, demand.len());
+/// From the maximum demand of each record (m), and so many more under which buildings collapse
+/// without contact: their demand exceeds every width.
+pub(crate) fn required_gap(
+    demand: &[f64],
+    collapsed: usize,
+    options: &GapCheckOptions,
+) -> RequiredGap {
+    let allowed = allowed_contacts(options.target_probability, demand.len() + collapsed);
     let mut sorted = demand.to_vec();
     sorted.sort_by(|a, b| b.total_cmp(a));
+    let left = allowed.checked_sub(collapsed);
     RequiredGap {
-        by_count: sorted.get(allowed).copied().unwrap_or(0.0),
+        by_count: left.map(|left| sorted.get(left).copied().unwrap_or(0.0)),
         allowed_contacts: allowed,
-        lognormal: lognormal(demand, options),
+        lognormal: match collapsed {
+            0 => lognormal(demand, options),
+            _ => Err("a record brings a building to collapse without contact"),
+        },
     }
 }
 
@@ -101,11 +111,31 @@ mod tests {
             (0.19, 0.09, 1),
             (0.2, 0.08, 2),
         ] {
-            let required = required_gap(&demand, &options(p));
+            let required = required_gap(&demand, 0, &options(p));
             assert_eq!(required.allowed_contacts, allowed);
-            assert!((required.by_count - width).abs() < 1.0e-15);
-            let exceeding = demand.iter().filter(|d| **d > required.by_count).count();
+            let by_count = required.by_count.unwrap();
+            assert!((by_count - width).abs() < 1.0e-15);
+            let exceeding = demand.iter().filter(|d| **d > by_count).count();
             assert!(exceeding <= allowed);
+        }
+    }
+
+    /// Eight widths of 10 to 80 mm and two collapses: two of ten may touch, which the collapses do.
+    #[test]
+    fn collapses_exceed_every_width() {
+        let demand: Vec<f64> = (1..=8).map(|i| 0.01 * f64::from(i)).collect();
+        for (p, width, allowed) in [
+            (0.0, None, 0),
+            (0.1, None, 1),
+            (0.2, Some(0.08), 2),
+            (0.3, Some(0.07), 3),
+        ] {
+            let required = required_gap(&demand, 2, &options(p));
+            assert_eq!(required.allowed_contacts, allowed);
+            assert_eq!(required.by_count.is_some(), width.is_some());
+            let apart = required.by_count.zip(width).map_or(0.0, |(a, b)| a - b);
+            assert!(apart.abs() < 1.0e-15);
+            assert!(required.lognormal.is_err());
         }
     }
 
@@ -115,7 +145,9 @@ mod tests {
     fn fit_by_hand() {
         let e = std::f64::consts::E;
         let p = 1.0 - pounding_ground_motion::distributions::normal_distribution(1.0);
-        let fit = required_gap(&[1.0 / e, e], &options(p)).lognormal.unwrap();
+        let fit = required_gap(&[1.0 / e, e], 0, &options(p))
+            .lognormal
+            .unwrap();
         assert!((fit.median - 1.0).abs() < 1.0e-12);
         assert!((fit.dispersion - 2.0_f64.sqrt()).abs() < 1.0e-12);
         assert!((fit.width - 2.0_f64.sqrt().exp()).abs() < 1.0e-9);
@@ -127,15 +159,23 @@ mod tests {
     #[test]
     fn bounds_by_table() {
         let demand: Vec<f64> = (0..10).map(|i| (0.1 * f64::from(i)).exp()).collect();
-        let fit = required_gap(&demand, &options(0.1)).lognormal.unwrap();
+        let fit = required_gap(&demand, 0, &options(0.1)).lognormal.unwrap();
         let expected = (fit.median.ln() + 2.355 * fit.dispersion).exp();
         assert!((fit.bounds.1 / expected - 1.0).abs() < 1.0e-3);
     }
 
     #[test]
     fn no_fit() {
-        assert!(required_gap(&[0.1, 0.2], &options(0.0)).lognormal.is_err());
-        assert!(required_gap(&[0.1], &options(0.1)).lognormal.is_err());
-        assert!(required_gap(&[0.1, 0.0], &options(0.1)).lognormal.is_err());
+        assert!(
+            required_gap(&[0.1, 0.2], 0, &options(0.0))
+                .lognormal
+                .is_err()
+        );
+        assert!(required_gap(&[0.1], 0, &options(0.1)).lognormal.is_err());
+        assert!(
+            required_gap(&[0.1, 0.0], 0, &options(0.1))
+                .lognormal
+                .is_err()
+        );
     }
 }

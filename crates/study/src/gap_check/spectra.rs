@@ -23,6 +23,8 @@ pub struct SuiteSpectra {
     pub damping: f64,
     /// Periods (s), 200 evenly spaced in their logarithm.
     pub periods: Vec<f64>,
+    /// Names of the records, those under which buildings collapse among them.
+    pub names: Vec<String>,
     /// Pseudo-accelerations of each record (m/s2).
     pub records: Vec<Vec<f64>>,
     /// Their mean (m/s2).
@@ -104,6 +106,7 @@ pub(super) fn spectra(
     Ok(SuiteSpectra {
         damping,
         periods,
+        names: records.iter().map(|r| r.name.clone()).collect(),
         records: spectra,
         mean,
         target,

@@ -46,8 +46,8 @@ fn records_that_close(gap: &GapReport) -> String {
     format!(
         "{} of {} {}",
         gap.records_in_contact,
-        counted(gap.demand.len(), "record"),
-        agreeing(&gap.demand.len(), "closes", "close")
+        counted(gap.records(), "record"),
+        agreeing(&gap.records(), "closes", "close")
     )
 }
 
@@ -63,7 +63,7 @@ fn driven(gap: &GapReport) -> String {
 
 /// The level that decides where levels have different widths, and by how much.
 fn governing(check: &GapCheck, gap: &GapReport) -> String {
-    if gap.of_one_width() {
+    if gap.of_one_width() || gap.required.by_count.is_none() {
         return String::new();
     }
     let governing = &gap.governing;
@@ -85,18 +85,26 @@ fn required(check: &GapCheck, gap: &GapReport) -> String {
     let p = check.options.target_probability;
     let confidence = 100.0 * check.options.confidence;
     let required = &gap.required;
+    let Some(by_count) = required.by_count else {
+        return format!(
+            "  no width is required by count: {} of {} may touch, and under {} a building collapses without contact\n",
+            required.allowed_contacts,
+            counted(gap.records(), "record"),
+            gap.records_collapsed,
+        );
+    };
     let mut text = format!(
         "  {} {:.2} mm by count ({} of {} may touch)",
         match gap.of_one_width() {
             true => "required",
             false => "one width at all levels would have to be",
         },
-        required.by_count * 1e3,
+        by_count * 1e3,
         required.allowed_contacts,
-        counted(gap.demand.len(), "record"),
+        counted(gap.records(), "record"),
     );
-    let decides = gap.demand.iter().position(|d| *d == required.by_count);
-    if let Some(record) = decides.filter(|_| required.by_count > 0.0) {
+    let decides = gap.demand.iter().position(|d| *d == by_count);
+    if let Some(record) = decides.filter(|_| by_count > 0.0) {
         text.push_str(&format!(
             ": the demand of {}",
             check.records[record].name.as_str()
@@ -141,11 +149,7 @@ fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
         verdict(answer.satisfied()),
         edition(answer)
     );
-    text.push_str(&statistic(
-        answer,
-        check.records.len(),
-        check.repeated.distinct,
-    ));
+    text.push_str(&statistic(answer, gap.records(), check.repeated.distinct));
     text.push_str(&cases(gap, answer));
     for case in &answer.cases {
         text.push_str(&explained(case));
@@ -207,8 +211,15 @@ fn statistic(answer: &CodeAnswer, records: usize, distinct: usize) -> String {
             suite.least
         )
     };
+    let collapsed = match answer.collapsed {
+        0 => String::new(),
+        count => format!(
+            "  warning: a building collapses without contact under {}: the code gives no answer, and displacements and widths are those of the others\n",
+            counted(count, "record")
+        ),
+    };
     format!(
-        "  decided by the {} of the displacements under {}: {}{clause}\n{few}",
+        "  decided by the {} of the displacements under {}: {}{clause}\n{few}{collapsed}",
         answer.statistic.name(),
         records_of(records, distinct),
         suite.explanation(),

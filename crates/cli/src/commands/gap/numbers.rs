@@ -27,6 +27,8 @@ pub struct Check<'c> {
     /// Records without those that are copies of others.
     distinct_records: usize,
     records: Vec<Record<'c>>,
+    /// Records under which a building collapses without contact; `records` is without them.
+    collapsed: Vec<Collapsed<'c>>,
     spectra: Spectra<'c>,
     gaps: Vec<Gap<'c>>,
     sweep: Option<Sweep<'c>>,
@@ -51,6 +53,7 @@ impl<'c> Check<'c> {
             warnings: &check.warnings,
             distinct_records: check.repeated.distinct,
             records: check.records.iter().map(Record::of).collect(),
+            collapsed: check.collapsed.iter().map(Collapsed::of).collect(),
             spectra: Spectra::of(&check.spectra),
             gaps: (0..check.gaps.len()).map(|i| Gap::of(check, i)).collect(),
             sweep: check.sweep.as_ref().map(Sweep::of),
@@ -62,6 +65,8 @@ impl<'c> Check<'c> {
 #[derive(Serialize)]
 struct Spectra<'c> {
     damping: f64,
+    /// Names, with those under which a building collapses.
+    records: &'c [String],
     periods: &'c [f64],
     /// By record.
     pseudo_acceleration: &'c [Vec<f64>],
@@ -88,6 +93,7 @@ impl<'c> Spectra<'c> {
     fn of(spectra: &'c gap_check::SuiteSpectra) -> Self {
         Self {
             damping: spectra.damping,
+            records: &spectra.names,
             periods: &spectra.periods,
             pseudo_acceleration: &spectra.records,
             mean: &spectra.mean,
@@ -211,6 +217,30 @@ impl<'c> Record<'c> {
     }
 }
 
+/// A record under which a building collapses without contact.
+#[derive(Serialize)]
+struct Collapsed<'c> {
+    name: &'c str,
+    factor: f64,
+    peak_ground_acceleration: f64,
+    building: &'c str,
+    time: f64,
+    diagnosis: &'c str,
+}
+
+impl<'c> Collapsed<'c> {
+    fn of(record: &'c gap_check::CollapsedRecord) -> Self {
+        Self {
+            name: &record.name,
+            factor: record.factor,
+            peak_ground_acceleration: record.peak_ground_acceleration,
+            building: &record.building,
+            time: record.time,
+            diagnosis: &record.diagnosis,
+        }
+    }
+}
+
 /// A gap under all records.
 #[derive(Serialize)]
 struct Gap<'c> {
@@ -221,7 +251,8 @@ struct Gap<'c> {
     records_driven_by_neighbours: usize,
     contact_probability_bounds: (f64, f64),
     governing_level: usize,
-    governing: Governing<'c>,
+    /// `null` where records that collapse decide.
+    governing: Option<Governing<'c>>,
     demand: &'c [f64],
     suite: Suite,
     code: Option<Code<'c>>,
@@ -451,7 +482,8 @@ impl<'c> CodeCase<'c> {
 /// The width that the target probability asks for.
 #[derive(Serialize)]
 struct Required {
-    by_count: f64,
+    /// `null` where buildings collapse without contact under more records than may touch.
+    by_count: Option<f64>,
     allowed_contacts: usize,
     lognormal: Option<Lognormal>,
     no_lognormal: Option<&'static str>,
@@ -491,13 +523,13 @@ impl<'c> Gap<'c> {
             records_driven_by_neighbours: gap.records_driven,
             contact_probability_bounds: gap.contact_bounds,
             governing_level: gap.governing.level + 1,
-            governing: Governing {
+            governing: gap.required.by_count.map(|_| Governing {
                 level: gap.governing.level + 1,
                 record: &check.records[gap.governing.record].name,
                 required: gap.governing.required,
                 provided: gap.governing.provided,
                 margin: gap.governing.margin(),
-            },
+            }),
             columns: (gap.columns.iter())
                 .map(|c| Column {
                     level: c.level + 1,

@@ -168,11 +168,7 @@ pub fn table(check: &GapCheck, gap: &GapReport, all: bool) -> String {
         "\nGap {}: widths by rule under {}, the widest first; boundary rules summed over both sides\n{}\n",
         gap.name,
         counted(check.records.len(), "record"),
-        if all {
-            listed(check, gap)
-        } else {
-            grouped(check, gap)
-        },
+        if all { listed(gap) } else { grouped(gap) },
     );
     text.push_str(
         "\"unverified\": the formula was not compared with any text of the code, \"seen in a secondary text\": not with the code itself; check it there before it enters a design report. docs/reference/provisions.md says what was seen.\n",
@@ -237,7 +233,7 @@ const RATIO: &str = "minimum of width / demand";
 const BEYOND: &str = "records that exceed it";
 
 /// A row a rule.
-fn listed(check: &GapCheck, gap: &GapReport) -> String {
+fn listed(gap: &GapReport) -> String {
     let mut table = new_table([
         "rule",
         "kind",
@@ -251,18 +247,18 @@ fn listed(check: &GapCheck, gap: &GapReport) -> String {
     for rule in rules(gap) {
         let factor = rule.factor.unwrap_or("-").to_owned();
         let mut row = vec![rule.name.clone(), rule.kind.clone(), factor];
-        row.extend(rule.cells(check.records.len()));
+        row.extend(rule.cells(gap.records()));
         table.add_row(row);
     }
     table.to_string()
 }
 
 /// A row for all rules that ask for the same.
-fn grouped(check: &GapCheck, gap: &GapReport) -> String {
+fn grouped(gap: &GapReport) -> String {
     let mut table = new_table(["rule", WIDTH, REACHED, RATIO, BEYOND, "status"]);
     let mut rows: Vec<(Vec<String>, [String; 5])> = Vec::new();
     for rule in rules(gap) {
-        let cells = rule.cells(check.records.len());
+        let cells = rule.cells(gap.records());
         match rows.iter_mut().find(|(_, known)| *known == cells) {
             Some((names, _)) => names.push(rule.name),
             None => rows.push((vec![rule.name], cells)),

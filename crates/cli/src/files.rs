@@ -83,8 +83,19 @@ impl Replaced<'_> {
     /// # Errors
     /// With the file and what to do.
     pub fn spared(&self, goes_on: bool) -> Result<(), Failure> {
+        if let Some(said) = self.judged(goes_on)? {
+            note(&said);
+        }
+        Ok(())
+    }
+
+    /// The same, with what there is to say of the one that is replaced.
+    ///
+    /// # Errors
+    /// As [`spared`](Self::spared).
+    pub fn judged(&self, goes_on: bool) -> Result<Option<String>, Failure> {
         let Some(found) = Label::of(self.output) else {
-            return Ok(());
+            return Ok(None);
         };
         let (output, kind) = (self.output.display(), found.kind);
         let of = match found.file.as_str() {
@@ -111,24 +122,19 @@ impl Replaced<'_> {
             Some(here) if !self.named => {
                 refused(&format!("that of {here} does not take its place unasked"))
             }
-            _ if goes_on => Ok(()),
-            Some(_) => {
-                note(&format!("{output}, the result of {kind}{of}, is replaced"));
-                Ok(())
-            }
-            None if other_text && (self.named || found.file.is_empty()) => {
-                note(&format!(
-                    "{output} is replaced, the result of another study, or of another version of this one"
-                ));
-                Ok(())
-            }
+            _ if goes_on => Ok(None),
+            Some(_) => Ok(Some(format!(
+                "{output}, the result of {kind}{of}, is replaced"
+            ))),
+            None if other_text && (self.named || found.file.is_empty()) => Ok(Some(format!(
+                "{output} is replaced, the result of another study, or of another version of this one"
+            ))),
             None if found.file.is_empty() && self.kind == Kind::Run && !self.named => {
-                note(&format!(
+                Ok(Some(format!(
                     "{output} is replaced, the result of a run that does not say of which case file it is"
-                ));
-                Ok(())
+                )))
             }
-            None => Ok(()),
+            None => Ok(None),
         }
     }
 }

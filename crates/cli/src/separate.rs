@@ -130,21 +130,102 @@ pub fn by_child(
     if !given.iter().any(colored) && ColorChoice::Auto.is_on(std::io::stderr().is_terminal()) {
         command.arg("--color=always");
     }
+    match ended(&mut command, files, used).map_err(failed)? {
+        Ok(answer) => {
+            // If it cannot be said, the exit code still says it.
+            let _ = std::io::stderr().write_all(&answer.said);
+            match answer.code {
+                0 => Ok(Ok(Reading::Done)),
+                code => Err(Failure::Reported(code)),
+            }
+        }
+        Err(none) => Ok(Err(none)),
+    }
+}
+
+/// What a child answers that another program than this one has made.
+#[derive(Debug)]
+pub struct Answer {
+    /// Its exit code.
+    pub code: u8,
+    /// What it printed.
+    pub printed: Vec<u8>,
+    /// What it said to people.
+    said: Vec<u8>,
+}
+
+impl Answer {
+    /// Whether it found runs that are to be made, which is not its work.
+    #[must_use]
+    pub fn leaves_runs(&self) -> bool {
+        self.code == RUNS_ARE_LEFT
+    }
+
+    /// What kept it from printing an answer.
+    #[must_use]
+    pub fn failure(&self) -> Failure {
+        let said = String::from_utf8_lossy(&self.said);
+        let words = said
+            .lines()
+            .map(|line| line.trim().trim_start_matches(['\u{d7}', '\u{2502}', ' ']));
+        let words = words
+            .filter(|line| !line.is_empty())
+            .collect::<Vec<_>>()
+            .join(" ");
+        let (message, help) = match words.split_once(" help: ") {
+            Some((message, help)) => (message.to_owned(), Some(help.to_owned())),
+            None => (words, None),
+        };
+        match self.code {
+            3 => Failure::computation(message, help),
+            4 => Failure::unwritten(message, help),
+            5 => Failure::interrupted(message, help),
+            _ => Failure::input(message, help),
+        }
+    }
+}
+
+/// Has a child read files for a program that is no command: this one, called with these arguments as
+/// the command line is.
+///
+/// # Errors
+/// It cannot be started, or ends without an answer.
+pub fn answered(
+    program: &Path,
+    arguments: &[OsString],
+    files: &[PathBuf],
+    used: &FileUse,
+) -> Result<Answer, Failure> {
+    let mut command = Command::new(program);
+    command.args(arguments).arg(format!("--{OPTION}"));
+    command.env("NO_COLOR", "1").stdout(Stdio::piped());
+    let ended = ended(&mut command, files, used);
+    let ended = ended.map_err(|e| Failure::output(&e, "a process that reads"))?;
+    ended.map_err(|none| none.failure(files))
+}
+
+/// Runs a child that reads files. What it leaves unfinished beside outputs without coming to an
+/// answer is removed.
+fn ended(
+    command: &mut Command,
+    files: &[PathBuf],
+    used: &FileUse,
+) -> std::io::Result<Result<Answer, NoAnswer>> {
     let Ended {
         ending,
+        printed,
         said,
         process,
-    } = run(&mut command, size(files)).map_err(failed)?;
+    } = run(command, size(files))?;
     let (said, file) = unmarked(&said);
     let how = match ending {
         Ending::Exit(status) => match status.code() {
             Some(code) if OWN_CODES.contains(&code) => {
-                // If it cannot be said, the exit code still says it.
-                let _ = std::io::stderr().write_all(&said);
-                return match u8::try_from(code) {
-                    Ok(0) | Err(_) => Ok(Ok(Reading::Done)),
-                    Ok(code) => Err(Failure::Reported(code)),
-                };
+                return Ok(Ok(Answer {
+                    code: u8::try_from(code).unwrap_or_default(),
+                    printed,
+                    said,
+                }));
             }
             Some(OUT_OF_PROCESSOR_TIME) => {
                 "reading it took too much time of the processor".to_owned()
@@ -223,6 +304,8 @@ enum Ending {
 /// A child that has ended.
 struct Ended {
     ending: Ending,
+    /// What it wrote to standard output, if that is a pipe.
+    printed: Vec<u8>,
     /// What it wrote to standard error.
     said: Vec<u8>,
     process: u32,
@@ -238,6 +321,13 @@ fn run(command: &mut Command, bytes: u64) -> std::io::Result<Ended> {
     let process = child.id();
     let known = |child| *CHILD.lock().unwrap_or_else(PoisonError::into_inner) = child;
     known(Some(process));
+    let printing = child.stdout.take().map(|mut pipe| {
+        std::thread::spawn(move || {
+            let mut printed = Vec::new();
+            let _ = pipe.read_to_end(&mut printed);
+            printed
+        })
+    });
     let mut said = Vec::new();
     let pipe = child.stderr.take();
     #[cfg(unix)]
@@ -270,8 +360,10 @@ fn run(command: &mut Command, bytes: u64) -> std::io::Result<Ended> {
         ending
     };
     known(None);
+    let printed = printing.and_then(|thread| thread.join().ok());
     Ok(Ended {
         ending,
+        printed: printed.unwrap_or_default(),
         said,
         process,
     })
@@ -391,6 +483,33 @@ mod tests {
         assert!(matches!(ended.ending, Ending::Exit(status) if status.code() == Some(3)));
         let ended = run(&mut shell("kill -SEGV $$"), 0).unwrap();
         assert!(matches!(ended.ending, Ending::Exit(status) if status.code().is_none()));
+    }
+
+    #[test]
+    fn what_keeps_a_child_from_an_answer_is_a_failure_in_its_words() {
+        let script = "echo '{}'; printf '\\0reads 0\\n  \\303\\227 it is\\n  \\342\\224\\202 damaged\\n  help: copy\\n        it\\n\\n' >&2; exit 4";
+        let arguments = ["-c", script].map(OsString::from);
+        let answer = answered(Path::new("sh"), &arguments, &[], &FileUse::new()).unwrap();
+        assert_eq!((answer.code, &answer.printed[..]), (4, &b"{}\n"[..]));
+        let Failure::Output(report) = answer.failure() else {
+            panic!("another kind");
+        };
+        assert_eq!(report.to_string(), "it is damaged");
+        assert_eq!(
+            report.help().map(|h| h.to_string()),
+            Some("copy it".to_owned())
+        );
+        let arguments = ["-c", "kill -SEGV $$"].map(OsString::from);
+        let file = [PathBuf::from("result.h5")];
+        let failure = answered(Path::new("sh"), &arguments, &file, &FileUse::new()).unwrap_err();
+        let Failure::Input(report) = failure else {
+            panic!("another kind");
+        };
+        assert!(
+            report
+                .to_string()
+                .starts_with("result.h5 cannot be read: it is damaged")
+        );
     }
 
     #[test]

@@ -81,6 +81,11 @@ impl PyCase {
         })
     }
 
+    /// The file of a case that was read from one.
+    pub fn own_file(&self) -> Option<&Path> {
+        (!self.made).then_some(&*self.case.file)
+    }
+
     /// Refuses to write where something is read.
     pub fn writes(&self, role: &str, path: &Path) -> Result<(), Problem> {
         let mut files = FileUse::new();

@@ -2,7 +2,7 @@
 
 use miette::{Diagnostic, Report};
 use pounding_cli::Failure;
-use pyo3::exceptions::PyKeyboardInterrupt;
+use pyo3::exceptions::{PyKeyboardInterrupt, PyUserWarning};
 use pyo3::prelude::*;
 
 /// Errors of one case that are shown: more help nobody.
@@ -77,6 +77,13 @@ impl From<Problem> for PyErr {
     fn from(problem: Problem) -> Self {
         Python::attach(|py| problem.raised(py).unwrap_or_else(|error| error))
     }
+}
+
+/// Warns as modules of Python do.
+pub fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
+    // A text from a file may hold what ends a text of C.
+    let text = std::ffi::CString::new(text.replace('\0', "\u{fffd}"))?;
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 2)
 }
 
 fn text(faults: &[Fault]) -> String {

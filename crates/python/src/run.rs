@@ -9,9 +9,10 @@ use numpy::ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pounding_assembly::{Assembly, RecordFiles};
 use pounding_cli::Failure;
+use pounding_cli::answers::Replaced;
 use pounding_files::checksum::Checksum;
 use pounding_report::{RunResult, page};
-use pounding_results::{RunEnding, RunHead, check_size, image, run_in_memory, write_run};
+use pounding_results::{Kind, RunEnding, RunHead, check_size, image, run_in_memory, write_run};
 use pounding_time_history::{
     Energy, GridRecorder, History, Impact, Outcome, Recorder, Summary, TimeHistoryError,
     in_parallel, run as integrate,
@@ -21,7 +22,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
 use crate::case::{PyCase, json};
-use crate::errors::Problem;
+use crate::errors::{Problem, warn};
 use crate::watch::{Stop, Watch, watched};
 
 /// Thousandths of a run, for its progress.
@@ -290,11 +291,20 @@ impl Run {
     }
 
     /// Writes the result file, as `pounding run` does.
-    fn to_hdf5(&self, py: Python<'_>, path: PathBuf) -> Result<(), Problem> {
+    fn to_hdf5(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         self.case.writes("result", &path)?;
+        let replaced = Replaced {
+            output: &path,
+            kind: Kind::Run,
+            file: self.case.own_file(),
+            text: None,
+            named: true,
+        };
+        let note = replaced.judged(false).map_err(Problem::from)?;
         let (head, history) = (self.head(), self.history()?);
         py.detach(|| self.with_ending(|ending| write_run(&path, &head, history, ending)))
-            .map_err(|e| Failure::from(e).into())
+            .map_err(|e| Problem::from(Failure::from(e)))?;
+        note.map_or(Ok(()), |note| warn(py, &note))
     }
 
     /// The bytes of the result file, without its checksum.

@@ -1,17 +1,20 @@
 //! Studies of many runs: sweeps, incremental dynamic analysis, gap checks, comparisons.
 
+use std::ffi::OsString;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use pounding_assembly::{assemble_with_record, scale_record};
 use pounding_cli::Failure;
 use pounding_cli::answers::{
-    Analysis, AskedOfGaps, Check, Compared, Finished, of_check, overridden,
+    Analysis, AskedOfGaps, Check, Compared, Finished, Replaced, answered_by_child, of_check,
+    overridden,
 };
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_ground_motion::Accelerogram;
+use pounding_results::Kind;
 use pounding_study::comparison::{ComparisonOptions, RestitutionRule, StiffnessRule, compare};
 use pounding_study::gap_check::{
     CaseUnderRecord, CheckError, GapCheckOptions, SweepOptions as WidthOptions, gap_check,
@@ -23,7 +26,7 @@ use pounding_study::{
 use pyo3::prelude::*;
 
 use crate::case::{PyCase, json};
-use crate::errors::Problem;
+use crate::errors::{Problem, warn};
 use crate::motion::Motion;
 use crate::watch::{Watch, watched};
 
@@ -37,19 +40,22 @@ fn failed(error: StudyError) -> Problem {
 /// Runs a study, or a shard of it, into its result file. Returns what `pounding sweep --json`
 /// prints; with `evaluated` what the incremental dynamic analysis says of it as well.
 #[pyfunction]
-#[pyo3(signature = (study, output, threads, shard=None, resume=false, keep_going=false, evaluated=false, progress=None))]
+#[pyo3(signature = (study, output, threads, named=true, shard=None, resume=false, keep_going=false, evaluated=false, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 fn run_study(
     py: Python<'_>,
     study: PathBuf,
     output: PathBuf,
     threads: usize,
+    named: bool,
     shard: Option<&str>,
     resume: bool,
     keep_going: bool,
     evaluated: bool,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<(String, Option<String>)> {
+    let interpreter: PathBuf = py.import("sys")?.getattr("executable")?.extract()?;
+    let part = shard;
     let shard = shard.map_or(Ok(Shard::WHOLE), str::parse).map_err(failed)?;
     let made = watched(py, progress, |watch| {
         let read = Study::read(&study).map_err(failed)?;
@@ -62,6 +68,23 @@ fn run_study(
         files.fills("the folder of its finished runs", parts_folder(&output));
         files.check().map_err(|e| Problem::from(Failure::from(e)))?;
         writable(&output).map_err(failed)?;
+        let replaced = Replaced {
+            output: &output,
+            kind: Kind::Study,
+            file: Some(&read.file),
+            text: Some(&read.source),
+            named,
+        };
+        let note = replaced.judged(resume)?;
+        if resume && output.is_file() {
+            let mut arguments = call(&study, &output, evaluated && read.ida.is_some());
+            arguments.push(format!("--threads={}", threads.max(1)).into());
+            arguments.extend(part.map(|part| format!("--shard={part}").into()));
+            arguments.extend(keep_going.then(|| "--keep-going".into()));
+            if let Some((finished, analysis)) = stands(&interpreter, &arguments, &output, &files)? {
+                return Ok((finished, analysis, note));
+            }
+        }
         let options = SweepOptions {
             output,
             csv: None,
@@ -88,9 +111,48 @@ fn run_study(
             let report = evaluate(&read, &result).map_err(failed)?;
             json(&Analysis::of(&report, settings.confidence))
         });
-        Ok::<_, Problem>((finished, analysis.transpose()?))
+        Ok::<_, Problem>((finished, analysis.transpose()?, note))
     })?;
-    Ok(made?)
+    let (finished, analysis, note) = made?;
+    note.map_or(Ok(()), |note| warn(py, &note))?;
+    Ok((finished, analysis))
+}
+
+/// How the command line is asked to go on with a study.
+fn call(study: &Path, output: &Path, evaluated: bool) -> Vec<OsString> {
+    let command = match evaluated {
+        true => "ida",
+        false => "sweep",
+    };
+    // A name that begins with a dash is no option.
+    let study = std::path::absolute(study).unwrap_or_else(|_| study.to_owned());
+    let mut arguments: Vec<OsString> = ["-m", "pounding", command].map(Into::into).into();
+    arguments.extend([study.into(), "--output".into(), output.into()]);
+    arguments.extend(["--resume", "--json"].map(OsString::from));
+    arguments
+}
+
+/// What another process answers of a result that stands, which may be no result at all whatever
+/// its checksum says: the runs and what was evaluated of them; `None` where runs are left to be
+/// made.
+fn stands(
+    interpreter: &Path,
+    arguments: &[OsString],
+    output: &Path,
+    files: &FileUse,
+) -> Result<Option<(String, Option<String>)>, Problem> {
+    let answer = answered_by_child(interpreter, arguments, &[output.to_owned()], files)?;
+    if answer.leaves_runs() {
+        return Ok(None);
+    }
+    let printed = serde_json::from_slice::<serde_json::Value>(&answer.printed);
+    let Ok(serde_json::Value::Object(mut printed)) = printed else {
+        return Err(answer.failure().into());
+    };
+    Ok(Some(match printed.remove("sweep") {
+        Some(finished) => (json(&finished)?, Some(json(&printed)?)),
+        None => (json(&printed)?, None),
+    }))
 }
 
 /// Whether a study has a part `ida`.

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import math
 import shutil
+import sys
 from pathlib import Path
 
 import h5py
@@ -106,6 +108,87 @@ def test_the_output_is_no_input(folder: Path) -> None:
     with pytest.raises(pounding.CaseError):
         pounding.sweep(study, output=study)
     assert study.read_bytes() == before
+
+
+def test_a_result_takes_the_place_of_none_of_another_kind(folder: Path) -> None:
+    study = small_study(folder)
+    run = pounding.run(pounding.Case.from_file(EXAMPLES / "three_storey_pair" / "case.toml"))
+    of_run, of_study = folder / "run.h5", study.with_suffix(".h5")
+    run.to_hdf5(of_run)
+    pounding.sweep(study).close()
+    before = of_run.read_bytes(), of_study.read_bytes()
+    with pytest.raises(pounding.OutputError, match="is the result of a run"):
+        pounding.sweep(study, output=of_run)
+    with pytest.raises(pounding.OutputError, match="is the result of a study"):
+        run.to_hdf5(of_study)
+    assert (of_run.read_bytes(), of_study.read_bytes()) == before
+    # One of its own kind does, with a word where it is of another study.
+    other = study.with_name("other.toml")
+    other.write_text(study.read_text() + "# another\n")
+    with pytest.warns(UserWarning, match="is replaced, the result of another study"):
+        pounding.sweep(other, output=of_study).close()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="the interpreter is a shell script here")
+def test_a_result_that_stands_is_read_by_another_process(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = small_study(folder)
+    first = pounding.sweep(study)
+    report = json.loads(first.attrs["sweep"])
+    first.close()
+    assert report["made"] == 5
+    calls, interpreter = folder / "calls", folder / "interpreter"
+
+    def executable(script: str) -> None:
+        interpreter.write_text(f'#!/bin/sh\necho "$*" >> {calls}\n{script}\n')
+        interpreter.chmod(0o755)
+        monkeypatch.setattr(sys, "executable", str(interpreter))
+
+    executable(f'exec {sys.executable} "$@"')
+    again = pounding.sweep(study, resume=True, threads=1)
+    assert json.loads(again.attrs["sweep"]) == {**report, "made": 0}
+    again.close()
+    (call,) = calls.read_text().splitlines()
+    assert call.startswith("-m pounding sweep ") and call.endswith("--read-in-this-process")
+    # What ends that process ends nothing here.
+    executable("kill -SEGV $$")
+    with pytest.raises(pounding.CaseError, match="cannot be read: it is damaged"):
+        pounding.sweep(study, resume=True)
+    # And what it says is what there is to say.
+    executable("echo '  \u00d7 no result: it is cut off' >&2; exit 2")
+    with pytest.raises(pounding.CaseError, match="^no result: it is cut off"):
+        pounding.sweep(study, resume=True)
+
+
+def test_an_analysis_that_stands_is_evaluated_again(folder: Path) -> None:
+    name = "examples/fragility_three_storey_pair"
+    shutil.copytree(ROOT / name, folder / name, ignore=shutil.ignore_patterns("*.h5"))
+    study = folder / name / "study.toml"
+    text = study.read_text().replace("count = 40", "count = 3").replace("count = 12", "count = 2")
+    study.write_text(text.replace("target_frequency", "# target_frequency"))
+    first = pounding.ida(study, threads=2)
+    again = pounding.ida(study, threads=2, resume=True)
+    assert again.answer.pop("sweep")["made"] == 0
+    first.answer.pop("sweep")
+    assert again.answer == first.answer
+
+
+def test_a_record_that_overturns_a_building_has_no_end_of_demand(folder: Path) -> None:
+    text = (folder / "examples/three_storey_pair/case.toml").read_text()
+    law = 'law = { model = "elastic_perfectly_plastic", yield_force = "110 kN" }'
+    text = text.replace('height = "3 m"', f'height = "3 m"\np_delta = true\n{law}', 1)
+    path = folder / "examples/three_storey_pair/overturned.toml"
+    path.write_text(text)
+    motions = folder / "ground_motions"
+    records = [motions / f"{name}.csv" for name in ("kobe_1995_jma_ns", "el_centro_1940_ns")]
+    answer = pounding.gap_check(path, records)
+    assert not answer
+    (collapsed,) = answer.answer["collapsed"]
+    assert collapsed["name"] == "kobe_1995_jma_ns" and collapsed["building"] == "light"
+    demand = answer.demand
+    assert list(demand.index) == ["el_centro_1940_ns", "kobe_1995_jma_ns"]
+    assert demand.iloc[1, 0] == math.inf and math.isfinite(demand.iloc[0, 0])
 
 
 def test_a_gap_check_takes_motions_of_memory() -> None:

@@ -105,6 +105,7 @@ def run_study(
     study: str,
     output: str,
     threads: int,
+    named: bool = True,
     shard: str | None = None,
     resume: bool = False,
     keep_going: bool = False,

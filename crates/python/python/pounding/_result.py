@@ -202,7 +202,8 @@ class Result:
         Raises
         ------
         OutputError
-            It cannot be written; what stood under the name is untouched.
+            It cannot be written, or would replace the result of a study; what stood under the
+            name is untouched.
         CaseError
             It would replace what the case reads.
         """

@@ -66,6 +66,7 @@ def _run_study(
             os.fspath(study),
             target,
             _threads(threads),
+            named=output is not None,
             evaluated=evaluated,
             progress=told,
             **options,
@@ -94,13 +95,15 @@ def sweep(
         Study file (TOML).
     output : path, optional
         Result file (HDF5); beside the study file, with the ending ``.h5``, by default. Finished
-        runs are stored beside it while the study goes on.
+        runs are stored beside it while the study goes on. It takes the place of no result of a
+        run.
     threads : int, optional
         All cores by default; results do not depend on it.
     shard : str, optional
         A part of the study, such as ``"2/8"``.
     resume : bool
-        Goes on with the finished runs of an interrupted call.
+        Goes on with the finished runs of an interrupted call. A result that stands is read by
+        another process of the interpreter.
     keep_going : bool
         Records runs whose motion cannot be read as failed.
     progress : callable or bool, optional

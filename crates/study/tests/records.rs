@@ -193,6 +193,35 @@ fn a_shown_case_has_its_factor() {
     );
 }
 
+/// Files of a record's steps are relative to the folder of the study, wherever its case lies.
+#[test]
+fn targets_of_records_are_relative_to_the_study() {
+    let folder = tempfile::tempdir().unwrap();
+    let studies = folder.path().join("studies");
+    std::fs::create_dir(&studies).unwrap();
+    std::fs::write(studies.join("t.csv"), "period_s,psa_g\n0.1,1\n4,0.1\n").unwrap();
+    let step =
+        "{ remove_offset = \"mean\" }, { scale = { target = \"t.csv\", from = 0.2, to = 1 } }";
+    let record = format!(
+        "[[variable]]\nrecords = [{{ file = \"MOTIONS/el_centro_1940_ns.csv\", process = [{step}] }}]\n"
+    );
+    study(folder.path(), "", &record).unwrap();
+    let text = format!(
+        "case = \"../case.toml\"\n{}",
+        record.replace("MOTIONS", &motions())
+    );
+    let study = Study::parse(&text, &studies.join("study.toml")).unwrap();
+    assert!(study.missing_records().is_none());
+    let target = studies.join("t.csv");
+    assert!(
+        study.files().contains(&("target spectrum", target)),
+        "{:?}",
+        study.files()
+    );
+    let (found, _reader) = rows(&study, folder.path(), false);
+    assert!(found.iter().all(|row| !row.ending.failed()), "{found:?}");
+}
+
 /// Runs of a record that cannot be read are still different runs.
 #[test]
 fn failed_runs_have_their_own_identities() {

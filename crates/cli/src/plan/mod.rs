@@ -110,7 +110,8 @@ impl Plan {
     fn of(study: &Study, planned: &Planned<'_>) -> Result<Self, Failure> {
         let (running, planning) = (planned.running, planned.planning);
         let runs = study.runs();
-        let mut notes = Vec::new();
+        let missing = study.missing_records().filter(|_| !running.keep_going);
+        let mut notes: Vec<String> = missing.iter().map(ToString::to_string).collect();
         // More shards than chunks would leave some empty.
         let (asked, chunks) = (planning.shards as usize, runs.div_ceil(study.chunk));
         let shards = asked.min(chunks);

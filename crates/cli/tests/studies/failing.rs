@@ -119,6 +119,58 @@ fn an_unreadable_record_is_told_before_anything_is_run() {
     );
 }
 
+/// Files that are not there are said at the names that the study gives them, before any run and
+/// together with what else is wrong in it.
+#[test]
+fn a_missing_record_is_told_at_its_place() {
+    let table = "{ name = \"kobe\", file = \"kobe.csv\" }";
+    let study = MIXED.replace("\"MOTIONS/kobe_1995_jma_ns.csv\"", table);
+    let bench = Bench::new(&study);
+    let help = "help: correct the name, which is relative to the folder of the study";
+    let text = String::from_utf8(bench.bytes("study.toml")).unwrap();
+    let mut lines = text.lines().enumerate();
+    let place = lines.find_map(|(line, text)| {
+        let column = text.find("\"kobe.csv\"")?;
+        Some(format!("study.toml:{}:{}", line + 1, column + 1))
+    });
+    let place = place.unwrap();
+    let told = bench.complaint("sweep study.toml -o a.h5", 2);
+    for said in [
+        &*place,
+        "record kobe: cannot read ",
+        "kobe.csv: ",
+        help,
+    ] {
+        assert!(told.contains(said), "{said}: {told}");
+    }
+    assert!(!bench.path("a.h5").exists() && !bench.path("a.h5.parts").exists());
+    bench.study(&study.replace("gap.0.width", "gap.0.widht"));
+    let told = bench.complaint("sweep study.toml -o a.h5", 2);
+    assert!(
+        told.contains("record kobe: cannot read ") && told.contains("`widht`"),
+        "{told}"
+    );
+    // A plan is none of a run, and says it.
+    bench.study(&study);
+    let output = bench.run("sweep study.toml --plan --shards 2");
+    let noted = String::from_utf8_lossy(&output.stderr)
+        .split_whitespace()
+        .collect::<Vec<_>>()
+        .join(" ");
+    assert!(
+        output.status.success() && noted.contains("record kobe: cannot read "),
+        "{noted}"
+    );
+    // Files of its steps too.
+    let target = "{ name = \"kobe\", file = \"MOTIONS/kobe_1995_jma_ns.csv\", process = [{ scale = { target = \"target.csv\", from = 0.2, to = 1 } }] }";
+    bench.study(&MIXED.replace("\"MOTIONS/kobe_1995_jma_ns.csv\"", target));
+    let told = bench.complaint("sweep study.toml -o a.h5", 2);
+    assert!(
+        told.contains("record kobe: cannot read its target spectrum"),
+        "{told}"
+    );
+}
+
 #[test]
 fn a_full_disk_loses_nothing_that_was_finished() {
     let bench = Bench::new(MIXED);

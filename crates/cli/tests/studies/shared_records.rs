@@ -60,7 +60,11 @@ fn a_shard_needs_the_records_of_its_runs_alone() {
     bench.text("sweep study.toml --shard 3/3 --into all");
     // Without its copy and its file, the second shard has nothing to read.
     let told = bench.complaint("sweep study.toml --shard 2/3 --into all", 2);
-    assert!(told.contains("1 of the 3 records cannot be read"), "{told}");
+    assert!(told.contains("record b: cannot read"), "{told}");
+    assert!(
+        !told.contains("record a:") && !told.contains("record c:"),
+        "{told}"
+    );
     moved("elsewhere.csv", &format!("all/records/{b}"));
     bench.text("sweep study.toml --shard 2/3 --into all");
     bench.text("merge all -o merged.h5");

@@ -102,20 +102,25 @@ impl Motions {
     }
 
     fn check(&self, study: &Study, keep_failures: bool) -> Result<(), StudyError> {
-        let failed: Vec<String> = self
-            .all
-            .iter()
-            .zip(&study.records)
-            .filter_map(|(m, s)| m.as_ref().err().map(|e| format!("  {}: {e}", s.name)))
+        let pairs = self.all.iter().zip(&study.records);
+        let failed: Vec<_> = pairs
+            .filter_map(|(m, s)| Some((m.as_ref().err()?, s)))
             .collect();
         if failed.is_empty() || (keep_failures && failed.len() < self.all.len()) {
             return Ok(());
         }
-        Err(StudyError::Records {
-            count: failed.len(),
+        // Those that are not there at the places that name them.
+        let others = failed.iter().filter(|(_, source)| source.missing.is_none());
+        let list: Vec<_> = others.map(|(e, s)| format!("  {}: {e}", s.name)).collect();
+        let unread = (!list.is_empty()).then(|| StudyError::Records {
+            count: list.len(),
             of: self.all.len(),
-            list: failed.join("\n"),
-        })
+            list: list.join("\n"),
+        });
+        let missing = study.missing_of(failed.iter().map(|(_, source)| *source));
+        Err(StudyError::of_all(
+            missing.into_iter().chain(unread).collect(),
+        ))
     }
 }
 

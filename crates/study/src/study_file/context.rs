@@ -1,9 +1,10 @@
 //! What a study file is read against: its case, as far as that is sound.
 
+use std::cell::RefCell;
 use std::path::PathBuf;
 
 use pounding_case::document::Reader;
-use pounding_case::{Case, Located};
+use pounding_case::{Case, CaseError, Located};
 
 use crate::case_text::building_names;
 use crate::error::StudyError;
@@ -28,6 +29,8 @@ pub(super) struct Context {
     pub wrong: Option<StudyError>,
     /// Folder of the study.
     pub folder: PathBuf,
+    /// Files of records that are not there, which is no error where a run may do without.
+    pub missing: RefCell<Vec<CaseError>>,
 }
 
 impl Context {

@@ -22,7 +22,7 @@ pub use read::study_schema;
 pub(crate) use records::beside_that_across;
 pub use values::{Spacing, Values};
 
-use pounding_case::Case;
+use pounding_case::{Case, CaseError};
 use pounding_ground_motion::Accelerogram;
 
 use crate::case_text::{Edit, Entry, Path};
@@ -96,6 +96,8 @@ pub(crate) struct RecordSource {
     /// Name in results.
     pub name: String,
     pub kind: RecordKind,
+    /// Where the study names a file of it that is not there.
+    pub missing: Option<Box<CaseError>>,
 }
 
 #[derive(Debug, Clone)]
@@ -135,6 +137,26 @@ impl Study {
     /// As [`Study::read`].
     pub fn parse(source: &str, file: &FilePath) -> Result<Self, StudyError> {
         read::study(source, file)
+    }
+
+    /// What is wrong with the study if files of its records are not there; `None` if all are. Runs
+    /// that are to go on all the same, and shards that share records, do without.
+    #[must_use]
+    pub fn missing_records(&self) -> Option<StudyError> {
+        self.missing_of(self.records.iter())
+    }
+
+    /// The same of some of its records.
+    pub(crate) fn missing_of<'r>(
+        &self,
+        records: impl Iterator<Item = &'r RecordSource>,
+    ) -> Option<StudyError> {
+        let missing = records.filter_map(|r| r.missing.as_deref());
+        let error = CaseError::of_all(missing.cloned().collect())?;
+        Some(StudyError::Text {
+            error: Box::new(error),
+            source_text: self.source.clone(),
+        })
     }
 
     /// Number of runs.

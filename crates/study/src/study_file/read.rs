@@ -188,6 +188,8 @@ pub(super) fn study(source: &str, file: &Path) -> Result<Study, StudyError> {
         (Ok(()), None, Some(study)) => Ok(study),
         (Ok(()), Some(wrong), _) => Err(wrong),
         (Err(error), wrong, _) => {
+            let all = error.clone().each().chain(context.missing.take());
+            let error = CaseError::of_all(all.collect()).unwrap_or(error);
             let wrong = std::iter::once(text(error)).chain(wrong);
             Err(StudyError::of_all(wrong.collect()))
         }

@@ -9,7 +9,7 @@ use pounding_case::document::{
     Cycles, Dimensioned, Entry, Field, FreeKeys, List, Number, Optional, Reader, Signed, TableOr,
     Time, Velocity,
 };
-use pounding_case::{Case, CaseTree, Dimension, Located};
+use pounding_case::{Case, CaseError, CaseTree, Dimension, Located};
 use pounding_catalogue::suggestion;
 use pounding_ground_motion::generators::{RezaeianDerKiureghian2010, TimeGrid};
 
@@ -17,6 +17,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 use serde_json::{Value, json};
+use toml::Spanned;
 use toml::de::DeValue;
 
 use super::context::Context;
@@ -76,21 +77,42 @@ fn absolute(file: &str, folder: &Path) -> String {
 /// The value of a key of a record with the files that it names, which are relative to the folder
 /// of the study, as a case in any folder names them.
 fn with_files(key: &str, text: &str, folder: &Path) -> String {
-    let named = match (key, DeValue::parse(text)) {
-        ("response" | "across", Ok(value)) => value,
-        _ => return text.to_owned(),
+    let Ok(value) = DeValue::parse(text) else {
+        return text.to_owned();
     };
-    let file = match named.get_ref() {
-        DeValue::Table(across) => across.get("file"),
-        _ => Some(&named),
-    };
-    match file.map(|file| (file.get_ref().as_str(), file.span())) {
-        Some((Some(name), place)) => {
-            let mut text = text.to_owned();
-            text.replace_range(place, &absolute(name, folder));
-            text
+    let mut named = Vec::new();
+    files_in(key, &value, &mut named);
+    // From the last one on, so that the places of the others stay.
+    named.sort_by_key(|(place, _)| std::cmp::Reverse(place.start));
+    let mut text = text.to_owned();
+    for (place, name) in named {
+        text.replace_range(place, &absolute(name, folder));
+    }
+    text
+}
+
+/// The names of files in the value of a key of a record, with their places.
+fn files_in<'v>(
+    key: &str,
+    value: &'v Spanned<DeValue<'_>>,
+    named: &mut Vec<(Range<usize>, &'v str)>,
+) {
+    match (key, value.get_ref()) {
+        ("file" | "response" | "across" | "target", DeValue::String(name)) => {
+            named.push((value.span(), name));
         }
-        _ => text.to_owned(),
+        ("across" | "scale", DeValue::Table(table)) => {
+            for (key, value) in table {
+                files_in(key.get_ref(), value, named);
+            }
+        }
+        ("process", DeValue::Array(steps)) => {
+            for step in steps {
+                let scale = step.get_ref().as_table().and_then(|step| step.get("scale"));
+                scale.into_iter().for_each(|s| files_in("scale", s, named));
+            }
+        }
+        _ => {}
     }
 }
 
@@ -167,6 +189,7 @@ pub(super) fn of_case(base: &Case) -> RecordSource {
             case: Box::new(base.clone()),
             edits: Vec::new(),
         },
+        missing: None,
     }
 }
 
@@ -182,9 +205,16 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
     // What the case file would hold, as it is written here.
     let mut options = Vec::new();
     let (name, file, others) = match value {
-        TableOr::Value(file) => (None, file, Vec::new()),
-        TableOr::Table(table) => (table.name.value(), table.file.value()?, table.others.0),
+        TableOr::Value(file) => {
+            let span = span.clone();
+            (None, Located { value: file, span }, Vec::new())
+        }
+        TableOr::Table(table) => (table.name.value(), table.file.located()?, table.others.0),
     };
+    let Located {
+        value: file,
+        span: place,
+    } = file;
     for (Located { value: key, span }, value) in others {
         if KEYS.contains(&key) {
             let Some(place) = value.span() else { continue };
@@ -216,12 +246,39 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
             return reader.refuse(span, message, e.help.unwrap_or_default());
         }
     };
+    let name = name.unwrap_or_else(|| stem(Path::new(&file)));
+    let missing = missing(reader, &name, (&case, base), (place, span));
+    context.missing.borrow_mut().extend(missing.clone());
     Some(RecordSource {
-        name: name.unwrap_or_else(|| stem(Path::new(&file))),
+        name,
         kind: RecordKind::File {
             case: Box::new(case),
             edits,
         },
+        missing: missing.map(Box::new),
+    })
+}
+
+/// The first file of a record that is not there, at the place of its name, or of the record if it
+/// stands elsewhere in that. What the case names itself is not a matter of the record.
+fn missing(
+    reader: &Reader<'_>,
+    name: &str,
+    (case, base): (&Case, &Case),
+    (file, record): (Range<usize>, Range<usize>),
+) -> Option<CaseError> {
+    let known = base.files();
+    let mut own = case.files().into_iter().filter(|f| !known.contains(f));
+    own.find_map(|(what, path)| {
+        let error = std::fs::metadata(&path).err()?;
+        let place = match path == case.resolve(&case.ground_motion.file.value) {
+            true => file.clone(),
+            false => record.clone(),
+        };
+        let message = format!("record {name}: cannot read its {what} {}: {error}", path.display());
+        let message = message.replace("its record ", "");
+        let help = "correct the name, which is relative to the folder of the study; with --keep-going the runs of a record that cannot be read are recorded as failed and all others are computed";
+        Some(CaseError::new(reader.file, reader.source, place, message, Some(help.to_owned())))
     })
 }
 
@@ -324,6 +381,7 @@ impl SyntheticTable {
                     record: Box::new(made.accelerogram),
                     command: command(&motion, grid, seed),
                 },
+                missing: None,
             }),
             Err(e) => reader.refuse(span.clone(), e.to_string(), e.help().unwrap_or_default()),
         };

@@ -16,6 +16,10 @@ use crate::system::{ContactLevel, LevelMotion, System, more_pairs};
 
 /// Fundamental periods (s) that buildings have.
 const PERIODS: (f64, f64) = (0.005, 20.0);
+/// A mass (kg) that no floor of a building falls below, the height (m) from which storeys are those of
+/// a building and not of a model of one, and a period (s) that models and light buildings exceed:
+/// with all masses a thousand times as large a building of 6 s has it.
+const SMALL_MASS: (f64, f64, f64) = (1000.0, 2.0, 0.2);
 /// Peak ground acceleration (g) that strong records hardly exceed.
 const GROUND_ACCELERATION: f64 = 3.0;
 /// Drift ratio beyond which buildings are no longer what the case says.
@@ -44,6 +48,15 @@ pub enum Warning {
         /// Name of the building.
         building: String,
         /// Period (s).
+        period: f64,
+    },
+    /// Floors as light as no building's, which is as stiff as one.
+    SmallMass {
+        /// Name of the building.
+        building: String,
+        /// Mass of its heaviest floor (kg).
+        mass: f64,
+        /// Fundamental period (s).
         period: f64,
     },
     /// Soil that is as good as a fixed base.
@@ -171,6 +184,17 @@ impl fmt::Display for Warning {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::FundamentalPeriod { building, period } => period_text(f, building, *period),
+            Self::SmallMass {
+                building,
+                mass,
+                period,
+            } => write!(
+                f,
+                "{building}: no storey has a mass of more than {0} kg, which with a fundamental period of {1} s no building has: write \"{0} t\" if tonnes are meant, which makes it {2} s",
+                short(*mass),
+                short(*period),
+                short(period * 1000.0_f64.sqrt())
+            ),
             Self::WideGap { gap, width, height } => write!(
                 f,
                 "gap {gap}: a width of {} m is more than the {} m of a storey beside it: is its unit right (mm, not m)?",
@@ -330,6 +354,18 @@ fn period_text(f: &mut fmt::Formatter<'_>, building: &str, period: f64) -> fmt::
     )
 }
 
+/// The warning of a building whose floors are all too light for its storeys.
+fn small_mass(building: &ShearBuilding, period: f64) -> Option<Warning> {
+    let (least, height, longest) = SMALL_MASS;
+    let mass = building.mass().iter().fold(0.0_f64, |most, m| most.max(*m));
+    let as_high = building.height().iter().all(|h| *h >= height);
+    (mass < least && as_high && period < longest).then(|| Warning::SmallMass {
+        building: building.name().to_owned(),
+        mass,
+        period,
+    })
+}
+
 /// One significant digit, not above the value.
 fn rounded_down(x: f64) -> f64 {
     let unit = libm::pow(10.0, libm::log10(x).floor());
@@ -403,6 +439,8 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
                 building: building.name().to_owned(),
                 period,
             });
+        } else {
+            warnings.extend(small_mass(building, period));
         }
     }
     warnings.extend(system.buildings().iter().filter_map(|b| stiff_soil(b)));

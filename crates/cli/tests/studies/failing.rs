@@ -135,12 +135,7 @@ fn a_missing_record_is_told_at_its_place() {
     });
     let place = place.unwrap();
     let told = bench.complaint("sweep study.toml -o a.h5", 2);
-    for said in [
-        &*place,
-        "record kobe: cannot read ",
-        "kobe.csv: ",
-        help,
-    ] {
+    for said in [&*place, "record kobe: cannot read ", "kobe.csv: ", help] {
         assert!(told.contains(said), "{said}: {told}");
     }
     assert!(!bench.path("a.h5").exists() && !bench.path("a.h5.parts").exists());

@@ -209,6 +209,33 @@ fn records_of_buildings_and_across_the_row_are_said_and_have_their_line() {
     bench.refused("run bad.toml", &["gone.csv", &format!("bad.toml:{line}:")]);
 }
 
+/// The record across the row belongs to the case's own record: beside others it is said.
+#[test]
+fn records_beside_that_across_the_row_are_said() {
+    let bench = example("pair_that_turns", "\"20 s\"", "\"5 s\"");
+    let said = "record kobe_1995_jma_ns along the row with the record across it of the case, ";
+    let motions = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../ground_motions");
+    let other = format!(
+        "--records {}",
+        motions.join("kobe_1995_jma_ns.csv").display()
+    );
+    for command in [
+        "gap case.toml --points 0",
+        "compare case.toml --models linear_elastic",
+    ] {
+        let warned = |more: &str| {
+            // A gap that is too small ends with exit code 1.
+            let output = bench.output(&format!("{command} {more} --json"));
+            let answer: Value = serde_json::from_slice(&output.stdout).unwrap();
+            let warnings = answer["warnings"].as_array().unwrap().iter();
+            warnings
+                .filter(|w| w.as_str().unwrap().starts_with(said))
+                .count()
+        };
+        assert_eq!((warned(""), warned(&other)), (0, 1), "{command}");
+    }
+}
+
 /// Rotations and edges of floors that turn, in sweeps, comparisons and limits.
 #[test]
 fn studies_take_floors_that_turn() {

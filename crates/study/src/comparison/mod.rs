@@ -23,7 +23,8 @@ use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
     Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, Repeated,
-    amplification, collapsed_building, demands, in_parallel, levels, rebuilt, step_warnings,
+    amplification, beside_that_across, collapsed_building, demands, in_parallel, levels, rebuilt,
+    step_warnings,
 };
 
 /// What is asked for.
@@ -239,6 +240,7 @@ pub fn compare_dealt(
     let copies = Repeated::among(records).warnings(&names);
     let warnings = warnings.chain(undamped(system, &references));
     let warnings = warnings.chain(copies).chain(step_warnings(records));
+    let warnings = warnings.chain(beside_that_across(case, records));
     let warnings = warnings.collect();
     let mut comparison = Comparison {
         options: options.clone(),

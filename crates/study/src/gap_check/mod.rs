@@ -36,7 +36,9 @@ pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_wid
 pub(crate) use demand::closes;
 pub(crate) use demand::levels;
 pub(crate) use parallel::in_parallel;
-pub(crate) use records::step_warnings;
+#[cfg(feature = "results")]
+pub(crate) use records::across_of_another;
+pub(crate) use records::{beside_that_across, step_warnings};
 pub use systems::rebuilt;
 
 use std::borrow::Cow;
@@ -360,6 +362,7 @@ pub fn gap_check_dealt(
             .map(ToString::to_string)
             .chain(repeated.warnings(&names))
             .chain(step_warnings(records))
+            .chain(beside_that_across(case, records))
             .collect(),
         repeated,
     })

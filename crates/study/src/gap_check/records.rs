@@ -28,6 +28,36 @@ pub(crate) fn step_warnings(records: &[CaseUnderRecord]) -> impl Iterator<Item =
     })
 }
 
+/// What the user should know of records that stand beside the record across the row that the case
+/// names, which its own record alone belongs to.
+pub(crate) fn beside_that_across(case: &Case, records: &[CaseUnderRecord]) -> Option<String> {
+    let across = &case.ground_motion.across.as_ref()?.value.file.value;
+    let own = case.resolve(&case.ground_motion.file.value);
+    let named: Vec<&str> = (records.iter().filter(|r| r.file != own))
+        .map(|r| r.name.as_str())
+        .collect();
+    let remedy = "records of a study have their own";
+    across_of_another(&named, records.len(), (across, remedy))
+}
+
+/// The warning of these of so many records.
+pub(crate) fn across_of_another(
+    named: &[&str],
+    of: usize,
+    (across, remedy): (&Path, &str),
+) -> Option<String> {
+    let which = match named {
+        [] => return None,
+        [one] => format!("record {one}"),
+        _ if named.len() == of => format!("all {of} records"),
+        some => format!("{} of {of} records", some.len()),
+    };
+    Some(format!(
+        "{which} along the row with the record across it of the case, {}: components of different earthquakes are no motion of one; {remedy}, such as {{ file = \"ns.csv\", across = {{ file = \"ew.csv\" }} }}",
+        across.display()
+    ))
+}
+
 /// Puts a case under each record: files, or folders of records as [`record_files`] lists
 /// them. Without any, the case keeps its own record.
 ///

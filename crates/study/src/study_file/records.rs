@@ -24,6 +24,7 @@ use super::context::Context;
 use super::values::{Whole, all};
 use super::{RecordKind, RecordSource, Study, Target, Variable};
 use crate::case_text::{Edit, Variant, with_motion};
+use crate::gap_check::across_of_another;
 
 /// A record: the name of its file, or a table.
 pub(super) type Record = TableOr<RecordTable, String>;
@@ -131,18 +132,10 @@ pub(crate) fn beside_that_across(study: &Study) -> Option<String> {
         }
         RecordKind::Made { .. } => true,
     };
-    let kept: Vec<&RecordSource> = study.records.iter().filter(keeps).collect();
-    let of_all = kept.len() == study.records.len();
-    let which = match kept.as_slice() {
-        [] => return None,
-        [one] => format!("record {}", one.name),
-        _ if of_all => format!("all {} records", kept.len()),
-        some => format!("{} of {} records", some.len(), study.records.len()),
-    };
-    Some(format!(
-        "{which} along the row with the record across it of the case, {}: components of different earthquakes are no motion of one; give a record its own, such as {{ file = \"ns.csv\", across = {{ file = \"ew.csv\" }} }}",
-        across.display()
-    ))
+    let kept = study.records.iter().filter(keeps);
+    let kept: Vec<&str> = kept.map(|record| record.name.as_str()).collect();
+    let remedy = "give a record its own";
+    across_of_another(&kept, study.records.len(), (across, remedy))
 }
 
 /// Reads `records` and `synthetic` of a variable.

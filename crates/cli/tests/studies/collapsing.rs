@@ -237,6 +237,26 @@ fn a_hazard_file_says_its_units() {
         told.contains("hazard.csv:2: \"pga\" does not say its unit"),
         "{told}"
     );
+    // What is wrong with the points together too.
+    for (points, said) in [
+        (
+            "0.01,1\n\n4,1e-6\n3,1e-7\n",
+            "hazard.csv:6: intensities must rise",
+        ),
+        (
+            "0.01,1\n4,-1e-6\n",
+            "hazard.csv:4: intensities and frequencies must be above zero",
+        ),
+        ("0.01,1\n", "hazard.csv: it has fewer than two points"),
+    ] {
+        let text = format!("# x\npga (g),mafe\n{points}");
+        std::fs::write(bench.path("hazard.csv"), text).unwrap();
+        let told = bench.complaint("ida study.toml -o a.h5", 2);
+        assert!(
+            told.contains(said) && told.contains("study.toml:"),
+            "{told}"
+        );
+    }
     assert!(told.contains("intensity (g),frequency (1/year)"), "{told}");
 }
 

@@ -11,6 +11,8 @@ use super::IntensityMeasure;
 
 /// Message, with file and line, and remedy.
 pub(super) type Refusal = (String, String);
+/// Intensity and frequency, with the line that they stand in, from 1.
+pub(super) type PointOfLine = (usize, (f64, f64));
 
 /// What a column holds.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -118,7 +120,7 @@ pub(super) fn text(path: &Path) -> Result<String, Vec<Refusal>> {
 
 /// Reads points from a file of two columns; lines that start with `#` are comments. A
 /// header names them with their units, in either order; without one the first line is a
-/// point already: intensity in SI, frequency in 1/year.
+/// point already: intensity in SI, frequency in 1/year. Each point has its line, from 1.
 ///
 /// # Errors
 /// All that is wrong in the file, each with its line.
@@ -126,13 +128,13 @@ pub(super) fn points(
     path: &Path,
     text: &str,
     measure: &IntensityMeasure,
-) -> Result<Vec<(f64, f64)>, Vec<Refusal>> {
+) -> Result<Vec<PointOfLine>, Vec<Refusal>> {
     let file = path.display().to_string();
     Table { file, measure }.points(text.trim_start_matches('\u{feff}'))
 }
 
 impl Table<'_> {
-    fn points(&self, text: &str) -> Result<Vec<(f64, f64)>, Vec<Refusal>> {
+    fn points(&self, text: &str) -> Result<Vec<PointOfLine>, Vec<Refusal>> {
         let mut columns = None;
         let (mut points, mut wrong) = (Vec::new(), Vec::new());
         for (line, content) in text.lines().enumerate() {
@@ -140,7 +142,7 @@ impl Table<'_> {
                 continue;
             }
             match self.line(line, content, &mut columns) {
-                Ok(point) => points.extend(point),
+                Ok(point) => points.extend(point.map(|point| (line + 1, point))),
                 Err(refusal) => wrong.push(refusal),
             }
             // Without its header no line can be read.
@@ -365,7 +367,8 @@ mod tests {
 
     fn of(measure: &IntensityMeasure, text: &str) -> Result<Vec<(f64, f64)>, Vec<Refusal>> {
         let file = "hazard.csv".to_owned();
-        Table { file, measure }.points(text)
+        let points = Table { file, measure }.points(text)?;
+        Ok(points.into_iter().map(|(_, point)| point).collect())
     }
 
     /// The same two points in every way of writing a header, and without one.

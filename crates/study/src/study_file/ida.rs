@@ -587,23 +587,27 @@ fn hazard_curve(
         let help = "give intensities (SI, or with a unit) and mean annual frequencies (1/year), intensities rising, frequencies falling";
         reader.error(span.clone(), format!("the hazard curve: {reason}"), help)
     };
-    let points = match (value, file) {
-        (Hazard::Points(points), _) => all(points.into_iter().map(|item| {
-            let Ok([intensity, frequency]) = <[_; 2]>::try_from(item.value()?) else {
-                reader.errors.record(wrong("a point is a pair"));
-                return None;
-            };
-            let number = |item: Field<Written>, wanted: Option<Dimension>| {
-                let item = item.located()?;
-                let value = match wanted {
-                    Some(wanted) => item.value.above_zero(wanted),
-                    None => item.value.any().map(|quantity| quantity.value),
+    // Of a file with the lines that its points stand in.
+    let (points, lines) = match (value, file) {
+        (Hazard::Points(points), _) => {
+            let points = all(points.into_iter().map(|item| {
+                let Ok([intensity, frequency]) = <[_; 2]>::try_from(item.value()?) else {
+                    reader.errors.record(wrong("a point is a pair"));
+                    return None;
                 };
-                reader.keep(&item.span, "hazard", value)
-            };
-            let intensity = number(intensity, measure.map(IntensityMeasure::dimension));
-            intensity.zip(number(frequency, Some(Dimension::NUMBER)))
-        }))?,
+                let number = |item: Field<Written>, wanted: Option<Dimension>| {
+                    let item = item.located()?;
+                    let value = match wanted {
+                        Some(wanted) => item.value.above_zero(wanted),
+                        None => item.value.any().map(|quantity| quantity.value),
+                    };
+                    reader.keep(&item.span, "hazard", value)
+                };
+                let intensity = number(intensity, measure.map(IntensityMeasure::dimension));
+                intensity.zip(number(frequency, Some(Dimension::NUMBER)))
+            }))?;
+            (points, None)
+        }
         (Hazard::File(_), file) => {
             let refused = |refusals: Vec<hazard_file::Refusal>| {
                 for (message, help) in refusals {
@@ -612,16 +616,25 @@ fn hazard_curve(
             };
             let text = hazard_file::text(file?).map_err(refused).ok()?;
             let points = hazard_file::points(file?, &text, measure?);
-            points.map_err(refused).ok()?
+            let points = points.map_err(refused).ok()?;
+            let (lines, points) = points.into_iter().unzip();
+            (points, Some((file?, lines)))
         }
     };
     measure?;
-    let curve = HazardCurve::new(points);
-    let wrong = |error| match error {
-        StudyError::Evaluation { reason, .. } => wrong(&reason),
-        other => wrong(&other.to_string()),
+    let Some((point, reason)) = HazardCurve::fault(&points) else {
+        return Some(HazardCurve { points });
     };
-    reader.errors.keep(curve.map_err(wrong))
+    let place = lines.map(|(file, lines): (_, Vec<usize>)| {
+        let line = lines
+            .get(point)
+            .map_or(String::new(), |line| format!(":{line}"));
+        format!("{}{line}: ", file.display())
+    });
+    reader
+        .errors
+        .record(wrong(&(place.unwrap_or_default() + reason)));
+    None
 }
 
 impl HazardCurve {
@@ -631,25 +644,26 @@ impl HazardCurve {
     /// Fewer than two points, values that are not positive, intensities that do not rise
     /// or frequencies that do not fall.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, StudyError> {
-        let wrong = |reason: &str| StudyError::Evaluation {
-            what: "hazard curve",
-            reason: reason.to_owned(),
-        };
+        match Self::fault(&points) {
+            None => Ok(Self { points }),
+            Some((_, reason)) => Err(StudyError::Evaluation {
+                what: "hazard curve",
+                reason: reason.to_owned(),
+            }),
+        }
+    }
+
+    /// The first point (from zero) that no curve goes through after those before it, and why.
+    fn fault(points: &[(f64, f64)]) -> Option<(usize, &'static str)> {
         if points.len() < 2 {
-            return Err(wrong("it has fewer than two points"));
+            return Some((points.len(), "it has fewer than two points"));
         }
-        if !points
-            .iter()
-            .all(|(a, b)| *a > 0.0 && *b > 0.0 && a.is_finite() && b.is_finite())
-        {
-            return Err(wrong("intensities and frequencies must be above zero"));
+        let sound = |(a, b): &(f64, f64)| *a > 0.0 && *b > 0.0 && a.is_finite() && b.is_finite();
+        if let Some(point) = points.iter().position(|p| !sound(p)) {
+            return Some((point, "intensities and frequencies must be above zero"));
         }
-        if !points
-            .windows(2)
-            .all(|p| p[0].0 < p[1].0 && p[0].1 > p[1].1)
-        {
-            return Err(wrong("intensities must rise and frequencies fall"));
-        }
-        Ok(Self { points })
+        let mut pairs = points.windows(2);
+        let turned = pairs.position(|p| !(p[0].0 < p[1].0 && p[0].1 > p[1].1))?;
+        Some((turned + 1, "intensities must rise and frequencies fall"))
     }
 }

@@ -1,5 +1,6 @@
 //! The verification ladder.
 
+mod any_rows;
 mod batch;
 mod convergence;
 mod event_driven;

@@ -20,7 +20,16 @@ pub(crate) struct NumberFile {
 const PATH: &str = "name the file relative to the folder of the case file";
 
 /// What is wrong, and what to do.
-type Refused = (String, String);
+pub(crate) type Refused = (String, String);
+
+/// What stands in a file.
+#[derive(Default)]
+pub(crate) struct Numbers {
+    /// Names of the columns, if a first line has them.
+    pub names: Option<Vec<String>>,
+    /// Row by row.
+    pub rows: Vec<Vec<f64>>,
+}
 
 impl NumberFile {
     /// The numbers in a file that a case names, row by row; lines that begin with `#` and empty
@@ -28,7 +37,7 @@ impl NumberFile {
     ///
     /// # Errors
     /// A file that cannot be read, what is no number, too many rows or columns.
-    pub(crate) fn read(&self, case: &Case, path: &Path) -> Result<Vec<Vec<f64>>, Refused> {
+    pub(crate) fn read(&self, case: &Case, path: &Path) -> Result<Numbers, Refused> {
         let unreadable = |why: &dyn std::fmt::Display| self.unreadable(why);
         match case.given(path) {
             Some(bytes) => self.rows(bytes.map_err(|e| unreadable(&e))?),
@@ -41,7 +50,7 @@ impl NumberFile {
         (message, PATH.to_owned())
     }
 
-    fn read_disk(&self, path: &Path) -> Result<Vec<Vec<f64>>, Refused> {
+    fn read_disk(&self, path: &Path) -> Result<Numbers, Refused> {
         let unreadable = |why: &dyn std::fmt::Display| self.unreadable(why);
         // A device or a pipe may never end.
         match std::fs::metadata(path) {
@@ -52,7 +61,7 @@ impl NumberFile {
         self.rows(std::fs::File::open(path).map_err(|e| unreadable(&e))?)
     }
 
-    fn rows(&self, source: impl Read) -> Result<Vec<Vec<f64>>, Refused> {
+    fn rows(&self, source: impl Read) -> Result<Numbers, Refused> {
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
@@ -60,12 +69,17 @@ impl NumberFile {
             .trim(csv::Trim::All)
             .from_reader(source);
         let correct = || format!("write {}", self.rows);
-        let mut rows: Vec<Vec<f64>> = Vec::new();
+        let Numbers {
+            mut names,
+            mut rows,
+        } = Numbers::default();
         for (place, record) in reader.records().enumerate() {
             let record = record.map_err(|e| (e.to_string(), correct()))?;
             let finite = |text: &str| text.parse::<f64>().ok().filter(|x| x.is_finite());
             let is_header = self.header && place == 0;
-            if is_header && record.iter().all(|text| text.parse::<f64>().is_err()) {
+            let is_text = record.iter().all(|text| text.parse::<f64>().is_err());
+            if is_header && is_text && record.get(0).is_some_and(is_name) {
+                names = Some(record.iter().map(str::to_owned).collect());
                 continue;
             }
             let line = record.position().map_or(0, csv::Position::line);
@@ -86,6 +100,11 @@ impl NumberFile {
             let entries = record.iter().enumerate();
             rows.push(entries.map(number).collect::<Result<_, _>>()?);
         }
-        Ok(rows)
+        Ok(Numbers { names, rows })
     }
+}
+
+/// Whether a text names a column; a number that is spelled wrongly, or has its unit, does not.
+fn is_name(text: &str) -> bool {
+    !text.starts_with(|c: char| c.is_ascii_digit() || "+-.".contains(c))
 }

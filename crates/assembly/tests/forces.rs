@@ -2,10 +2,14 @@
 //! `tests/tests/structures/forces.rs`.
 #![allow(clippy::unwrap_used)]
 
-use pounding_assembly::{AssemblyError, assemble};
+use pounding_assembly::{Assembly, AssemblyError, assemble};
 use pounding_case::Case;
 
-fn refused(force: &str, csv: &str) -> (String, String, String) {
+fn assembled(force: &str, csv: &str) -> Result<Assembly, AssemblyError> {
+    assembled_with_text(force, csv).0
+}
+
+fn assembled_with_text(force: &str, csv: &str) -> (Result<Assembly, AssemblyError>, String) {
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("f.csv"), csv).unwrap();
     let record = concat!(
@@ -16,7 +20,12 @@ fn refused(force: &str, csv: &str) -> (String, String, String) {
         "[[building]]\nname = \"a\"\nstoreys = 2\nmass = \"40 t\"\nheight = 3\nstiffness = 1e8\ndamping = {{ modal = 0.05 }}\n[[building.force]]\nstorey = 1\n{force}\n[ground_motion]\nfile = \"{record}\"\n"
     );
     let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
-    match assemble(&case) {
+    (assemble(&case), text)
+}
+
+fn refused(force: &str, csv: &str) -> (String, String, String) {
+    let (assembled, text) = assembled_with_text(force, csv);
+    match assembled {
         Err(AssemblyError::Case(e)) => {
             let place = text[e.span.clone()].to_owned();
             (e.message.clone(), e.help.clone().unwrap_or_default(), place)
@@ -64,6 +73,44 @@ fn forces_that_cannot_be_read_are_refused_at_their_place() {
             "relative to the folder",
         ),
         (
+            file,
+            "time_s,force_kg\n0,1\n1,0\n",
+            "the column \"force_kg\" is in \"kg\", which is a mass",
+            "column (N)",
+        ),
+        (
+            file,
+            "time (sek),force_N\n0,1\n1,0\n",
+            "\"sek\" in the column \"time (sek)\" is no unit of a time",
+            "column (s)",
+        ),
+        (
+            file,
+            "time_s,force_kn\n0,1\n1,0\n",
+            "\"kn\" in the column \"force_kn\"",
+            "column (N)",
+        ),
+        (
+            "file = \"f.csv\"\nunit = \"N\"",
+            "time_s,force_kN\n0,1\n1,0\n",
+            "another one than `unit`",
+            "leave `unit` out",
+        ),
+        (
+            "file = \"f.csv\"\ntime_step = \"0.1 s\"",
+            "0,0\n0.1,1000\n0.2,0\n",
+            "it has 2 columns, and `time_step` is for forces without times",
+            "`column`",
+        ),
+        (
+            "file = \"f.csv\"\ntime_step = \"0.1 s\"",
+            "5O00\n0\n",
+            "\"5O00\" is no number",
+            "",
+        ),
+        (file, "0 s,5000 N\n1,0\n", "\"0 s\" is no number", ""),
+        (file, "0,5\n", "points at a single time", "`stays = true`"),
+        (
             "file = \"f.csv\"\ncolumn = 4",
             "0,1\n",
             "has 2 columns, and the force is in column 4",
@@ -82,4 +129,26 @@ fn forces_that_cannot_be_read_are_refused_at_their_place() {
         "{message}"
     );
     assert_eq!(place, "[[2, 1], [1, 1]]");
+}
+
+/// Units stand in the names of the columns, or in the case, or are those of the SI.
+#[test]
+fn units_of_columns_are_those_of_their_names() {
+    for (unit, csv) in [
+        ("", "time_s,force_kN\n0,0\n0.1,2\n0.2,0\n"),
+        ("", "time (ms);force (kN)\n0;0\n100;2\n200;0\n"),
+        ("unit = \"kN\"", "time_ms,force [kN]\n0,0\n100,2\n200,0\n"),
+        ("unit = \"kN\"", "t,F\n0,0\n0.1,2\n0.2,0\n"),
+        ("", "time,force_above\n0,0\n0.1,2000\n0.2,0\n"),
+        ("", "0,0\n0.1,2000\n0.2,0\n"),
+    ] {
+        let csv = csv.replace(';', ",");
+        let force = format!("file = \"f.csv\"\n{unit}");
+        let system = assembled(&force, &csv).unwrap().system;
+        let history = &system.forces()[0].history;
+        let points = history.points();
+        assert_eq!(points.len(), 3, "{csv}");
+        let apart = (points[1].0 - 0.1).abs() + (points[1].1 - 2000.0).abs();
+        assert!(apart < 1e-12, "{csv}: {points:?}");
+    }
 }

@@ -395,6 +395,15 @@ fn near_symbols(symbol: &str) -> Vec<(usize, &'static str)> {
 /// Largest power of a unit; larger ones are slips of the pen.
 const LARGEST_POWER: f64 = 9.0;
 
+/// The unit in a name of a column: `ms` in `time (ms)`, `time [ms]` and `time_ms`.
+#[must_use]
+pub fn unit_in(name: &str) -> Option<&str> {
+    if let Some((_, rest)) = name.split_once(['(', '[']) {
+        return rest.split([')', ']']).next().map(str::trim);
+    }
+    name.rsplit_once('_').map(|(_, unit)| unit.trim())
+}
+
 /// Parses `"25 t"`, `"2.75e9 N/m^1.5"`, `"0.35 g"`, `"kN s/m"` style units: factors
 /// separated by blank, `*` or `·`, one divisor after each `/`, powers after `^` or
 /// as final digits. `g` is standard gravity, never gram. A text that is only a

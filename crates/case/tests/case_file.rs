@@ -175,6 +175,27 @@ fn a_wall_and_named_levels() {
 
 /// Every property of the schema is a key that the parser knows, and the other way
 /// round: the parser's complaint about an unknown key lists them.
+/// What a list gives stands where `levels` names the floors, whatever their order.
+#[test]
+fn lists_stand_in_the_order_of_the_levels() {
+    let levels = "between = [\"light\", \"heavy\"]\nlevels = [[3, 3], [1, 1], [2, 2]]\n";
+    let link = format!(
+        "[[link]]\n{levels}model = \"linear\"\nstiffness = [\"333 N/m\", \"111 N/m\", \"222 N/m\"]\n[ground_motion]"
+    );
+    let text = EXAMPLE.replace("[ground_motion]", &link).replace(
+        "between = [\"light\", \"heavy\"]\nwidth = \"20 mm\"",
+        &format!("{levels}width = [\"30 mm\", \"10 mm\", \"20 mm\"]"),
+    );
+    let case = parse(&text).unwrap();
+    let widths: Vec<f64> = case.gaps[0].levels.iter().map(|l| l.width).collect();
+    assert_eq!(widths, [0.01, 0.02, 0.03]);
+    let link = &case.links[0];
+    assert_eq!(link.levels, [0, 1, 2].map(|s| (Some(s), Some(s))));
+    let values = link.parameters[0].values.iter();
+    let values: Vec<f64> = values.map(|v| v.value.value).collect();
+    assert_eq!(values, [111.0, 222.0, 333.0]);
+}
+
 #[test]
 fn schema_and_parser_know_the_same_keys() {
     let schema = schema();

@@ -218,7 +218,7 @@ fn forces_are_read() {
     else {
         panic!("{:?}", forces[3]);
     };
-    assert_eq!((column, time_step, unit), (0, Some(0.1), 1000.0));
+    assert_eq!((column, time_step, unit), (None, Some(0.1), Some(1000.0)));
     let files: Vec<_> = case.files().into_iter().map(|f| f.0).collect();
     assert_eq!(files, ["record", "force history"]);
 }

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use pounding_case::{Dimension, parse_quantity};
+use pounding_case::{Dimension, parse_quantity, unit_in};
 
 use pounding_files::input::read_to_string;
 
@@ -214,12 +214,4 @@ fn blank_separated(line: &str) -> Fields {
 /// Damaged values are still numbers to this question: their row is no header.
 pub fn looks_numeric(field: &str) -> bool {
     field.parse::<f64>().is_ok() || field.starts_with(|c: char| c.is_ascii_digit())
-}
-
-/// `ms` in `time (ms)`, `time [ms]` and `time_ms`.
-pub fn unit_in(field: &str) -> Option<&str> {
-    if let Some((_, rest)) = field.split_once(['(', '[']) {
-        return rest.split([')', ']']).next().map(str::trim);
-    }
-    field.rsplit_once('_').map(|(_, unit)| unit.trim())
 }

@@ -2,12 +2,14 @@
 
 use std::f64::consts::TAU;
 
-use pounding_case::{Case, CaseError, Errors, ForceSource, Located};
+use pounding_case::{
+    Case, CaseError, Dimension, Errors, ForceSource, Located, parse_quantity, unit_in,
+};
 use pounding_catalogue::wording::counted;
 use pounding_time_history::{FloorForce, ForceHistory, System, TimeHistoryError};
 
 use crate::error::AssemblyError;
-use crate::number_file::NumberFile;
+use crate::number_file::{NumberFile, Numbers, Refused};
 
 /// The most lines of a file of forces.
 const MOST_LINES: usize = 2_000_000;
@@ -34,7 +36,13 @@ fn origin(source: &ForceSource) -> String {
         ForceSource::Constant(_) => "constant".to_owned(),
         ForceSource::Points(_) => String::new(),
         ForceSource::Harmonic { frequency, .. } => format!("{frequency} Hz"),
-        ForceSource::File { file, column, .. } => {
+        ForceSource::File {
+            file,
+            column,
+            time_step,
+            ..
+        } => {
+            let column = column.unwrap_or(usize::from(time_step.is_none()));
             format!("{}, column {}", file.value.display(), column + 1)
         }
     }
@@ -69,9 +77,20 @@ fn history(
             time_step,
             unit,
         } => {
-            let read = read(case, file, (*column, *time_step))?;
-            let scaled = read.into_iter().map(|(t, force)| (t, unit * force));
-            (scaled.collect(), &file.span)
+            let read = read(case, file, (*column, *time_step), *unit)?;
+            // One point, or a jump; what else is wrong with times is told below.
+            let single = read.len() < 3 && read.iter().all(|p| p.0 >= 0.0 && p.0 == read[0].0);
+            if single && !given.stays {
+                return Err(case.error(
+                    file.span.clone(),
+                    format!(
+                        "{}: points at a single time are a force that lasts no time",
+                        file.value.display()
+                    ),
+                    Some("give the time at which the force ends too, or `stays = true`".to_owned()),
+                ));
+            }
+            (read, &file.span)
         }
     };
     let placed = points
@@ -93,11 +112,12 @@ fn history(
     })
 }
 
-/// Times (s) and forces, in the unit of the file.
+/// Times (s) and forces (N), in the units that the file's names of columns, or else the case, say.
 fn read(
     case: &Case,
     file: &Located<std::path::PathBuf>,
-    (column, time_step): (usize, Option<f64>),
+    (column, time_step): (Option<usize>, Option<f64>),
+    unit: Option<f64>,
 ) -> Result<Vec<(f64, f64)>, CaseError> {
     let layout = NumberFile {
         what: "force history",
@@ -113,12 +133,39 @@ fn read(
         let message = format!("{}: {message}", file.value.display());
         case.error(file.span.clone(), message, Some(help))
     };
-    let rows = layout.read(case, &file.value);
-    let rows = rows.map_err(|(message, help)| refused(message, help))?;
+    let numbers = layout.read(case, &file.value);
+    let Numbers { names, rows } = numbers.map_err(|(message, help)| refused(message, help))?;
     if rows.is_empty() {
         let help = format!("write {}", layout.rows);
         return Err(refused("it holds no numbers".to_owned(), help));
     }
+    let columns = rows[0].len();
+    if time_step.is_some() && column.is_none() && columns > 1 {
+        return Err(refused(
+            format!("it has {columns} columns, and `time_step` is for forces without times"),
+            "name the column of the force by `column`, or leave `time_step` out where the first column holds the times".to_owned(),
+        ));
+    }
+    let column = column.unwrap_or(usize::from(time_step.is_none()));
+    let named = |place: usize, dimension: Dimension| {
+        let name = names.as_ref().and_then(|names| names.get(place));
+        let unit = name.and_then(|name| unit_of_name(name, dimension).transpose());
+        unit.transpose()
+            .map_err(|(message, help)| refused(message, help))
+    };
+    let force_unit = match (named(column, Dimension::FORCE)?, unit) {
+        (Some(named), Some(unit)) if named != unit => {
+            return Err(refused(
+                "the unit in the name of the column is another one than `unit`".to_owned(),
+                "leave `unit` out, or correct the name of the column".to_owned(),
+            ));
+        }
+        (named, unit) => named.or(unit).unwrap_or(1.0),
+    };
+    let time_unit = match time_step {
+        None => named(0, Dimension::TIME)?.unwrap_or(1.0),
+        Some(_) => 1.0,
+    };
     let point = |(k, row): (usize, Vec<f64>)| {
         let force = row.get(column).ok_or_else(|| {
             refused(
@@ -133,9 +180,43 @@ fn read(
         })?;
         let time = match time_step {
             Some(step) => k as f64 * step,
-            None => row[0],
+            None => time_unit * row[0],
         };
-        Ok((time, *force))
+        Ok((time, force_unit * force))
     };
     rows.into_iter().enumerate().map(point).collect()
+}
+
+/// The longest ending of a name, `_ms` in `time_ms`, that must be a unit; longer ones may be words.
+const UNIT: usize = 3;
+
+/// Size in SI of the unit in the name of a column, `kN` in `force_kN` and `force (kN)`; none where
+/// it names no unit.
+fn unit_of_name(name: &str, dimension: Dimension) -> Result<Option<f64>, Refused> {
+    let Some(unit) = unit_in(name) else {
+        return Ok(None);
+    };
+    let help = || {
+        let base = if dimension == Dimension::TIME {
+            "s"
+        } else {
+            "N"
+        };
+        format!("name the column with its unit, such as `{base}` in brackets: `column ({base})`")
+    };
+    match parse_quantity(&format!("1 {unit}")) {
+        Ok(found) if found.dimension == Some(dimension) => Ok(Some(found.value)),
+        Ok(found) => {
+            let found = found.dimension.unwrap_or(Dimension::NUMBER);
+            let message = format!(
+                "the column \"{name}\" is in \"{unit}\", which is {found}, not {dimension}"
+            );
+            Err((message, help()))
+        }
+        Err(_) if name.contains(['(', '[']) || unit.len() <= UNIT => {
+            let message = format!("\"{unit}\" in the column \"{name}\" is no unit of {dimension}");
+            Err((message, help()))
+        }
+        Err(_) => Ok(None),
+    }
 }

@@ -70,7 +70,9 @@ fn rows(
         most: (MAXIMUM_STOREYS, "the most floors of a building"),
     };
     let rows = layout.read(case, &file.value);
-    let rows = rows.map_err(|(message, help)| refused(message, &help))?;
+    let rows = rows
+        .map_err(|(message, help)| refused(message, &help))?
+        .rows;
     let floors = building.mass.len();
     if rows.len() != floors {
         return Err(refused(

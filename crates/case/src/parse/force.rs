@@ -41,7 +41,7 @@ pub(super) struct ForceTable {
     column: Optional<Count<1>>,
     /// Time between lines of a file without times (s); the first line is at time zero
     time_step: Optional<Positive<Time>>,
-    /// Unit of the forces of the file; by default N
+    /// Unit of the forces of the file; by default that of its header, or N
     unit: Optional<Written>,
     /// Whether the last force of `points` or a file stays; by default there is none after it
     stays: Optional<bool>,
@@ -197,7 +197,7 @@ impl ForceTable {
         let time_step = self.time_step.stated()?.map(|step| step.value.into());
         let first = if time_step.is_some() { 1 } else { 2 };
         let column = match self.column.stated()? {
-            None => first,
+            None => None,
             Some(column) if column.value.0 < first => {
                 return reader.refuse(
                     column.span,
@@ -205,15 +205,15 @@ impl ForceTable {
                     "give the column of the force, or `time_step` for a file without times",
                 );
             }
-            Some(column) => column.value.0,
+            Some(column) => Some(column.value.0 - 1),
         };
         let unit = match self.unit.stated()? {
-            None => 1.0,
-            Some(unit) => unit_of::<Force>(reader, unit)?,
+            None => None,
+            Some(unit) => Some(unit_of::<Force>(reader, unit)?),
         };
         Some(ForceSource::File {
             file: self.file.located()?.into(),
-            column: column - 1,
+            column,
             time_step,
             unit,
         })

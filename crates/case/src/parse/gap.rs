@@ -24,7 +24,8 @@ pub(super) struct GapTable {
     name: Optional<String>,
     /// Left and right neighbour; "wall" is a rigid wall that moves with the ground
     between: Field<Between>,
-    /// Width at rest (m), one for all levels or a list, bottom first
+    /// Width at rest (m), one for all levels or a list: in the order of `levels` where that is a
+    /// list, otherwise bottom first
     width: Field<Widths>,
     /// Pairs of storey numbers that may touch, [1, { storey = 2 }] where a floor hits columns;
     /// "matching" for the floors at equal elevation only, or "all_floors" for each floor and

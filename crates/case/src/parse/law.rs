@@ -191,7 +191,7 @@ impl LinkTable {
             }
         };
         let levels = placed.as_ref().map(|p| p.pairs.len());
-        let (parameters, whole) = parameters(reader, self.parameters, levels);
+        let (mut parameters, whole) = parameters(reader, self.parameters, levels);
         let model = self.model.located()?;
         if !whole {
             reader.errors.incomplete(model.span.clone());
@@ -203,7 +203,16 @@ impl LinkTable {
                 let mut levels: Vec<_> = floors
                     .map(|([left, right], _)| (left.floor(), right.floor()))
                     .collect();
+                // Values stand in the order in which levels are named.
+                let mut order: Vec<usize> = (0..levels.len()).collect();
+                order.sort_by_key(|place| levels[*place]);
                 levels.sort_unstable();
+                for parameter in &mut parameters {
+                    if parameter.values.len() == order.len() {
+                        let values = &parameter.values;
+                        parameter.values = order.iter().map(|p| values[*p].clone()).collect();
+                    }
+                }
                 (faced.between, faced.names, levels)
             }
             None => ([Side::Wall; 2], Default::default(), vec![(None, None)]),

@@ -156,12 +156,13 @@ pub enum ForceSource {
     File {
         /// The file, relative to the folder of the case file.
         file: Located<PathBuf>,
-        /// Column of the force, from zero.
-        column: usize,
+        /// Column of the force, from zero, where one is named; otherwise that after the times, or
+        /// the only one.
+        column: Option<usize>,
         /// Time between lines (s); `None` where the first column holds times.
         time_step: Option<f64>,
-        /// Unit of the force in SI units.
-        unit: f64,
+        /// Unit of the force in SI units, where one is named.
+        unit: Option<f64>,
     },
 }
 

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pounding_case::Dimension;
+use pounding_case::{Dimension, unit_in};
 use pounding_catalogue::numbers::significant;
 use pounding_catalogue::wording::counted;
 use pounding_hysteresis::iwan::{
@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use super::chosen::given;
 use crate::arguments::InputPath;
-use crate::columns::{Column, Source, unit_in};
+use crate::columns::{Column, Source};
 use crate::failure::Failure;
 use crate::tables::new_table;
 

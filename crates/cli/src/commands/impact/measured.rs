@@ -3,10 +3,10 @@
 use std::ops::Range;
 use std::path::Path;
 
-use pounding_case::Dimension;
+use pounding_case::{Dimension, unit_in};
 use pounding_catalogue::wording::{agreeing, counted};
 
-use crate::columns::{Column, Source, looks_numeric, unit_in};
+use crate::columns::{Column, Source, looks_numeric};
 use crate::failure::Failure;
 
 /// A header as it should be.

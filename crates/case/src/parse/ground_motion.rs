@@ -203,7 +203,7 @@ impl TryFrom<Written> for Degrees {
                 ..
             }) => Ok(Self(value)),
             Err(fault) if is_plain => Err(fault),
-            _ => Err(Fault::new(" is a plain number of degrees", TURN)),
+            _ => Err(Fault::new(" is a plain number of degrees", "for example 30")),
         }
     }
 }

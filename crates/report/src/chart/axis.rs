@@ -90,7 +90,9 @@ impl Range {
                 } else {
                     (low.min(0.0), high.max(0.0))
                 };
-                let width = if high > low { high - low } else { 1.0e-9 };
+                // Nothing but zeros are seen as such beside one.
+                let high = if high > low { high } else { 1.0 };
+                let width = high - low;
                 let below = if low < 0.0 { margin * width } else { 0.0 };
                 (low - below, high + margin * width)
             }
@@ -251,6 +253,11 @@ mod tests {
         assert_eq!(
             labels(&linear, &[-0.2, 0.3]),
             ["\u{2212}0.2", "\u{2212}0.1", "0", "0.1", "0.2", "0.3"]
+        );
+        // A gap that never closes has no force.
+        assert_eq!(
+            labels(&linear, &[0.0, 0.0]),
+            ["0", "0.2", "0.4", "0.6", "0.8", "1.0"]
         );
         assert_eq!(labels(&linear, &[2e7])[1], "5\u{d7}10\u{2076}");
         let log = Axis::logarithmic("x");

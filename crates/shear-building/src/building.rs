@@ -684,6 +684,17 @@ impl ShearBuilding {
         &self.responses
     }
 
+    /// Number of the fundamental mode along the row: on a foundation that moves the first one, as the
+    /// mass of the foundation may make another one's effective mass the largest, otherwise
+    /// [`Modes::fundamental`].
+    #[must_use]
+    pub fn fundamental_mode(&self) -> usize {
+        match &self.foundation {
+            Some(_) => 0,
+            None => self.modes.fundamental(),
+        }
+    }
+
     /// The foundation that the building stands on, if it sways or rocks
     /// ([`ShearBuilding::on_foundation`]).
     #[must_use]

@@ -451,6 +451,39 @@ fn periods_across_the_row_do_not_count() {
     }
 }
 
+/// On soil the mass of a foundation can be most of all: its overdamped sway (0.05 s) is no period of the building, whose
+/// first one (0.41 s) is that of its neighbour, with which it moves almost as one.
+#[test]
+fn a_heavy_foundation_is_not_the_fundamental_mode() {
+    let building = |name: &str, stiffness: &str, foundation: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = [\"40 t\", \"40 t\"]\nheight = \"3 m\"\nstiffness = \"{stiffness}\"\ndamping = {{ stiffness_proportional = 0.03 }}\n{foundation}\n"
+        )
+    };
+    let soil = "[building.foundation]\nmass = \"120 t\"\nrotational_inertia = \"2500 t m2\"\nsoil = { shear_wave_speed = \"180 m/s\", density = \"1.8 t/m3\", poisson = 0.33, length = \"12 m\", width = \"10 m\" }";
+    let gap = "[[gap]]\nbetween = [\"soil\", \"fixed\"]\nwidth = \"100 mm\"\nmodel = \"linear_elastic\"\nstiffness = \"100 MN/m\"\n[ground_motion]\nfile = \"ground_motions/el_centro_1940_ns.csv\"\n";
+    let text = format!(
+        "{}{}{gap}",
+        building("soil", "25 MN/m", soil),
+        building("fixed", "24 MN/m", "")
+    );
+    let case = Case::parse(&text, &root().join("case.toml")).unwrap();
+    let system = assemble(&case).unwrap().system;
+    let [on_soil, fixed] = [0, 1].map(|b| system.buildings()[b].modes());
+    // What made the defect: the effective mass of a mode of the foundation is the largest.
+    let largest = on_soil.effective_mass.iter().copied().fold(0.0, f64::max);
+    assert!(largest > 1.2 * on_soil.effective_mass[0], "{on_soil:?}");
+    let first = [on_soil, fixed].map(|modes| Oscillator {
+        period: modes.period[0],
+        damping_ratio: modes.damping_ratio[0],
+    });
+    let expected = correlation_coefficient(first[0], first[1]).unwrap();
+    let check = check(&case, &[], &options());
+    let difference = check.gaps[0].combinations.last().unwrap();
+    assert_eq!(difference.correlation.unwrap(), expected);
+    assert!(expected > 0.9, "{expected}");
+}
+
 /// Isolators give their period and damping at the displacement of the record, not those before they yield,
 /// with which both buildings would move almost as one (0.992).
 #[test]

@@ -166,7 +166,7 @@ impl Parts {
 /// The fundamental period (s) along the row of each building of a case, as it is before anything yields.
 pub(crate) fn fundamental_periods(case: &Case) -> Result<Vec<f64>, CaseError> {
     let buildings = Parts::of(case)?.buildings;
-    let period = |b: &Arc<ShearBuilding>| b.modes().period[b.modes().fundamental()];
+    let period = |b: &Arc<ShearBuilding>| b.modes().period[b.fundamental_mode()];
     Ok(buildings.iter().map(period).collect())
 }
 

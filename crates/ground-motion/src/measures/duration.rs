@@ -132,7 +132,8 @@ pub(crate) fn above(
 ) -> (Option<Span>, f64) {
     let mut span: Option<Span> = None;
     let mut extend = |start: f64, end: f64| match &mut span {
-        Some(s) => s.end = end,
+        // Of a line from one threshold to the other the later part may come first.
+        Some(s) => (s.start, s.end) = (s.start.min(start), s.end.max(end)),
         None => span = Some(Span { start, end }),
     };
     let mut total = 0.0;
@@ -159,4 +160,36 @@ pub(crate) fn above(
         }
     }
     (span, total)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A line from one threshold to the other lies beyond both at its ends, whatever its direction.
+    #[test]
+    fn a_line_through_both_thresholds() {
+        for samples in [[-1.0, 1.0], [1.0, -1.0]] {
+            let (span, total) = above(&samples, 0.05, 0.5, Evaluation::PiecewiseLinear);
+            let span = span.map(|span| (span.start, span.end));
+            assert_eq!(span, Some((0.0, 0.05)), "{samples:?}");
+            assert!((total - 0.025).abs() < 1e-15);
+        }
+    }
+
+    /// The sign of a record says nothing of its durations.
+    #[test]
+    fn the_sign_of_a_record_does_not_count() {
+        let samples: Vec<f64> = (0..60).map(|i| libm::sin((i * i) as f64)).collect();
+        let turned: Vec<f64> = samples.iter().map(|a| -a).collect();
+        for threshold in [0.1, 0.5, 0.9] {
+            let [one, other] =
+                [&samples, &turned].map(|s| above(s, 0.2, threshold, Evaluation::PiecewiseLinear));
+            let both = [one.0, other.0].map(|s| s.map(|s| (s.start, s.end)));
+            assert_eq!(both[0], both[1]);
+            let first = samples.iter().position(|a| a.abs() >= threshold);
+            let (start, end) = both[0].unwrap_or_default();
+            assert!(start <= 0.2 * first.unwrap_or(0) as f64 && end >= start);
+        }
+    }
 }

@@ -677,8 +677,8 @@ fn oscillator(
     effective: Option<EffectiveProperties>,
     isolated: &BuildingOutcome,
 ) -> Result<Oscillator, CheckError> {
-    let modes = place.system.buildings()[building].modes();
-    let mode = modes.fundamental();
+    let made = &place.system.buildings()[building];
+    let (modes, mode) = (made.modes(), made.fundamental_mode());
     let first = Oscillator {
         period: modes.period[mode],
         damping_ratio: modes.damping_ratio[mode],

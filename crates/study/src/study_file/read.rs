@@ -307,7 +307,7 @@ fn base(source: &str, path: &Path, own_record: bool) -> Result<Base, StudyError>
     };
     let first = |b: &Arc<_>| {
         let building: &pounding_shear_building::ShearBuilding = b;
-        building.modes().period[building.modes().fundamental()]
+        building.modes().period[building.fundamental_mode()]
     };
     let fundamental_periods = system.buildings().iter().map(first).collect();
     let levels = system.gaps().iter().flat_map(|gap| {

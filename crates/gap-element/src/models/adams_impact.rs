@@ -100,6 +100,11 @@ const FULLY_DAMPED: [Transition; 2] = [
     },
 ];
 
+/// Part of the penetration of full damping up to which a force that has let go does not return. There
+/// the spring exceeds the dashpot once more, for nanometres before the floors part and by less
+/// than a newton, just as they do.
+const NEAR_END: f64 = 1.0e-3;
+
 #[derive(Debug)]
 struct AdamsImpact {
     stiffness: f64,
@@ -181,11 +186,14 @@ impl ImpactModel for AdamsImpact {
         self.uncut(phase, delta, velocity)
     }
     /// The force over `delta^n`, which has no zero at closure: up to the exponent
-    /// two the dashpot's share grows like `delta^(2 - n)` there.
+    /// two the dashpot's share grows like `delta^(2 - n)` there. Of a contact that has let go it is
+    /// taken no nearer to the end than [`NEAR_END`].
     fn raw_force(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64, velocity: f64) -> f64 {
-        if delta <= 0.0 {
-            return self.stiffness;
-        }
+        let delta = match phase {
+            Phase::Released => delta.max(NEAR_END * self.depth),
+            _ if delta <= 0.0 => return self.stiffness,
+            _ => delta,
+        };
         let (coefficient, _) = self.step(phase, delta);
         self.stiffness + coefficient / libm::pow(delta, self.exponent) * velocity
     }

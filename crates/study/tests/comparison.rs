@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use pounding_case::Case;
+use pounding_gap_element::SeparationRule;
 use pounding_study::comparison::{
     Comparison, ComparisonOptions, Holds, QuantityKind, RestitutionRule, StiffnessRule, compare,
 };
@@ -216,4 +217,42 @@ fn exact_relations_make_one_law() {
         published.spreads[0].between_models > 0.1,
         "the relations differ"
     );
+}
+
+/// The model of the case, with the case's separation rule, is what a run of the case is: not the model with its default rule.
+/// Models that do not offer the rule say so.
+#[test]
+fn the_separation_of_the_gap_is_that_of_the_models() {
+    let plain = case("exact_kelvin_voigt", "93.5 MN/m");
+    let with_rule = case(
+        "exact_kelvin_voigt",
+        "93.5 MN/m\"\nseparation = \"zero_penetration",
+    );
+    let acceleration = |case: &Case| {
+        let models = ["exact_kelvin_voigt", "jankowski_2005"];
+        let c = compared(case, &options(&models));
+        let own = value(&c, models[0], QuantityKind::AccelerationAbsolute, "light");
+        let remarks = c.models[1].calibrated.as_ref().unwrap()[0].notes.join("; ");
+        (own, remarks)
+    };
+    let run = |case: &Case| {
+        let assembly = pounding_assembly::assemble(case).unwrap();
+        let (system, options) = (assembly.system, assembly.options);
+        let outcome = pounding_time_history::run(&system, &options, &mut [], &mut |_| {}).unwrap();
+        let storeys = outcome.buildings[0].storeys.iter();
+        storeys.fold(0.0, |m, s| f64::max(m, s.acceleration_absolute.value))
+    };
+    let (by_default, _) = acceleration(&plain);
+    let (own, remarks) = acceleration(&with_rule);
+    assert!((own / run(&with_rule) - 1.0).abs() < 1e-9, "{own}");
+    assert!(
+        (by_default / run(&plain) - 1.0).abs() < 1e-9,
+        "{by_default}"
+    );
+    assert!((own / by_default - 1.0).abs() > 1e-6, "{own} {by_default}");
+    let offers = pounding_gap_element::registry::find("jankowski_2005").unwrap();
+    let offers = offers
+        .separation_rules
+        .contains(&SeparationRule::ZeroPenetration);
+    assert_eq!(remarks.contains("does not offer"), !offers, "{remarks}");
 }

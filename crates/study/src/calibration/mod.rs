@@ -8,7 +8,7 @@ pub use models::{CalibratedModel, ReferenceCollision, RestitutionRule, calibrate
 pub use stiffness::StiffnessRule;
 
 use pounding_case::Case;
-use pounding_gap_element::{ModelDescriptor, registry};
+use pounding_gap_element::{ModelDescriptor, SeparationRule, registry};
 use pounding_hysteresis::help_among_gaps;
 use pounding_time_history::System;
 
@@ -102,6 +102,11 @@ pub fn references(
             stiffness,
             exponent,
             restitution: f64::NAN,
+            // The case has been assembled, and what it says is known.
+            separation: case.gaps[index]
+                .separation
+                .as_ref()
+                .and_then(|rule| SeparationRule::from_name(&rule.value)),
         };
         reference.restitution = match restitution {
             Some(e) => e,

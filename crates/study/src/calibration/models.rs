@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use pounding_case::Case;
 use pounding_gap_element::{
-    Bodies, GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterUnit, collide,
-    registry,
+    Bodies, GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterUnit,
+    SeparationRule, collide, registry,
 };
 
 use super::stiffness::{StiffnessRule, stiffness};
@@ -44,6 +44,8 @@ pub struct ReferenceCollision {
     pub exponent: f64,
     /// Restitution that all models are asked for (-).
     pub restitution: f64,
+    /// When contacts end, where the case says so of the gap: for all models that offer it.
+    pub separation: Option<SeparationRule>,
 }
 
 /// A model ready for one gap.
@@ -161,6 +163,17 @@ pub fn calibrated(
             notes.push(format!("{name} = {value:e} of the model's example"));
         }
     }
+    if let Some(rule) = reference.separation {
+        if descriptor.separation_rules.contains(&rule) {
+            parameters.separation = Some(rule);
+        } else {
+            notes.push(format!(
+                "does not offer the separation {} of the gap, ends contacts by {}",
+                rule.name(),
+                parameters.separation(descriptor).name()
+            ));
+        }
+    }
     let model = registry::build(descriptor.name, &parameters).map_err(text)?;
     let free = achieved(model.as_ref(), reference).map_err(text)?;
     let mut calibrated = CalibratedModel {
@@ -276,6 +289,7 @@ mod tests {
             stiffness,
             exponent,
             restitution: 0.65,
+            separation: None,
         }
     }
 

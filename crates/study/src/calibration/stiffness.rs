@@ -88,6 +88,7 @@ mod tests {
             stiffness,
             exponent,
             restitution: 0.65,
+            separation: None,
         }
     }
 

@@ -94,16 +94,20 @@ fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
                 }
                 None => return Err(unknown(&shown, key, &keys(table))),
             },
-            (DeValue::Array(items), Step::Index(index)) => items.get(*index).ok_or_else(|| {
-                (
-                    format!(
-                        "`{shown}` has {} {}, counted from 0",
-                        items.len(),
-                        agreeing(&items.len(), "entry", "entries")
-                    ),
-                    "correct the number".to_owned(),
-                )
-            })?,
+            (DeValue::Array(items), Step::Index(number)) => {
+                let index = numbered(items, *number, &shown, &path.0[i + 2..])?;
+                way[i + 1] = Step::Index(index);
+                items.get(index).ok_or_else(|| {
+                    (
+                        format!(
+                            "`{shown}` has {} {}, counted from 0",
+                            items.len(),
+                            agreeing(&items.len(), "entry", "entries")
+                        ),
+                        "correct the number".to_owned(),
+                    )
+                })?
+            }
             (DeValue::Array(items), Step::Key(name)) => {
                 let mut named = items.iter().enumerate();
                 let named = named.find(|(_, i)| name_of(i).as_deref() == Some(name));
@@ -128,6 +132,39 @@ fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
         span: value.span(),
         before: String::new(),
     })
+}
+
+/// The place in a list that a number means: that of the entry with this name, or else the number
+/// itself. It must not mean one entry by its name and another by its place.
+fn numbered(items: &[Value<'_>], number: usize, list: &Path, rest: &[Step]) -> Result<usize, Lost> {
+    let name = number.to_string();
+    let named = items
+        .iter()
+        .position(|i| name_of(i).as_ref() == Some(&name));
+    let (Some(named), Some(counted)) = (named, items.get(number)) else {
+        return Ok(named.unwrap_or(number));
+    };
+    if named == number {
+        return Ok(number);
+    }
+    let spelt = |name: &str| {
+        let steps = list.0.iter().cloned().chain([Step::Key(name.to_owned())]);
+        Path(steps.chain(rest.iter().cloned()).collect())
+    };
+    let other = name_of(counted);
+    let (called, write) = match &other {
+        Some(other) => (
+            format!(", \"{other}\""),
+            format!("`{}` for the other", spelt(other)),
+        ),
+        None => (String::new(), "give the other a name".to_owned()),
+    };
+    Err((
+        format!(
+            "`{list}.{number}` is ambiguous: the entry with the name \"{number}\", or entry {number} counted from 0{called}"
+        ),
+        format!("write `{}` for the first, {write}", spelt(&name)),
+    ))
 }
 
 /// The place of an entry that a study varies.
@@ -475,6 +512,41 @@ mod tests {
         assert!(lost("gaps.0.width").1.contains("gap"));
         assert!(lost("gap.0.width.1").0.contains("single value"));
         assert!(lost("analysis.step").0.contains("no `analysis`"));
+    }
+
+    /// Buildings, gaps and links whose names are numbers.
+    #[test]
+    fn names_that_are_numbers_go_first() {
+        let case = "building = [\n{ name = \"1\", mass = 10 },\n{ name = \"2\", mass = 20 },\n{ name = \"7\", mass = 70 },\n{ name = \"3\", mass = 30 }]\n[[gap]]\nname = \"5\"\nwidth = 50\n[[link]]\nname = \"0\"\nstiffness = [1, 60]\n";
+        let found = |path: &str| entry(case, &Path::parse(path).unwrap());
+        for (path, value) in [
+            ("building.0.mass", "10"),
+            ("building[\"1\"].mass", "10"),
+            ("building[\"2\"].mass", "20"),
+            ("building.7.mass", "70"),
+            ("building.3.mass", "30"),
+            ("gap.5.width", "50"),
+            ("gap.0.width", "50"),
+            ("link.0.stiffness.1", "60"),
+        ] {
+            assert_eq!(&case[found(path).unwrap().span.clone()], value, "{path}");
+        }
+        let (why, help) = found("building.2.mass").unwrap_err();
+        assert_eq!(
+            why,
+            "`building.2` is ambiguous: the entry with the name \"2\", or entry 2 counted from 0, \"7\""
+        );
+        assert_eq!(
+            help,
+            "write `building[\"2\"].mass` for the first, `building[\"7\"].mass` for the other"
+        );
+        assert!(found("building.1.mass").unwrap_err().0.contains("\"2\""));
+        assert!(
+            found("building.4.mass")
+                .unwrap_err()
+                .0
+                .contains("4 entries")
+        );
     }
 
     #[test]

@@ -7,8 +7,14 @@ use std::fmt;
 pub(crate) enum Step {
     /// A key of a table, or the name of a table in a list of tables.
     Key(String),
-    /// A place in a list, from zero.
+    /// A place in a list, from zero, or the name of a table there that is this number.
     Index(usize),
+}
+
+/// A number as it is counted: names may have leading zeros or a sign.
+fn index(word: &str) -> Option<usize> {
+    let number: usize = word.parse().ok()?;
+    (number.to_string() == word).then_some(number)
 }
 
 /// The way from the root to an entry.
@@ -26,10 +32,10 @@ impl Path {
                     .split_once(']')
                     .ok_or_else(|| "a bracket is not closed".to_owned())?;
                 let quoted = name.len() >= 2 && name.starts_with('"') && name.ends_with('"');
-                steps.push(match name.parse() {
-                    Ok(index) => Step::Index(index),
-                    Err(_) if quoted => Step::Key(name[1..name.len() - 1].to_owned()),
-                    Err(_) => {
+                steps.push(match index(name) {
+                    Some(index) => Step::Index(index),
+                    None if quoted => Step::Key(name[1..name.len() - 1].to_owned()),
+                    None => {
                         return Err(format!("[{name}] is neither a number nor a name in quotes"));
                     }
                 });
@@ -40,10 +46,7 @@ impl Path {
                 if word.is_empty() {
                     return Err("a name is empty".to_owned());
                 }
-                steps.push(
-                    word.parse()
-                        .map_or_else(|_| Step::Key(word.to_owned()), Step::Index),
-                );
+                steps.push(index(word).map_or_else(|| Step::Key(word.to_owned()), Step::Index));
                 rest = &rest[end..];
             }
             if rest.is_empty() {
@@ -83,12 +86,15 @@ impl Path {
 
     /// Name of the building or the gap that it leads into, out of those of the case in
     /// their order; `None` if it names none of them.
-    pub(crate) fn second<'n>(&self, mut names: impl Iterator<Item = &'n str>) -> Option<String> {
-        let name = match self.0.get(1)? {
-            Step::Index(index) => names.nth(*index),
-            Step::Key(key) => names.find(|n| n == key),
+    pub(crate) fn second<'n>(&self, names: impl Iterator<Item = &'n str>) -> Option<String> {
+        let names: Vec<&str> = names.collect();
+        let (name, index) = match self.0.get(1)? {
+            Step::Index(index) => (&index.to_string(), Some(*index)),
+            Step::Key(key) => (key, None),
         };
-        name.map(str::to_owned)
+        let named = names.iter().find(|n| *n == name);
+        let name = named.or_else(|| names.get(index?));
+        name.map(|name| (*name).to_owned())
     }
 
     /// The first step, if it is a key.
@@ -107,7 +113,8 @@ impl fmt::Display for Path {
                 Step::Index(n) if i == 0 => write!(f, "{n}")?,
                 Step::Index(n) => write!(f, ".{n}")?,
                 Step::Key(key) => {
-                    let plain = key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_');
+                    let plain = key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
+                        && index(key).is_none();
                     match (plain, i) {
                         (true, 0) => f.write_str(key)?,
                         (true, _) => write!(f, ".{key}")?,
@@ -149,6 +156,16 @@ mod tests {
                 vec![key("building"), key("light"), key("mass"), Step::Index(2)],
                 "building.light.mass.2",
             ),
+            (
+                "building[\"1\"].mass",
+                vec![key("building"), key("1"), key("mass")],
+                "building[\"1\"].mass",
+            ),
+            (
+                "building.01.mass",
+                vec![key("building"), key("01"), key("mass")],
+                "building.01.mass",
+            ),
         ] {
             let path = Path::parse(text).unwrap();
             assert_eq!(path.0, steps);
@@ -165,5 +182,18 @@ mod tests {
         ] {
             assert!(Path::parse(wrong).is_err(), "{wrong}");
         }
+    }
+
+    #[test]
+    fn names_go_before_numbers() {
+        let second = |path: &str, names: &[&str]| {
+            let path = Path::parse(path).unwrap();
+            path.second(names.iter().copied()).unwrap_or_default()
+        };
+        assert_eq!(second("building.2.height", &["1", "2"]), "2");
+        assert_eq!(second("building.0.height", &["1", "2"]), "1");
+        assert_eq!(second("building[\"1\"].height", &["1", "2"]), "1");
+        assert_eq!(second("building.1.height", &["a", "b"]), "b");
+        assert_eq!(second("building.2.height", &["a", "b"]), "");
     }
 }

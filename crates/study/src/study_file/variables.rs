@@ -556,14 +556,9 @@ fn known_dimension(tried: &Trial<'_>) -> Option<Dimension> {
     if tried.path.table() == "gap"
         && !matches!(key, "width" | "elevation_tolerance" | "seat" | "points")
     {
-        let gap = tried.base.gaps.iter().find(|g| {
-            let name = &g.name;
-            text.contains(name.as_str())
-        });
-        let gap = gap.or_else(|| {
-            let index = text.split('.').nth(1)?.parse::<usize>().ok()?;
-            tried.base.gaps.get(index)
-        })?;
+        let mut gaps = tried.base.gaps.iter();
+        let name = tried.path.second(gaps.clone().map(|g| g.name.as_str()))?;
+        let gap = gaps.find(|g| g.name.as_str() == name)?;
         let model = pounding_gap_element::registry::find(&gap.model.value).ok()?;
         let known = model.parameters.iter().find(|p| p.name == key)?;
         let exponent = gap.parameters.iter().find(|p| p.key.value == "exponent");

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used)]
 
 use pounding_case::document::{
-    Count, Entry, Field, FreeKeys, Kinds, Length, NotNegative, OneOrEach, Optional, Positive,
-    Reader, Table, TableOr, Tables, Time, schema_of,
+    Count, Entry, Field, FreeKeys, Kinds, Length, List, NotNegative, OneOrEach, Optional, Positive,
+    Reader, Scalar, Table, TableOr, Tables, Time, schema_of,
 };
 use pounding_case::{CaseError, Errors, Quantity};
 use schemars::JsonSchema;
@@ -311,6 +311,37 @@ fn the_rest_of_a_table_is_read() {
     let variables = file.variable.value().unwrap().0;
     let first = variables.into_iter().next().unwrap().value().unwrap();
     assert!(first.path.is_wrong() && first.others.0.len() == 2);
+}
+
+/// A list within a list of another type has its own schema.
+#[test]
+fn schemas_of_lists_are_those_of_their_entries() {
+    #[derive(Debug, Deserialize, JsonSchema)]
+    struct Entries {
+        #[allow(dead_code)]
+        texts: Option<Field<List<String>>>,
+        #[allow(dead_code)]
+        counts: Option<Field<Tables<Count<1>>>>,
+        #[allow(dead_code)]
+        values: Option<Field<List<Scalar>>>,
+    }
+    #[derive(Debug, Deserialize, JsonSchema)]
+    struct Outer {
+        #[allow(dead_code)]
+        list: Field<List<Entries>>,
+        #[allow(dead_code)]
+        tables: Field<Tables<Entries>>,
+    }
+    let schema = schema_of::<Outer>("lists.schema.json");
+    assert!(!schema.to_string().contains("$ref"), "{schema:#}");
+    for list in ["list", "tables"] {
+        let of = &schema["properties"][list]["items"]["properties"];
+        assert_eq!(of["texts"]["items"]["type"], "string");
+        assert_eq!(of["texts"]["minItems"], 1);
+        assert_eq!(of["counts"]["items"]["type"], "integer");
+        let number_or_text = serde_json::json!(["number", "string"]);
+        assert_eq!(of["values"]["items"]["type"], number_or_text);
+    }
 }
 
 #[test]

@@ -290,7 +290,7 @@ fn every_key_of_the_input_files_is_documented() {
         all > 80 && lost.is_empty(),
         "of {all}, no page names {lost:?}"
     );
-    let of_study = ["studies", "ground-motions"];
+    let of_study = ["studies", "ground-motions", "case-file"];
     let (all, lost) = undocumented(&["study", "hazard"], &of_study);
     assert!(
         all > 40 && lost.is_empty(),
@@ -303,6 +303,7 @@ fn fits(value: &Value, schema: &Value) -> bool {
     let Value::Object(rules) = schema else {
         return schema != &Value::Bool(false);
     };
+    assert!(!rules.contains_key("$ref"), "{schema} is not followed");
     for choice in ["anyOf", "oneOf"] {
         if let Some(Value::Array(choices)) = rules.get(choice)
             && !choices.iter().any(|choice| fits(value, choice))
@@ -372,6 +373,22 @@ fn the_examples_fit_the_schemas() {
         }
     }
     assert!(checked[0] >= 10 && checked[1] >= 2, "{checked:?}");
+    let study = printed(pounding().args(["schema", "study"]), "study");
+    let study: Value = serde_json::from_str(&study).unwrap();
+    let page = page("docs/reference/studies.md");
+    let of_page = page.split("```toml\n").nth(1).unwrap();
+    let of_page = of_page.split("```").next().unwrap();
+    let value: Value = toml::from_str(of_page).unwrap();
+    assert!(of_page.contains("records = [\"a.csv\", {") && fits(&value, &study));
+    for wrong in [
+        "path = \"a\"\nvalues = [true, false]",
+        "records = [{ nmae = \"a\", file = \"b.csv\" }]",
+        "path = \"a\"\nvalues = [{ stiffness = 1 }]",
+    ] {
+        let wrong = format!("case = \"case.toml\"\n[[variable]]\n{wrong}\n");
+        let value: Value = toml::from_str(&wrong).unwrap();
+        assert!(!fits(&value, &study), "{wrong}");
+    }
     let hazard = printed(pounding().args(["schema", "hazard"]), "hazard");
     let hazard: Value = serde_json::from_str(&hazard).unwrap();
     let points: Value = serde_json::from_str("[[0.1, 1e-2], [\"0.5 g\", 1e-4]]").unwrap();

@@ -119,14 +119,13 @@ pub struct Table<T> {
 }
 
 /// Tables with their name in double brackets.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(expecting = "a list of tables\nwrite [[{key}]] with double brackets")]
 pub struct Tables<T>(pub Vec<Field<T>>);
 
 /// A list of at least one entry.
-#[derive(Debug, Clone, PartialEq, Deserialize, JsonSchema)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(try_from = "Vec<Field<T>>")]
-#[schemars(extend("minItems" = 1))]
 pub struct List<T>(pub Vec<Field<T>>);
 
 impl<T> TryFrom<Vec<Field<T>>> for List<T> {
@@ -356,6 +355,26 @@ macro_rules! as_what_they_hold {
 }
 
 as_what_they_hold!(Located, Field, Table, FreeKeys);
+
+// Each by the name of what it lists: a list in a list of another type is no recursion.
+impl<T: JsonSchema> JsonSchema for Tables<T> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("tables of {}", T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        json_schema!({"type": "array", "items": generator.subschema_for::<T>()})
+    }
+}
+
+impl<T: JsonSchema> JsonSchema for List<T> {
+    fn schema_name() -> Cow<'static, str> {
+        format!("list of {}", T::schema_name()).into()
+    }
+    fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+        let items = generator.subschema_for::<T>();
+        json_schema!({"type": "array", "minItems": 1, "items": items})
+    }
+}
 
 impl<T: JsonSchema, V: JsonSchema> JsonSchema for TableOr<T, V> {
     fn schema_name() -> Cow<'static, str> {

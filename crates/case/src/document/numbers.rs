@@ -175,8 +175,7 @@ impl<'de> Deserialize<'de> for Written {
 }
 
 /// A value that is no list and no table.
-#[derive(Debug, Clone, PartialEq, JsonSchema)]
-#[schemars(untagged)]
+#[derive(Debug, Clone, PartialEq)]
 pub enum Scalar {
     /// True or false.
     Flag(bool),
@@ -388,7 +387,7 @@ macro_rules! written {
     )*};
 }
 
-written!(Written, Quantity);
+written!(Written, Quantity, Scalar);
 
 impl<D, R: Within> JsonSchema for Amount<D, R> {
     fn schema_name() -> Cow<'static, str> {

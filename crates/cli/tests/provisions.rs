@@ -301,6 +301,14 @@ fn editions_by_date() {
     }
 }
 
+#[test]
+fn an_entry_is_set_once() {
+    let output = gap(&["--set", "importance=1", "--set", "importance = 2"]);
+    assert_eq!(output.status.code(), Some(2));
+    let text = String::from_utf8_lossy(&output.stderr);
+    assert!(text.contains("importance is given twice"), "{text}");
+}
+
 /// A disputed rule shows both widths, judges no gap and gives no verdict: by hand, of the sum of
 /// peaks with I = 1, a third and two thirds.
 #[test]

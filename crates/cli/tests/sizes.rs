@@ -134,7 +134,7 @@ fn large_buildings_move_as_the_adaptive_pair_says() {
 #[test]
 fn a_hundred_thousand_storeys_are_refused_with_the_limit() {
     let case = CASE.replace("storeys = 2", "storeys = 100000");
-    refused(&case, &["100000 storeys", "4000 at most", "join storeys"]);
+    refused(&case, &["`storeys`", "whole number from 1 to 4000"]);
     let absurd = CASE.replace("storeys = 2", "storeys = 4000000000");
     refused(&absurd, &["`storeys`", "whole number"]);
 }

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use pounding_catalogue::wording::counted;
+use pounding_shear_building::MAXIMUM_STOREYS;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -41,7 +42,7 @@ pub(super) struct BuildingTable {
     /// Name, unique in the case; "wall" is reserved
     name: Field<String>,
     /// Number of storeys, if no list says it
-    storeys: Optional<Count<1>>,
+    storeys: Optional<Count<1, MAXIMUM_STOREYS>>,
     /// Floor mass (kg), one for all storeys or a list, bottom first
     mass: Field<OneOrEach<Positive<Mass>>>,
     /// Storey stiffness (N/m), one for all storeys or a list, bottom first
@@ -639,7 +640,11 @@ fn two_modes(reader: &Reader<'_>, modes: Located<Modes>, count: usize) -> Option
         _ => reader.refuse(
             modes.span,
             format!("`modes` must be two different modes from 1 to {count}"),
-            "for a single storey use { mass_proportional = ... }",
+            match count {
+                0 | 1 => "for a single storey use { mass_proportional = ... }".to_owned(),
+                2 => "write modes = [1, 2]".to_owned(),
+                _ => format!("write two of them, such as modes = [1, {}]", count.min(3)),
+            },
         ),
     }
 }

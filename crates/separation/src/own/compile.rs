@@ -269,7 +269,8 @@ impl<'t> Compiler<'t> {
     fn whole(&mut self, text: &mut Text<'_>, level: usize) -> Result<Part, CaseError> {
         let tree = parsed(text)?;
         let part = self.part(text, &tree, level)?;
-        if part.depth > MOST_NESTED {
+        // A name or a number is no operation.
+        if part.depth > MOST_NESTED + 1 {
             return Err(text.error(0..0, too_deep(), NAME_PARTS));
         }
         Ok(part)

@@ -151,6 +151,9 @@ fn wrong_ones_are_refused_with_their_place() {
         deep.collect::<String>()
     );
     const NONE: &str = "";
+    let limit = format!("u_left{}", "+u_left".repeat(100));
+    assert!(compiled(&file("between", &limit, NONE)).is_ok());
+    let limit = format!("{limit}+u_left");
     for (expression, more, column, says) in [
         ("u_lefd + u_right", NONE, 17, "did you mean `u_left`?"),
         ("2 * u", NONE, 21, "write u_left or u_right"),
@@ -223,6 +226,7 @@ fn wrong_ones_are_refused_with_their_place() {
         (&signs[..1999], NONE, 17, "this is no expression"),
         (&chain, NONE, 709, "more than 100 operations nest"),
         (&choices, NONE, 405, "nest in one another"),
+        (&limit, NONE, 17, "more than 100 operations nest"),
         ("d0", &deep, 0, "more than 100 operations nest"),
     ] {
         let error = compiled(&file("between", expression, more)).unwrap_err();

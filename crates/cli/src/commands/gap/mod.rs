@@ -105,7 +105,15 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
 /// What provisions need to know: of the case, of arguments in its place, and rules of a file.
 fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failure> {
     let mut separation = case.separation.clone();
-    for text in &arguments.set {
+    let key = |text: &String| text.split('=').next().unwrap_or_default().trim().to_owned();
+    for (place, text) in arguments.set.iter().enumerate() {
+        let key_here = key(text);
+        if arguments.set[..place].iter().any(|t| key(t) == key_here) {
+            return Err(Failure::input(
+                format!("--set {text}: {key_here} is given twice"),
+                Some("leave one out".to_owned()),
+            ));
+        }
         let one = Separation::parse(text, case.buildings.len());
         separation = separation.overridden_by(one.map_err(|e| Failure::case(e, text))?);
     }

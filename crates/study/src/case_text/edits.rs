@@ -24,6 +24,8 @@ pub(crate) struct Entry {
     pub span: Range<usize>,
     /// What stands before the value where the case leaves the entry out.
     pub before: String,
+    /// What then stands behind it.
+    pub after: &'static str,
 }
 
 impl Entry {
@@ -31,7 +33,11 @@ impl Entry {
     pub(crate) fn overlaps(&self, other: &Self) -> bool {
         let (a, b) = (&self.span, &other.span);
         // Keys that a case leaves out may be put in at one place.
-        (a == b && self.before == other.before) || (a.start < b.end && b.start < a.end)
+        if a.is_empty() && a == b {
+            let (a, b) = (&self.path.0, &other.path.0);
+            return a.starts_with(b) || b.starts_with(a);
+        }
+        a.start < b.end && b.start < a.end
     }
 }
 
@@ -74,25 +80,39 @@ fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
         ));
     };
     let Some(mut value) = tree.get(first.as_str()) else {
-        return Err((format!("the case has no `{first}`"), roots(tree)));
+        let keys = keys_of(rest).filter(|_| OPTIONAL_TABLES.contains(&first.as_str()));
+        let Some(keys) = keys.filter(|_| !rest.is_empty()) else {
+            return Err((format!("the case has no `{first}`"), roots(tree)));
+        };
+        // Keys of the root stand before all headers.
+        let start = source.len() - source.trim_start_matches('\u{feff}').len();
+        return Ok(Entry {
+            path: path.clone(),
+            span: start..start,
+            before: format!("{first}.{keys} = "),
+            after: "\n",
+        });
     };
     let mut way = vec![Step::Key(first.clone())];
     for (i, step) in rest.iter().enumerate() {
-        let last = i + 1 == rest.len();
         let shown = Path(path.0[..=i].to_vec());
         way.push(step.clone());
         value = match (value.get_ref(), step) {
             (DeValue::Table(table), Step::Key(key)) => match table.get(key.as_str()) {
                 Some(inner) => inner,
-                None if last => {
-                    let (at, before) = room(source, value, key)?;
+                None => {
+                    let Some(new) = keys_of(&rest[i..]) else {
+                        return Err(unknown(&shown, key, &keys(table)));
+                    };
+                    let (at, before) = room(source, value, &new)?;
+                    way.extend_from_slice(&rest[i + 1..]);
                     return Ok(Entry {
                         path: Path(way),
                         span: at..at,
                         before,
+                        after: "",
                     });
                 }
-                None => return Err(unknown(&shown, key, &keys(table))),
             },
             (DeValue::Array(items), Step::Index(number)) => {
                 let index = numbered(items, *number, &shown, &path.0[i + 2..])?;
@@ -131,7 +151,21 @@ fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
         path: Path(way),
         span: value.span(),
         before: String::new(),
+        after: "",
     })
+}
+
+/// Tables that a case may leave out.
+const OPTIONAL_TABLES: [&str; 2] = ["analysis", "separation"];
+
+/// Steps through tables alone, as a key with dots.
+fn keys_of(steps: &[Step]) -> Option<String> {
+    let key = |step: &Step| match step {
+        Step::Key(key) => Some(as_key(key)),
+        Step::Index(_) => None,
+    };
+    let keys: Option<Vec<String>> = steps.iter().map(key).collect();
+    Some(keys?.join("."))
 }
 
 /// The place in a list that a number means: that of the entry with this name, or else the number
@@ -283,6 +317,7 @@ fn rewritten(
             path: Path(way.0.iter().cloned().chain([step]).collect()),
             span,
             before,
+            after: "",
         };
         Edit {
             entry: Arc::new(entry),
@@ -361,11 +396,10 @@ fn unknown(place: &Path, key: &str, known: &[String]) -> Lost {
     )
 }
 
-/// Where a key that a table leaves out can be put, behind its header or into its braces, and
-/// what then stands before the value.
-fn room(source: &str, table: &Value<'_>, key: &str) -> Result<(usize, String), Lost> {
+/// Where a key that a table leaves out can be put, as TOML, behind its header or into its braces,
+/// and what then stands before the value.
+fn room(source: &str, table: &Value<'_>, new: &str) -> Result<(usize, String), Lost> {
     let span = table.span();
-    let new = as_key(key);
     match source.as_bytes().get(span.start) {
         Some(b'[') => Ok((span.end, format!("\n{new} = "))),
         Some(b'{') if table.get_ref().as_table().is_some_and(|t| !t.is_empty()) => {
@@ -375,7 +409,7 @@ fn room(source: &str, table: &Value<'_>, key: &str) -> Result<(usize, String), L
                 .and_then(|t| t.values().map(|v| v.span().end).max());
             Ok((last.unwrap_or(span.end), format!(", {new} = ")))
         }
-        _ => Err(left_out(key)),
+        _ => Err(left_out(new)),
     }
 }
 
@@ -396,6 +430,7 @@ pub(crate) fn apply(source: &str, edits: &[Edit]) -> String {
         if let Some(value) = value {
             text.push_str(&entry.before);
             text.push_str(value);
+            text.push_str(entry.after);
         }
         from = end;
     }
@@ -415,8 +450,16 @@ pub(crate) fn changed<'t>(tree: &DeTable<'t>, edits: &'t [Edit]) -> Option<DeTab
             return None;
         };
         if !roots.contains_key(root.as_str()) {
-            let (key, value) = tree.get_key_value(root.as_str())?;
-            roots.insert(key.clone(), value.clone());
+            let (key, value) = match tree.get_key_value(root.as_str()) {
+                Some((key, value)) => (key.clone(), value.clone()),
+                None if edit.entry.before.is_empty() => return None,
+                None => {
+                    let span = edit.entry.span.clone();
+                    let key = Spanned::new(span.clone(), Cow::Borrowed(root.as_str()));
+                    (key, Spanned::new(span, DeValue::Table(DeTable::new())))
+                }
+            };
+            roots.insert(key, value);
         }
         make(edit, roots.get_mut(root.as_str())?, way)?;
     }
@@ -438,6 +481,9 @@ fn make<'t>(edit: &'t Edit, root: &mut Value<'t>, way: &'t [Step]) -> Option<()>
             let (Step::Key(key), way) = way.split_last()? else {
                 return None;
             };
+            if value.is_some() {
+                tables(root, way, &entry.span)?;
+            }
             let DeValue::Table(table) = inside(root, way)?.get_mut() else {
                 return None;
             };
@@ -448,6 +494,22 @@ fn make<'t>(edit: &'t Edit, root: &mut Value<'t>, way: &'t [Step]) -> Option<()>
             // In the text it must not stand twice.
             return table.insert(key, value).is_none().then_some(());
         }
+    }
+    Some(())
+}
+
+/// Puts in the tables that a way lacks.
+fn tables<'t>(mut value: &mut Value<'t>, way: &'t [Step], span: &Range<usize>) -> Option<()> {
+    for step in way {
+        value = match (value.get_mut(), step) {
+            (DeValue::Table(table), Step::Key(key)) => {
+                let key = Spanned::new(span.clone(), Cow::Borrowed(key.as_str()));
+                let new = || Spanned::new(span.clone(), DeValue::Table(DeTable::new()));
+                table.entry(key).or_insert_with(new)
+            }
+            (DeValue::Array(items), Step::Index(index)) => items.get_mut(*index)?,
+            _ => return None,
+        };
     }
     Some(())
 }
@@ -501,6 +563,37 @@ mod tests {
     }
 
     #[test]
+    fn absent_tables_are_put_in() {
+        let text = edited("analysis.duration", "\"3 s\"");
+        assert_eq!(text, format!("analysis.duration = \"3 s\"\n{CASE}"));
+        let text = edited("ground_motion.across.scale.pga", "2");
+        assert!(
+            text.contains("[ground_motion]\nacross.scale.pga = 2\nfile"),
+            "{text}"
+        );
+        // Several keys of one table.
+        let tree = DeTable::parse(CASE).unwrap().into_inner();
+        let put = |path: &str| {
+            let entry = entry(CASE, &Path::parse(path).unwrap()).unwrap();
+            Edit::new(&entry, "1")
+        };
+        let edits = [
+            "analysis.step",
+            "separation.importance",
+            "analysis.duration",
+        ]
+        .map(put);
+        assert!(text_agrees(CASE, &tree, &edits));
+        assert!(!edits[0].entry.overlaps(&edits[2].entry));
+        let outer = put("ground_motion.across");
+        assert!(
+            outer
+                .entry
+                .overlaps(&put("ground_motion.across.scale").entry)
+        );
+    }
+
+    #[test]
     fn wrong_paths_say_what_there_is() {
         let lost = |path: &str| entry(CASE, &Path::parse(path).unwrap()).unwrap_err();
         assert!(
@@ -511,7 +604,9 @@ mod tests {
         assert!(lost("gap.3.width").0.contains("1 entry,"));
         assert!(lost("gaps.0.width").1.contains("gap"));
         assert!(lost("gap.0.width.1").0.contains("single value"));
-        assert!(lost("analysis.step").0.contains("no `analysis`"));
+        assert!(lost("analysys.step").0.contains("no `analysys`"));
+        assert!(lost("analysis").0.contains("no `analysis`"));
+        assert!(lost("analysis.0").0.contains("no `analysis`"));
     }
 
     /// Buildings, gaps and links whose names are numbers.

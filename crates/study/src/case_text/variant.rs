@@ -189,6 +189,15 @@ mod tests {
         "a b.c",
     ];
 
+    /// Keys of tables that cases may leave out.
+    const PUT_IN: [&str; 5] = [
+        "analysis.duration",
+        "analysis.output_step",
+        "separation.importance",
+        "ground_motion.scale.factor",
+        "building.b.damping.ratio",
+    ];
+
     /// All paths into a case, and to some keys that it leaves out.
     fn paths(way: &[Step], value: &DeValue<'_>, left_out: &[&str], paths: &mut Vec<Path>) {
         let mut into = |step: Step, inner: Option<&DeValue<'_>>| {
@@ -261,6 +270,12 @@ mod tests {
             2 => {
                 let file = ("file".to_owned(), "\"b.csv\"".to_owned());
                 with_motion(source, &["scale"], vec![file, option("lenient", 0)]).ok()
+            }
+            3 => {
+                let put_in: &&str = place.get(&PUT_IN);
+                let path = Path::parse(put_in).unwrap();
+                let entry = entry(source, &path).ok()?;
+                Some(vec![Edit::new(&entry, value(0))])
             }
             _ => {
                 let tree = DeTable::parse(source).unwrap().into_inner();

@@ -414,6 +414,50 @@ fn the_isolated_demand_just_keeps_the_buildings_apart() {
     assert_eq!(impacts(1), 0.0, "{demand}");
 }
 
+/// Keys of another kind of variable, and of another design, are refused in their lines.
+#[test]
+fn keys_of_other_variables_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = "[[variable]]\npath = \"gap.0.width\"\n";
+    let values = format!("{path}values = [0.01]\n");
+    let range = format!("{path}from = 0.01\nto = 0.02\ncount = 3\n");
+    let records = "[[variable]]\nrecords = [\"a.csv\"]\n";
+    let intensity = "[[variable]]\nintensity = \"peak_ground_velocity\"\nvalues = [1]\n";
+    for (variable, key, help) in [
+        (records, "count = 3", "beside `path` or `intensity`"),
+        (records, "building = \"nix\"", "beside `intensity`"),
+        (records, "from = 3", "beside `path` or `intensity`"),
+        (records, "values = [3]", "beside `path` or `intensity`"),
+        (values.as_str(), "building = \"nix\"", "beside `intensity`"),
+        (&values, "period = 1", "beside `intensity`"),
+        (&values, "damping = 0.3", "beside `intensity`"),
+        (intensity, "damping = 0.3", "remove it"),
+        (
+            &range,
+            "[design]\nkind = \"latin_hypercube\"\nruns = 2",
+            "`runs` in [design]",
+        ),
+        (
+            &range,
+            "[design]\nkind = \"sobol\"\nruns = 2",
+            "`runs` in [design]",
+        ),
+    ] {
+        let error = study(folder.path(), &format!("{variable}{key}\n")).unwrap_err();
+        let text = format!("{error:?}");
+        let name = match key.starts_with('[') {
+            true => "count",
+            false => key.split(' ').next().unwrap(),
+        };
+        assert!(
+            text.contains(&format!("`{name}` has no meaning for")),
+            "{key}: {text}"
+        );
+        assert!(text.contains(help), "{key}: {text}");
+    }
+    assert!(study(folder.path(), &range).is_ok());
+}
+
 /// Grid, list, Latin hypercube and Sobol designs over a list, a range and a choice.
 #[test]
 fn designs_sample_what_they_say() {

@@ -218,11 +218,21 @@ impl StudyFile {
             Field::Given(table) => table.value.records.is_some() || table.value.synthetic.is_some(),
             Field::Wrong => false,
         });
+        // An incremental dynamic analysis needs them.
+        let counts: Vec<Range<usize>> = match self.ida {
+            None => list.iter().flatten().filter_map(count_of).collect(),
+            Some(_) => Vec::new(),
+        };
         // Without records of its own the study takes that of the case.
         read_case(reader, self.case, context, !names_records);
         let read = list.map(|list| variables(reader, list, context));
         let whole = read.as_ref().filter(|read| read.whole && all_known);
-        let design = design(reader, self.design, whole.map(|read| &*read.variables));
+        let design = design(
+            reader,
+            self.design,
+            whole.map(|read| &*read.variables),
+            counts,
+        );
         let measure = read
             .as_ref()
             .and_then(|read| read.variables.iter().find_map(intensity_of));
@@ -261,6 +271,14 @@ impl StudyFile {
                 .unwrap_or_else(|| vec![records::of_case(&base)]),
             base,
         })
+    }
+}
+
+/// Where a variable says how many numbers its range has.
+fn count_of(table: &Field<VariableTable>) -> Option<Range<usize>> {
+    match table {
+        Field::Given(table) => table.value.count_of_range(),
+        Field::Wrong => None,
     }
 }
 
@@ -420,6 +438,7 @@ fn design(
     reader: &Reader<'_>,
     table: Optional<DesignTable>,
     variables: Option<&[Variable]>,
+    counts: Vec<Range<usize>>,
 ) -> Option<Design> {
     let Some(Located { value: table, span }) = table.stated()? else {
         return grid(reader, 0..0, variables?);
@@ -438,6 +457,15 @@ fn design(
             Kind::Grid => grid(reader, place, variables?),
             _ => list(reader, place, variables?),
         };
+    }
+    let name = match kind {
+        Kind::Sobol => "sobol",
+        _ => "latin_hypercube",
+    };
+    for place in counts {
+        let message = format!("`count` has no meaning for {name}");
+        let help = "remove it: `runs` in [design] says how many values are taken";
+        reader.refuse::<()>(place, message, help);
     }
     if table.runs.is_none() {
         return lacks(reader, "[design]", span, "runs");

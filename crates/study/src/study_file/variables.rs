@@ -99,6 +99,9 @@ impl VariableTable {
                 .collect(),
         };
         kinds.dedup();
+        if let [kind] = kinds.as_slice() {
+            self.refuse_others(reader, kind);
+        }
         match kinds.as_slice() {
             ["path"] => Some((self.of_path(reader, span, context)?, None)),
             ["intensity"] => Some((self.of_intensity(reader, span, context)?, None)),
@@ -108,6 +111,42 @@ impl VariableTable {
                     "a variable is one of `path`, `records` with `synthetic`, and `intensity`";
                 reader.refuse(span.clone(), message, "for example path = \"gap.0.width\"")
             }
+        }
+    }
+
+    /// Where the numbers of its range are counted.
+    pub(super) fn count_of_range(&self) -> Option<Range<usize>> {
+        let is_range = self.records.is_none() && self.synthetic.is_none();
+        self.count.span().filter(|_| is_range)
+    }
+
+    /// Refuses keys that another kind of variable has.
+    fn refuse_others(&self, reader: &Reader<'_>, kind: &str) {
+        let numbers = [
+            ("values", self.values.span()),
+            ("from", self.from.span()),
+            ("to", self.to.span()),
+            ("count", self.count.span()),
+            ("spacing", self.spacing.span()),
+        ];
+        let spectrum = [
+            ("building", self.building.span()),
+            ("period", self.period.span()),
+            ("damping", self.damping.span()),
+        ];
+        let numbers = numbers.map(|(key, place)| (key, place, "`path` or `intensity`"));
+        let spectrum = spectrum.map(|(key, place)| (key, place, "`intensity`"));
+        let others = match kind {
+            "records" => [&numbers[..], &spectrum].concat(),
+            "path" => spectrum.to_vec(),
+            _ => Vec::new(),
+        };
+        for (key, place, owner) in others {
+            place.and_then(|place| {
+                let message = format!("`{key}` has no meaning for a variable of {kind}");
+                let help = format!("remove it; it stands beside {owner}");
+                reader.refuse::<()>(place, message, help)
+            });
         }
     }
 

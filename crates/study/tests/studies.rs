@@ -414,6 +414,28 @@ fn the_isolated_demand_just_keeps_the_buildings_apart() {
     assert_eq!(impacts(1), 0.0, "{demand}");
 }
 
+/// Tables that the case leaves out come with their entries; what cannot stand there is refused.
+#[test]
+fn tables_that_the_case_leaves_out_are_put_in() {
+    let folder = tempfile::tempdir().unwrap();
+    let of = |path: &str, values: &str| {
+        let text = format!("[[variable]]\npath = \"{path}\"\nvalues = {values}\n");
+        study(folder.path(), &text)
+    };
+    let importance = of("separation.importance", "[1, 1.25]").unwrap();
+    let text = case_of_run(&importance, 1).unwrap();
+    assert!(text.contains("separation.importance = 1.25e0\n"), "{text}");
+    let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+    assert_eq!(case.separation.importance, Some(vec![1.25; 2]));
+    for (path, says) in [
+        ("separation.importence", "unknown key `importence`"),
+        ("seperation.importance", "the case has no `seperation`"),
+    ] {
+        let text = format!("{:?}", of(path, "[1]").unwrap_err());
+        assert!(text.contains(says), "{path}: {text}");
+    }
+}
+
 /// Keys of another kind of variable, and of another design, are refused in their lines.
 #[test]
 fn keys_of_other_variables_are_refused() {

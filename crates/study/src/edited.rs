@@ -52,7 +52,8 @@ pub fn edited(source: &str, changes: &[Change]) -> Result<String, NoRoom> {
 fn one(text: &str, change: &Change) -> Result<String, (String, String)> {
     let path = |text: &str| {
         let help = "write it as gap.0.width".to_owned();
-        Path::parse(text).map_err(|reason| (reason, help))
+        let path = Path::parse(text).map(Path::counted);
+        path.map_err(|reason| (reason, help))
     };
     let edits = match change {
         Change::Entry { path: place, value } => {
@@ -109,6 +110,13 @@ mod tests {
                 "{across}: {text}"
             );
         }
+        // Numbers are places here, also where gaps have numbers as names.
+        let named = CASE.replace(
+            "[[gap]]",
+            "[[gap]]\nname = \"1\"\nwidth = 7\n\n[[gap]]\nname = \"0\"",
+        );
+        let text = edited(&named, &[entry("gap.1.width", "8")]).unwrap();
+        assert_eq!(text, named.replace("\"20 mm\"", "8"));
         let refused = edited(CASE, &[entry("gap.1.width", "1")]).unwrap_err();
         assert!(refused.reason.contains("1 entry"), "{refused}");
         assert!(edited(CASE, &[entry("gap..width", "1")]).is_err());

@@ -117,7 +117,7 @@ fn with_file(text: &str, file: &str) -> Result<String, String> {
 
 /// The case with this factor as the scale of the record at this place.
 fn with_scale(text: &str, place: &str, scale: f64) -> Result<String, String> {
-    let path = Path::parse(place)?;
+    let path = Path::parse(place)?.counted();
     let entry = entry(text, &path).map_err(|(reason, _)| reason)?;
     Ok(apply(text, &[Edit::new(&entry, written(scale))]))
 }

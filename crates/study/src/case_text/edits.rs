@@ -114,8 +114,11 @@ fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
                     });
                 }
             },
-            (DeValue::Array(items), Step::Index(number)) => {
-                let index = numbered(items, *number, &shown, &path.0[i + 2..])?;
+            (DeValue::Array(items), Step::Index(number) | Step::Number(number)) => {
+                let index = match step {
+                    Step::Number(_) => numbered(items, *number, &shown, &path.0[i + 2..])?,
+                    _ => *number,
+                };
                 way[i + 1] = Step::Index(index);
                 items.get(index).ok_or_else(|| {
                     (
@@ -136,7 +139,7 @@ fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
                 way[i + 1] = Step::Index(index);
                 named
             }
-            (DeValue::Table(table), Step::Index(n)) => {
+            (DeValue::Table(table), Step::Index(n) | Step::Number(n)) => {
                 return Err(unknown(&shown, &n.to_string(), &keys(table)));
             }
             _ => {
@@ -162,7 +165,7 @@ const OPTIONAL_TABLES: [&str; 2] = ["analysis", "separation"];
 fn keys_of(steps: &[Step]) -> Option<String> {
     let key = |step: &Step| match step {
         Step::Key(key) => Some(as_key(key)),
-        Step::Index(_) => None,
+        Step::Index(_) | Step::Number(_) => None,
     };
     let keys: Option<Vec<String>> = steps.iter().map(key).collect();
     Some(keys?.join("."))
@@ -181,23 +184,20 @@ fn numbered(items: &[Value<'_>], number: usize, list: &Path, rest: &[Step]) -> R
     if named == number {
         return Ok(number);
     }
-    let spelt = |name: &str| {
-        let steps = list.0.iter().cloned().chain([Step::Key(name.to_owned())]);
+    let spelt = |step: Step| {
+        let steps = list.0.iter().cloned().chain([step]);
         Path(steps.chain(rest.iter().cloned()).collect())
     };
-    let other = name_of(counted);
-    let (called, write) = match &other {
-        Some(other) => (
-            format!(", \"{other}\""),
-            format!("`{}` for the other", spelt(other)),
-        ),
-        None => (String::new(), "give the other a name".to_owned()),
-    };
+    let other = name_of(counted).map_or_else(String::new, |name| format!(", \"{name}\""));
     Err((
         format!(
-            "`{list}.{number}` is ambiguous: the entry with the name \"{number}\", or entry {number} counted from 0{called}"
+            "`{list}.{number}` is ambiguous: the entry with the name \"{number}\", or entry {number} counted from 0{other}"
         ),
-        format!("write `{}` for the first, {write}", spelt(&name)),
+        format!(
+            "write `{}` for the first, `{}` for the other",
+            spelt(Step::Key(name)),
+            spelt(Step::Index(number))
+        ),
     ))
 }
 
@@ -618,6 +618,8 @@ mod tests {
             ("building.0.mass", "10"),
             ("building[\"1\"].mass", "10"),
             ("building[\"2\"].mass", "20"),
+            ("building[2].mass", "70"),
+            ("building[1].mass", "20"),
             ("building.7.mass", "70"),
             ("building.3.mass", "30"),
             ("gap.5.width", "50"),
@@ -633,7 +635,7 @@ mod tests {
         );
         assert_eq!(
             help,
-            "write `building[\"2\"].mass` for the first, `building[\"7\"].mass` for the other"
+            "write `building[\"2\"].mass` for the first, `building[2].mass` for the other"
         );
         assert!(found("building.1.mass").unwrap_err().0.contains("\"2\""));
         assert!(

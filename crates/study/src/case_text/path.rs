@@ -7,7 +7,9 @@ use std::fmt;
 pub(crate) enum Step {
     /// A key of a table, or the name of a table in a list of tables.
     Key(String),
-    /// A place in a list, from zero, or the name of a table there that is this number.
+    /// The name of a table in a list of tables that is this number, or else a place in a list.
+    Number(usize),
+    /// A place in a list, from zero.
     Index(usize),
 }
 
@@ -46,7 +48,7 @@ impl Path {
                 if word.is_empty() {
                     return Err("a name is empty".to_owned());
                 }
-                steps.push(index(word).map_or_else(|| Step::Key(word.to_owned()), Step::Index));
+                steps.push(index(word).map_or_else(|| Step::Key(word.to_owned()), Step::Number));
                 rest = &rest[end..];
             }
             if rest.is_empty() {
@@ -89,12 +91,22 @@ impl Path {
     pub(crate) fn second<'n>(&self, names: impl Iterator<Item = &'n str>) -> Option<String> {
         let names: Vec<&str> = names.collect();
         let (name, index) = match self.0.get(1)? {
-            Step::Index(index) => (&index.to_string(), Some(*index)),
+            Step::Index(index) => return names.get(*index).map(|name| (*name).to_owned()),
+            Step::Number(index) => (&index.to_string(), Some(*index)),
             Step::Key(key) => (key, None),
         };
         let named = names.iter().find(|n| *n == name);
         let name = named.or_else(|| names.get(index?));
         name.map(|name| (*name).to_owned())
+    }
+
+    /// Whose numbers are places, whatever is called so.
+    pub(crate) fn counted(self) -> Self {
+        let counted = |step| match step {
+            Step::Number(index) => Step::Index(index),
+            step => step,
+        };
+        Self(self.0.into_iter().map(counted).collect())
     }
 
     /// The first step, if it is a key.
@@ -110,8 +122,9 @@ impl fmt::Display for Path {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, step) in self.0.iter().enumerate() {
             match step {
-                Step::Index(n) if i == 0 => write!(f, "{n}")?,
-                Step::Index(n) => write!(f, ".{n}")?,
+                Step::Number(n) if i == 0 => write!(f, "{n}")?,
+                Step::Number(n) => write!(f, ".{n}")?,
+                Step::Index(n) => write!(f, "[{n}]")?,
                 Step::Key(key) => {
                     let plain = key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
                         && index(key).is_none();
@@ -138,13 +151,13 @@ mod tests {
         for (text, steps, shown) in [
             (
                 "gap.0.width",
-                vec![key("gap"), Step::Index(0), key("width")],
+                vec![key("gap"), Step::Number(0), key("width")],
                 "gap.0.width",
             ),
             (
                 "gap[0].width",
                 vec![key("gap"), Step::Index(0), key("width")],
-                "gap.0.width",
+                "gap[0].width",
             ),
             (
                 "gap[\"light-heavy\"].width",
@@ -153,7 +166,7 @@ mod tests {
             ),
             (
                 "building.light.mass.2",
-                vec![key("building"), key("light"), key("mass"), Step::Index(2)],
+                vec![key("building"), key("light"), key("mass"), Step::Number(2)],
                 "building.light.mass.2",
             ),
             (
@@ -192,6 +205,7 @@ mod tests {
         };
         assert_eq!(second("building.2.height", &["1", "2"]), "2");
         assert_eq!(second("building.0.height", &["1", "2"]), "1");
+        assert_eq!(second("building[1].height", &["1", "2"]), "2");
         assert_eq!(second("building[\"1\"].height", &["1", "2"]), "1");
         assert_eq!(second("building.1.height", &["a", "b"]), "b");
         assert_eq!(second("building.2.height", &["a", "b"]), "");

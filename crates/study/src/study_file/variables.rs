@@ -588,8 +588,8 @@ fn dimension_in_foundation(words: &[&str]) -> Dimension {
 fn known_dimension(tried: &Trial<'_>) -> Option<Dimension> {
     let text = tried.path.to_string();
     let words: Vec<&str> = text
-        .split('.')
-        .filter(|w| w.parse::<usize>().is_err())
+        .split(['.', '[', ']'])
+        .filter(|w| !w.is_empty() && w.parse::<usize>().is_err())
         .collect();
     let key = *words.last()?;
     if tried.path.table() == "gap"

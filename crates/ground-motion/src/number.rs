@@ -49,13 +49,40 @@ fn spelled(plain: &[u8]) -> Result<f64, String> {
             other => char::from(*other),
         });
     }
+    if touching(plain) {
+        return Err(format!(
+            "\"{shown}\" is not a number: two numbers touch, or a sign stands within one"
+        ));
+    }
     if !normal.contains('e')
-        && let Some(at) = normal.rfind(['+', '-']).filter(|at| *at > 0)
+        && let Some(at) = inner_sign(plain)
     {
         normal.insert(at, 'e');
     }
     let value = normal.parse::<f64>().map_err(|_| not_a_number(plain))?;
     present(value, plain)
+}
+
+/// Where a sign stands within a field, not behind the letter of an exponent: the last one.
+fn inner_sign(plain: &[u8]) -> Option<usize> {
+    (1..plain.len())
+        .rev()
+        .find(|i| matches!(plain[*i], b'+' | b'-') && !b"eEdD".contains(&plain[i - 1]))
+}
+
+/// Whether a sign stands within a field other than in `1.234-103`: Fortran leaves the letter of
+/// the exponent out before exactly three digits, behind a mantissa with a decimal point. Numbers
+/// that fill their columns touch, as in `1234-5678`.
+pub(crate) fn touching(field: &[u8]) -> bool {
+    let plain = field.trim_ascii();
+    let Some(at) = inner_sign(plain) else {
+        return false;
+    };
+    let (mantissa, exponent) = (&plain[..at], &plain[at + 1..]);
+    let is_mantissa = mantissa.contains(&b'.')
+        && inner_sign(mantissa).is_none()
+        && !mantissa.iter().any(u8::is_ascii_alphabetic);
+    !(is_mantissa && exponent.len() == 3 && exponent.iter().all(u8::is_ascii_digit))
 }
 
 fn not_a_number(plain: &[u8]) -> String {
@@ -248,6 +275,7 @@ mod tests {
             ("+1.0E-03", 1e-3),
             ("1.0D-03", 1e-3),
             ("1.234-103", 1.234e-103),
+            ("-.5+003", -500.0),
             ("-2.2223E+0", -2.2223),
             ("0.0000000e+000", 0.0),
             (" -0.0 ", 0.0),
@@ -265,6 +293,15 @@ mod tests {
             "1e999",
             "--1",
             "1e",
+            "1234-5678",
+            "50-3",
+            "100-5",
+            "100-500",
+            "1.5-12",
+            "1.5-1234",
+            "1.5E-03-103",
+            "1.5-103-104",
+            "-12-345",
         ] {
             assert!(parse(text.as_bytes()).is_err(), "{text}");
         }

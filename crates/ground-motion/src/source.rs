@@ -18,6 +18,7 @@ const HEAD: usize = 30;
 const FREE_SERIES: usize = 12;
 const BYTES_A_SERIES: usize = 256;
 const REMEDY_VALUE: &str = "correct the value, or get the record again: no sample may be missing";
+const REMEDY_TOUCHING: &str = "put a blank between the numbers; or in plain columns that hold one series along rows of fixed width give their Fortran format, e.g. `layout = \"8I6\"` for eight numbers of six characters a row";
 
 /// A file's bytes with what is needed to point into them.
 pub(crate) struct Source<'a> {
@@ -191,8 +192,13 @@ impl<'a> Source<'a> {
         column: usize,
         field: &[u8],
     ) -> Result<f64, GroundMotionError> {
-        number::parse(field)
-            .map_err(|message| self.error(line.number, column, message, REMEDY_VALUE))
+        number::parse(field).map_err(|message| {
+            let remedy = match number::touching(field) {
+                true => REMEDY_TOUCHING,
+                false => REMEDY_VALUE,
+            };
+            self.error(line.number, column, message, remedy)
+        })
     }
 
     /// Refuses a file that ends in the middle of its last value: without an end of line, and

@@ -27,4 +27,5 @@ mod stated_durations;
 mod station_xml;
 mod time_columns;
 mod time_steps_and_scales;
+mod touching_numbers;
 mod writers;

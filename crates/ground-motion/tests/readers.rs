@@ -95,8 +95,8 @@ fn fortran_numbers_and_damage() {
         };
         read_bytes("r.txt", text.as_bytes(), &options)
     };
-    let record = plain("1.0D-03 1.5-02\n.5 5. +1E0 -0.0\n").unwrap();
-    assert_eq!(record.samples(), [1e-3, 1.5e-2, 0.5, 5.0, 1.0, -0.0]);
+    let record = plain("1.0D-03 1.5-102\n.5 5. +1E0 -0.0\n").unwrap();
+    assert_eq!(record.samples(), [1e-3, 1.5e-102, 0.5, 5.0, 1.0, -0.0]);
     for (text, place) in [
         ("0.1 0.2\n0.3 ****\n", "r.txt:2:5"),
         ("0.1\nNaN\n", "r.txt:2:1"),

@@ -110,6 +110,7 @@ impl Survey {
             self.ragged
         };
         if let Some(line) = odd {
+            none_touch(source)?;
             return Err(source.error(
                 line,
                 0,
@@ -185,6 +186,16 @@ impl Survey {
         let step = start[1] - start[0];
         Ok(start[0].abs() <= 0.01 * step || (start[0] - step).abs() <= 0.1 * step)
     }
+}
+
+/// Names numbers that touch as what is wrong with a row that has fewer fields than the others.
+fn none_touch(source: &Source<'_>) -> Result<(), GroundMotionError> {
+    for line in rows(source) {
+        for (column, field) in line.fields().filter(|(_, f)| number::touching(f)) {
+            source.number(line, column + source.options.skip_columns, field)?;
+        }
+    }
+    Ok(())
 }
 
 /// Whether the last column counts 1, 2, 3, ...

@@ -500,3 +500,51 @@ fn components_by_azimuth() {
     assert!(names.contains(&"S58W"), "{names:?}");
     assert_eq!(chosen(&usc, &["238", "V"]), ["S58W", "UP"]);
 }
+
+#[test]
+fn cwa_states_length_extremes_and_signs() {
+    let plain = text(&named("cwa", "cwa"));
+    let sequence = "#DataSequence: Time U(+); N(+); E(+)";
+    let north = read(&plain).unwrap().series.swap_remove(1);
+    assert_eq!(north.component, "N");
+    let extreme = |largest: fn(f64, f64) -> f64| {
+        let values = north.samples.iter().map(|a| a * 100.0);
+        values.reduce(largest).unwrap()
+    };
+    let (most, least) = (extreme(f64::max), extreme(f64::min));
+    let stated = |length: f64, most: f64, least: f64, sequence: &str| {
+        let more = format!(
+            "#RecordLength(sec):{length:9.3}\n#AmplitudeMAX. N:{most:9.3}~{least:9.3}\n{sequence}"
+        );
+        changed(&plain, &[("#DataSequence: Time U(+); N(+); E(+)", &more)])
+    };
+    let length = COUNT as f64 * 0.02;
+    let good = read(&stated(length, most, least, sequence)).unwrap();
+    assert_eq!(good.series[1].samples, north.samples);
+    let peak = good.series[1].header_peak.unwrap();
+    assert!((peak.value.abs() - north.peak().value).abs() < 1e-4);
+    assert!(good.series[0].header_peak.is_none());
+
+    let long = stated(2.0 * length, most, least, sequence);
+    refused(
+        &long,
+        &at_line(&long, "#RecordLength"),
+        &["duration", "lenient"],
+    );
+    let options = lenient();
+    warned(&read_with(&long, &options).unwrap(), "duration");
+    for (most, least) in [
+        (10.0 * most, 10.0 * least),
+        (2.0 * most, least),
+        (most, 2.0 * least),
+    ] {
+        let high = stated(length, most, least, sequence);
+        refused(&high, &at_line(&high, "#AmplitudeMAX"), &["peak", "cm/s2"]);
+    }
+    let minus = stated(length, most, least, "#DataSequence: Time U(+); N(-); E(+)");
+    refused(
+        &minus,
+        &at_line(&minus, "#DataSequence"),
+        &["\"N(-)\"", "sign"],
+    );
+}

@@ -2,7 +2,7 @@
 //! with `#`, then time and, in this order, up, north and east.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftUnit, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, Printed, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
@@ -20,6 +20,11 @@ struct Header {
     rate: Option<f64>,
     unit: Option<SeriesUnit>,
     names: Vec<String>,
+    /// Line of the names, from 1, and the first of them whose sign is minus.
+    reversed: Option<(usize, String)>,
+    duration: Option<StatedDuration>,
+    /// Component, largest and least value, line from 1.
+    peaks: Vec<(String, [Printed; 2], usize)>,
     layout: Option<Layout>,
     station: String,
     start: String,
@@ -43,6 +48,14 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = header(&mut lines);
     let end = lines.number();
+    if let Some((line, name)) = header.reversed {
+        return Err(source.error(
+            line,
+            0,
+            format!("the sign of \"{name}\" is minus: in which direction its positive values point is not known"),
+            "ask the agency whether the values must change their signs; change them if so, and write (+)",
+        ));
+    }
     let Some(layout) = header.layout else {
         return Err(source.error(end, 0, "no line such as \"#Data: 4F10.3\"", REMEDY));
     };
@@ -79,9 +92,42 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         draft.start_time.clone_from(&header.start);
         draft.processing = header.processing;
         draft.warnings.clone_from(&warnings);
+        draft.header_durations = header.duration.into_iter().collect();
+        let mut peaks = header.peaks_of(name).into_iter();
+        draft.peak = peaks.next();
+        draft.other_peaks = peaks.collect();
         series.push(draft.finish(source)?);
     }
     Ok(series)
+}
+
+impl Header {
+    /// The stated peaks of a component, the larger magnitude first.
+    fn peaks_of(&self, name: &str) -> Vec<DraftPeak> {
+        let stated = self.peaks.iter().find(|p| p.0.eq_ignore_ascii_case(name));
+        let Some((_, [largest, least], line)) = stated else {
+            return Vec::new();
+        };
+        // An offset of the instrument may leave all values on one side of zero.
+        let both = largest.0 > 0.0 && least.0 < 0.0;
+        let peak = |value: Printed| DraftPeak {
+            value,
+            time: None,
+            unit: None,
+            shift: 0.0,
+            line: Some(*line),
+            of_sign: both,
+        };
+        let (first, second) = match largest.0.abs() >= least.0.abs() {
+            true => (*largest, *least),
+            false => (*least, *largest),
+        };
+        let mut peaks = vec![peak(first)];
+        if both {
+            peaks.push(peak(second));
+        }
+        peaks
+    }
 }
 
 fn header(lines: &mut Lines<'_>) -> Header {
@@ -89,6 +135,9 @@ fn header(lines: &mut Lines<'_>) -> Header {
         rate: None,
         unit: None,
         names: Vec::new(),
+        reversed: None,
+        duration: None,
+        peaks: Vec::new(),
         layout: None,
         station: String::new(),
         start: String::new(),
@@ -116,6 +165,10 @@ fn header(lines: &mut Lines<'_>) -> Header {
                 }
             }
             "datasequence" => {
+                let mut entries = value.split([';', ' ']).filter(|n| !n.is_empty());
+                header.reversed = entries
+                    .find(|n| n.ends_with("(-)"))
+                    .map(|n| (line.number, n.to_owned()));
                 header.names = value
                     .split([';', ' '])
                     .filter(|n| !n.is_empty())
@@ -123,6 +176,22 @@ fn header(lines: &mut Lines<'_>) -> Header {
                     .collect();
             }
             "data" => header.layout = Layout::parse(value),
+            "recordlength(sec)" => {
+                let stated = number::first_in(value).map(|l| l.0).filter(|l| *l > 0.0);
+                header.duration = stated.map(|seconds| StatedDuration {
+                    seconds,
+                    line: Some(line.number),
+                });
+            }
+            key if key.starts_with("amplitudemax.") => {
+                let name = key["amplitudemax.".len()..].trim().to_owned();
+                if let Some((largest, least)) = value.split_once('~')
+                    && let (Some(largest), Some(least)) =
+                        (number::first_in(largest), number::first_in(least))
+                {
+                    header.peaks.push((name, [largest, least], line.number));
+                }
+            }
             "stationcode" => header.station = value.to_owned(),
             "starttime" => header.start = format!("{value} GMT+8"),
             _ => {}

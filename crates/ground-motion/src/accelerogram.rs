@@ -41,6 +41,8 @@ pub struct Origin {
     pub header_count: Option<usize>,
     /// What the agency did to it.
     pub processing: Processing,
+    /// Whether the mean was taken off when it was read.
+    pub mean_removed: bool,
     /// Time of the first sample as printed, with its zone; empty if not stated.
     pub start_time: String,
     /// Corner frequency (Hz) of the low-cut filter.

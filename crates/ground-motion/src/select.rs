@@ -167,6 +167,7 @@ fn ready(
         for a in &mut series.samples {
             *a -= mean;
         }
+        series.origin.mean_removed = true;
         series
             .origin
             .warnings

@@ -6,7 +6,7 @@ use pounding_ground_motion::writers::{
     Column, Written, write_peer_at2, write_plain_columns, write_pounding_csv,
 };
 use pounding_ground_motion::{
-    AccelerationUnit, Accelerogram, Format, Offset, Quantity, ReadOptions, Recording,
+    AccelerationUnit, Accelerogram, Format, Offset, Processing, Quantity, ReadOptions, Recording,
     read_all_bytes, read_bytes,
 };
 use proptest::prelude::*;
@@ -24,6 +24,7 @@ fn any_written() -> impl Strategy<Value = Written> {
         time_step: f64::from(step) * 1.0e-3,
         title,
         component: "N10E".to_owned(),
+        processing: Processing::Unstated,
         remarks: vec!["Step: made up".to_owned()],
     })
 }
@@ -122,6 +123,7 @@ fn what_cannot_be_written() {
         time_step: 0.01,
         title: String::new(),
         component: String::new(),
+        processing: Processing::Unstated,
         remarks: Vec::new(),
     };
     let error = write_pounding_csv(&velocity).unwrap_err();
@@ -159,4 +161,58 @@ fn series_are_chosen() {
     };
     let error = read.choose(&velocity).unwrap_err();
     assert!(error.to_string().contains("velocity"), "{error}");
+}
+
+/// A raw record of an agency is used in the same way after it was written in another format.
+#[test]
+fn raw_records_stay_raw() {
+    let fixture = crate::common::fixtures("k_net", 0).swap_remove(0);
+    let original = read_bytes("a.NS", &fixture.bytes, &fixture.options).unwrap();
+    assert!(original.origin().unwrap().mean_removed);
+    let options = ReadOptions {
+        offset: Offset::Keep,
+        ..fixture.options.clone()
+    };
+    let kept = read_bytes("a.NS", &fixture.bytes, &options).unwrap();
+    let written = Written::of(&kept);
+    assert_eq!(written.processing, Processing::Raw);
+    let csv = write_pounding_csv(&written).unwrap();
+    for text in [csv.clone(), write_peer_at2(&written)] {
+        let read = read_all_bytes("a", text.as_bytes(), &ReadOptions::default()).unwrap();
+        assert_eq!(read.series[0].origin.processing, Processing::Raw, "{text}");
+        let record = read_bytes("a", text.as_bytes(), &ReadOptions::default()).unwrap();
+        assert!(record.origin().unwrap().mean_removed);
+        let peak = original.peak().value;
+        for (a, b) in record.samples().iter().zip(original.samples()) {
+            assert!((a - b).abs() < 1e-6 * peak, "{a} {b}");
+        }
+    }
+    // Without its mean it is raw no longer, nor after a step.
+    assert_eq!(Written::of(&original).processing, Processing::Unstated);
+    let step = ProcessingStep::Offset(OffsetCorrection::Mean);
+    let changed = process(&kept, &[step]).unwrap().accelerogram;
+    assert_eq!(Written::of(&changed).processing, Processing::Unstated);
+
+    for (from, to, words) in [
+        (
+            "# Stage: raw",
+            "# Stage: rough",
+            "neither raw nor corrected",
+        ),
+        (
+            "# Stage: raw",
+            "# Stage: raw\n# Stage: corrected",
+            "both raw and corrected",
+        ),
+    ] {
+        let text = csv.replace(from, to);
+        let error = read_all_bytes("a", text.as_bytes(), &ReadOptions::default()).unwrap_err();
+        assert!(error.to_string().contains(words), "{error}");
+        assert!(error.help().is_some());
+    }
+    // Columns of another program, with our keys before their header.
+    let text = csv.replace("time_s,acceleration_m_s2", "time (s),a (m/s2)");
+    let read = read_all_bytes("a", text.as_bytes(), &ReadOptions::default()).unwrap();
+    assert_eq!(read.series[0].origin.format, "plain_columns");
+    assert_eq!(read.series[0].origin.processing, Processing::Raw);
 }

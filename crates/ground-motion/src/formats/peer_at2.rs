@@ -11,6 +11,7 @@ use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
+use crate::writers::peer_at2::RAW;
 
 /// Lines looked through for the header.
 const HEADER_LINES: usize = 12;
@@ -74,7 +75,11 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
     draft.times = Times::Step(header.step);
     draft.header_count = Some(header.count);
-    draft.processing = Processing::Corrected;
+    draft.processing = match header.text.first() {
+        // Written by this program, which says so.
+        Some(first) if first == RAW => Processing::Raw,
+        _ => Processing::Corrected,
+    };
     let all = header.text.join(" ");
     draft.peak = peak(&draft.unit, &all);
     draft.corners = (

@@ -1,6 +1,6 @@
 //! Our CSV layout: `# Key: value` lines, a header `time_s,acceleration_g`, rows.
 
-use crate::accelerogram::Origin;
+use crate::accelerogram::{Origin, Processing};
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
@@ -22,6 +22,7 @@ pub(super) struct Keys {
     component: String,
     history: Vec<String>,
     unit: Option<(usize, String)>,
+    stage: Option<Processing>,
     /// Time step (s) and its line.
     step: Option<(usize, f64)>,
 }
@@ -164,6 +165,9 @@ impl Keys {
     pub(super) fn report(&self, origin: &mut Origin) {
         origin.title = self.title.join("; ");
         origin.history.clone_from(&self.history);
+        if let Some(stage) = self.stage {
+            origin.processing = stage;
+        }
     }
 
     fn take(&mut self, source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> {
@@ -176,6 +180,29 @@ impl Keys {
             "Event" | "Station" => self.title.push(value.to_owned()),
             "Component" => value.clone_into(&mut self.component),
             "Source" | "Step" | "Read" | "Note" => self.history.push(text.trim().to_owned()),
+            "Stage" => {
+                let stage = match value.to_ascii_lowercase().as_str() {
+                    "raw" => Processing::Raw,
+                    "corrected" => Processing::Corrected,
+                    _ => {
+                        return Err(source.error(
+                            line.number,
+                            0,
+                            format!("the stage \"{value}\" is neither raw nor corrected"),
+                            "write `# Stage: raw` for a record with the instrument's offset, `# Stage: corrected` for one that its agency corrected, or leave the line out",
+                        ));
+                    }
+                };
+                if self.stage.is_some_and(|before| before != stage) {
+                    return Err(source.error(
+                        line.number,
+                        0,
+                        "the record is both raw and corrected",
+                        "leave one of the lines out",
+                    ));
+                }
+                self.stage = Some(stage);
+            }
             "Unit" => self.unit = Some((line.number, value.to_owned())),
             "dt" => {
                 let number = value.strip_suffix('s').unwrap_or(value);

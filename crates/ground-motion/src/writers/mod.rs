@@ -1,11 +1,11 @@
 //! Writers of records, one layout per file. Each gives the text of a whole file; what
 //! it says is read back by the reader of the same name.
 
-mod peer_at2;
+pub(crate) mod peer_at2;
 mod plain_columns;
 mod pounding_csv;
 
-use crate::accelerogram::Accelerogram;
+use crate::accelerogram::{Accelerogram, Processing};
 use crate::error::GroundMotionError;
 use crate::quantity::Quantity;
 use crate::recording::{Sampling, Series};
@@ -28,6 +28,8 @@ pub struct Written {
     pub title: String,
     /// Component; empty if not known.
     pub component: String,
+    /// What the agency did to it, if nothing was done to it since.
+    pub processing: Processing,
     /// What else the header says: source, steps of processing.
     pub remarks: Vec<String>,
 }
@@ -45,12 +47,14 @@ impl Written {
             remarks.extend(o.warnings.iter().map(|w| format!("Note: {w}")));
         }
         remarks.extend(record.steps().iter().map(|s| format!("Step: {s}")));
+        let as_read = origin.filter(|o| record.steps().is_empty() && !o.mean_removed);
         Self {
             quantity: Quantity::Acceleration,
             samples: record.samples().to_vec(),
             time_step: record.time_step(),
             title: origin.map_or(String::new(), |o| o.title.clone()),
             component: origin.map_or(String::new(), |o| o.component.clone()),
+            processing: as_read.map_or(Processing::Unstated, |o| o.processing),
             remarks,
         }
     }
@@ -77,6 +81,7 @@ impl Written {
             time_step,
             title: origin.title.clone(),
             component: series.component.clone(),
+            processing: origin.processing,
             remarks: origin
                 .history
                 .iter()

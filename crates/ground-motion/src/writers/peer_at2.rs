@@ -2,16 +2,21 @@
 
 use std::fmt::Write as _;
 
+use crate::accelerogram::Processing;
 use crate::quantity::Quantity;
 use crate::unit::AccelerationUnit;
 use crate::writers::{Written, line};
 
+/// First lines, of raw records and of others.
+pub(crate) const RAW: &str = "RAW MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2";
+const OTHER: &str = "MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2";
 /// Values on a line.
 const COLUMNS: usize = 5;
 
 /// The text of an AT2 file (accelerations in g of 9.80665 m/s2), a VT2 file (cm/s) or
 /// a DT2 file (cm): four lines of header, five values of eight digits per line. The
-/// format has no room for what was done to the motion.
+/// format has no room for what was done to the motion; the first line says of a raw record that it
+/// is one.
 #[must_use]
 pub fn write_peer_at2(series: &Written) -> String {
     let (words, unit, factor) = match series.quantity {
@@ -24,7 +29,10 @@ pub fn write_peer_at2(series: &Written) -> String {
         Quantity::Displacement => ("DISPLACEMENT", "CM", 100.0),
     };
     let mut text = String::with_capacity(16 * series.samples.len() + 300);
-    let _ = writeln!(text, "MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2");
+    let _ = match series.processing {
+        Processing::Raw => writeln!(text, "{RAW}"),
+        _ => writeln!(text, "{OTHER}"),
+    };
     let _ = writeln!(text, "{}, {}", line(&series.title), line(&series.component));
     let _ = writeln!(text, "{words} TIME SERIES IN UNITS OF {unit}");
     let _ = writeln!(

@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::accelerogram::Processing;
 use crate::error::GroundMotionError;
 use crate::writers::{Written, acceleration_only, line, number, time};
 
@@ -19,6 +20,11 @@ pub fn write_pounding_csv(series: &Written) -> Result<String, GroundMotionError>
     }
     if !series.component.is_empty() {
         let _ = writeln!(text, "# Component: {}", line(&series.component));
+    }
+    match series.processing {
+        Processing::Raw => text.push_str("# Stage: raw\n"),
+        Processing::Corrected => text.push_str("# Stage: corrected\n"),
+        Processing::Unstated => {}
     }
     for remark in &series.remarks {
         let _ = writeln!(text, "# {}", line(remark));

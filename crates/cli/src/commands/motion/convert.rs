@@ -6,7 +6,7 @@ use pounding_catalogue::wording::counted;
 use pounding_ground_motion::writers::{
     Column, Written, write_peer_at2, write_plain_columns, write_pounding_csv,
 };
-use pounding_ground_motion::{AccelerationUnit, Offset, Quantity, read_all};
+use pounding_ground_motion::{AccelerationUnit, Offset, Processing, Quantity, read_all};
 use serde::Serialize;
 
 use super::reading;
@@ -14,6 +14,9 @@ use crate::arguments::{ConvertArguments, Layout};
 use crate::failure::Failure;
 use crate::output::{pretty, print};
 use crate::plot;
+
+/// What is lost where a file has no header.
+const RAW_IN_COLUMNS: &str = "the record is raw, which plain columns do not say: give `offset = \"remove\"` where they are used";
 
 /// Writes one series, values as they are.
 pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
@@ -36,7 +39,7 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
             Some("leave it out, or convert the acceleration".to_owned()),
         ));
     }
-    let written = if series.quantity == Quantity::Acceleration {
+    let mut written = if series.quantity == Quantity::Acceleration {
         Written::of(&series.accelerogram(&options)?)
     } else {
         Written::of_series(&series)?
@@ -73,6 +76,10 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
             write_plain_columns(&written, &wanted, unit)
         }
     };
+    let loses_stage = arguments.to == Layout::PlainColumns && written.processing == Processing::Raw;
+    if loses_stage {
+        written.remarks.push(format!("Note: {RAW_IN_COLUMNS}"));
+    }
     plot::write(&arguments.output, &text)?;
     if arguments.json {
         return print(&pretty(&Converted {
@@ -94,6 +101,9 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
     );
     for warning in &series.origin.warnings {
         text.push_str(&format!("warning: {warning}\n"));
+    }
+    if loses_stage {
+        text.push_str(&format!("warning: {RAW_IN_COLUMNS}\n"));
     }
     text.push_str(&format!(
         "written to {} in {symbol}\n",

@@ -5,6 +5,7 @@ mod agency_measures;
 mod agency_more;
 mod column_headers;
 mod common;
+mod component_directions;
 mod contradictory_headers;
 mod contradictory_words;
 mod design_spectra;

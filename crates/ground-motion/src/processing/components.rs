@@ -1,12 +1,16 @@
 //! Two horizontal components.
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, within};
+use crate::direction::Direction;
+use crate::error::{GroundMotionError, bound, within};
 use crate::step_record::StepRecord;
 
 const STEP: &str = "rotation";
+const OF_FAULT: &str = "fault components";
 /// Sine of the least angle between two components that determine the motion well.
 const LEAST_SINE: f64 = 0.5;
+/// Degrees by which two components may miss the right angle: agencies print whole degrees.
+const OFF_RIGHT_ANGLE: f64 = 1.0;
 
 /// Two components in other directions.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +37,61 @@ pub(crate) fn common_length(
         )));
     }
     Ok(count)
+}
+
+/// The direction of a component, where its name says one and it was not turned since.
+fn direction(of: &Accelerogram) -> Option<Direction> {
+    let origin = of.origin()?;
+    let turns = |step: &str| step == STEP || step == OF_FAULT;
+    let before = |line: &String| {
+        let step = line.strip_prefix("Step:").map(str::trim_start);
+        step.is_some_and(|s| turns(s.split(':').next().unwrap_or(s)))
+    };
+    if of.steps().iter().any(|s| turns(s.step)) || origin.history.iter().any(before) {
+        return None;
+    }
+    // `H1` and `2` are numbers of components.
+    let name = origin.component.trim();
+    let number = name.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+    if matches!(number.trim(), "1" | "2" | "3") {
+        return None;
+    }
+    Direction::parse(name)
+}
+
+/// Refuses components whose names say that they are not horizontal, or not at right angles.
+pub(crate) fn at_right_angles(
+    first: &Accelerogram,
+    second: &Accelerogram,
+) -> Result<(), GroundMotionError> {
+    let directions = [direction(first), direction(second)];
+    let is_vertical = |d: &Option<Direction>| matches!(d, Some(Direction::Up | Direction::Down));
+    let apart = match directions {
+        [Some(Direction::Azimuth(a)), Some(Direction::Azimuth(b))] => (a - b).rem_euclid(180.0),
+        _ => 90.0,
+    };
+    if !directions.iter().any(is_vertical) && (apart - 90.0).abs() <= OFF_RIGHT_ANGLE + 1.0e-9 {
+        return Ok(());
+    }
+    let shown = |of: &Accelerogram, direction: Option<Direction>| {
+        let name = of.origin().map_or("", |o| o.component.as_str());
+        match direction {
+            Some(Direction::Azimuth(azimuth)) => {
+                format!("\"{name}\" (azimuth {} degrees)", bound(azimuth))
+            }
+            Some(_) => format!("\"{name}\" (vertical)"),
+            None => format!("\"{name}\""),
+        }
+    };
+    Err(GroundMotionError::NotPossible {
+        step: STEP,
+        reason: format!(
+            "the components {} and {} are not two horizontal ones at right angles",
+            shown(first, directions[0]),
+            shown(second, directions[1])
+        ),
+        remedy: "give the two horizontal components of the record, such as 0 and 90, or N-S and E-W",
+    })
 }
 
 fn combine(
@@ -67,13 +126,15 @@ fn combine(
 /// the same time; the longer one is cut.
 ///
 /// # Errors
-/// Different time steps, or an angle that is not finite.
+/// Different time steps, an angle that is not finite, or components whose names say directions
+/// that are not horizontal or not at right angles.
 pub fn rotate(
     first: &Accelerogram,
     second: &Accelerogram,
     angle: f64,
 ) -> Result<RotatedPair, GroundMotionError> {
     within(STEP, "angle", angle, -360.0, 360.0)?;
+    at_right_angles(first, second)?;
     let (sine, cosine) = libm::sincos(angle.to_radians());
     let step = StepRecord::new(STEP).number("angle", angle, "degrees");
     combine(first, second, [[cosine, sine], [-sine, cosine]], step)
@@ -113,7 +174,7 @@ pub fn fault_components(
             libm::sin((azimuth - first.1).to_radians()) / between,
         ]
     };
-    let step = StepRecord::new("fault components")
+    let step = StepRecord::new(OF_FAULT)
         .number("first azimuth", first.1, "degrees")
         .number("second azimuth", second.1, "degrees")
         .number("strike", strike, "degrees");

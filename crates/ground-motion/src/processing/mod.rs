@@ -16,8 +16,8 @@ use crate::unit::AccelerationUnit;
 
 pub use baseline::{Baseline, SegmentWindow};
 pub use butterworth::{Butterworth, Phase};
-pub(crate) use components::common_length;
 pub use components::{RotatedPair, fault_components, rotate};
+pub(crate) use components::{at_right_angles, common_length};
 pub use resampling::{Interpolation, to_even_steps};
 pub use scaling::{BandTarget, Scale, band_factor};
 pub use window::Trim;

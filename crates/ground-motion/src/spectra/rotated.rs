@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::accelerogram::{Accelerogram, Peak};
 use crate::error::GroundMotionError;
-use crate::processing::common_length;
+use crate::processing::{at_right_angles, common_length};
 use crate::spectra::oscillator::{Oscillator, State};
 use crate::spectra::{Evaluation, response};
 
@@ -43,7 +43,8 @@ struct Pair<'a> {
 /// the shorter one's end.
 ///
 /// # Errors
-/// Components of different time steps, a damping ratio outside [0, 1), or a period
+/// Components of different time steps, or whose names say directions that are not horizontal or
+/// not at right angles, a damping ratio outside [0, 1), or a period
 /// that is negative or below a thousandth of the time step.
 pub fn rotated_spectrum(
     first: &Accelerogram,
@@ -52,6 +53,7 @@ pub fn rotated_spectrum(
     damping: f64,
     evaluation: Evaluation,
 ) -> Result<RotatedSpectrum, GroundMotionError> {
+    at_right_angles(first, second)?;
     let count = common_length(first, second)?;
     let step = first.time_step();
     response::check(periods, damping, step)?;

@@ -148,7 +148,9 @@ fn ends_of_contacts_with_adams_impact_are_located() {
                 duration: Some(20.0),
                 energy_tolerance: None,
             };
-            run(&system, &options, &mut [], &mut |_| {}).unwrap().impacts
+            run(&system, &options, &mut [], &mut |_| {})
+                .unwrap()
+                .impacts
         };
         let relative_tolerance = 1.0e-10;
         let series = go(MethodChoice::EventDriven { relative_tolerance });

@@ -548,3 +548,78 @@ fn cwa_states_length_extremes_and_signs() {
         &["\"N(-)\"", "sign"],
     );
 }
+
+#[test]
+fn words_of_another_quantity_are_refused() {
+    let at2 = |words: &str, step: &str| {
+        format!("PEER\nQUAKE, STATION\n{words}\nNPTS=   4, DT= {step}\n .1 .2 -.3 .4\n")
+    };
+    let acceleration = "ACCELERATION TIME HISTORY IN UNITS OF G";
+    for step in [
+        ".01",
+        ".01 SEC",
+        ".01SEC",
+        "10 MSEC",
+        "100 HZ",
+        ".01 SEC, X= 1",
+        ".01 X= 1",
+    ] {
+        let read = read(&at2(acceleration, step)).unwrap();
+        let Sampling::Even { time_step } = read.series[0].sampling else {
+            panic!()
+        };
+        assert!((time_step - 0.01).abs() < 1e-15, "{step}");
+    }
+    read(&at2("VELOCITY TIME HISTORY IN UNITS OF CM/S", ".01")).unwrap();
+    for words in [
+        "VELOCITY TIME HISTORY IN UNITS OF G",
+        "VELOCITY TIME SERIES\nIN UNITS OF G",
+        "ACCELERATION TIME HISTORY IN UNITS OF CM/S",
+    ] {
+        let text = at2(words, ".01");
+        refused(&text, "file:3:1: ", &["but the values are in"]);
+    }
+    for step in [".01 MIN", ".01MIN", "10 KHZ", ".01 G"] {
+        let text = at2(acceleration, step);
+        refused(
+            &text,
+            "file:4:1: ",
+            &["is not a unit of a time step", "DT= .01000 SEC"],
+        );
+    }
+
+    let dyna = text(&fixtures("dyna", 0).swap_remove(0));
+    for words in [
+        "ACCELERATION RESPONSE SPECTRUM",
+        "SA",
+        "VELOCITY AND DISPLACEMENT",
+    ] {
+        let line = dyna.lines().find(|l| l.starts_with("DATA_TYPE:")).unwrap();
+        let wrong = changed(&dyna, &[(line, &format!("DATA_TYPE: {words}"))]);
+        let number = dyna.lines().position(|l| l == line).unwrap() + 1;
+        refused(
+            &wrong,
+            &format!("file:{number}:12: "),
+            &[words, "time history"],
+        );
+    }
+
+    let csv =
+        |units: &str| format!("{units}# dt: 0.1 s\ntime_s,acceleration_g\n0,1\n0.1,2\n0.2,3\n");
+    read(&csv("# Unit: g\n# Unit: g\n")).unwrap();
+    refused(
+        &csv("# Unit: m/s2\n# Unit: g\n"),
+        "file:1:1: ",
+        &["m/s2", "acceleration_g"],
+    );
+    refused(
+        &csv("# Unit: g\n# Unit: m/s2\n"),
+        "file:2:1: ",
+        &["m/s2", "acceleration_g"],
+    );
+    refused(
+        &csv("# Unit: furlong\n# Unit: g\n"),
+        "file:1:1: ",
+        &["furlong"],
+    );
+}

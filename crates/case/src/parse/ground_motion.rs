@@ -203,7 +203,10 @@ impl TryFrom<Written> for Degrees {
                 ..
             }) => Ok(Self(value)),
             Err(fault) if is_plain => Err(fault),
-            _ => Err(Fault::new(" is a plain number of degrees", "for example 30")),
+            _ => Err(Fault::new(
+                " is a plain number of degrees",
+                "for example 30",
+            )),
         }
     }
 }

@@ -141,7 +141,18 @@ impl Header {
                     )
                 })?);
             }
-            "DATA_TYPE" => self.quantity = Quantity::from_name(value),
+            "DATA_TYPE" => {
+                let lower = value.to_ascii_lowercase();
+                let quantity = Quantity::in_words(&lower).filter(|_| !lower.contains("spectr"));
+                self.quantity = Some(quantity.ok_or_else(|| {
+                    source.error(
+                        line.number,
+                        key.len() + 2,
+                        format!("DATA_TYPE is \"{value}\", which is no time history of one quantity"),
+                        "give the time history of the acceleration: DATA_TYPE is ACCELERATION, VELOCITY or DISPLACEMENT there",
+                    )
+                })?);
+            }
             "STREAM" => self.stream = value.to_owned(),
             "STATION_CODE" => self.station = value.to_owned(),
             "EVENT_NAME" => self.event = value.to_owned(),

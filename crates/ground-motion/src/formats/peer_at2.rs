@@ -3,7 +3,7 @@
 //! four or seven header lines, and the free header of Peknold's El Centro.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::number;
@@ -80,6 +80,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         Some(first) if first == RAW => Processing::Raw,
         _ => Processing::Corrected,
     };
+    draft.quantities = quantities(&header.text);
     let all = header.text.join(" ");
     draft.peak = peak(&draft.unit, &all);
     draft.corners = (
@@ -112,7 +113,14 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     {
         text.push(l.text().trim().to_owned());
     }
-    let (count, step) = counts(line);
+    let (count, step) = counts(line).map_err(|word| {
+        source.error(
+            line.number,
+            0,
+            format!("\"{word}\" is not a unit of a time step"),
+            "correct the header: the step is in seconds, as in `DT= .01000 SEC`, in milliseconds (MSEC), or a rate (HZ)",
+        )
+    })?;
     let Some(count) = count else {
         return Err(source.error(
             line.number,
@@ -129,14 +137,29 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     })
 }
 
-/// The step (s) behind `DT =`: in seconds, with or without the word, in milliseconds, or as a rate.
-fn step(lower: &str) -> Option<f64> {
-    let at = lower.find("dt")? + "dt".len();
-    let rest = lower
-        .get(at..)?
-        .trim_start()
-        .strip_prefix('=')?
-        .trim_start();
+/// The quantities of the lines on the unit and on the kind of series, such as `VELOCITY TIME
+/// HISTORY IN UNITS OF CM/S`.
+fn quantities(text: &[String]) -> Vec<NamedQuantity> {
+    let named = |(i, line): (usize, &String)| {
+        let lower = line.to_ascii_lowercase();
+        let says = ["units", "time history", "time series"];
+        let says = says.iter().any(|words| lower.contains(words));
+        says.then(|| NamedQuantity::of(i + 1, line))?
+    };
+    text.iter().enumerate().filter_map(named).collect()
+}
+
+/// The step (s) behind `DT =`: in seconds, with or without the word, in milliseconds, or as a rate;
+/// another word is an error.
+fn step(lower: &str) -> Result<Option<f64>, String> {
+    let behind_key = || {
+        let at = lower.find("dt")? + "dt".len();
+        let rest = lower.get(at..)?.trim_start().strip_prefix('=')?;
+        Some(rest.trim_start())
+    };
+    let Some(rest) = behind_key() else {
+        return Ok(None);
+    };
     let end = rest.find([' ', ',', '\t']).unwrap_or(rest.len());
     let (first, behind) = rest.split_at(end);
     // `100HZ`: the number ends where the word begins. An `e` alone is of the number.
@@ -150,16 +173,21 @@ fn step(lower: &str) -> Option<f64> {
         word => word,
     };
     let ends = |c: char| !(c.is_ascii_alphabetic() || c == '/');
-    let word = &word[..word.find(ends).unwrap_or(word.len())];
-    let value = number::parse(number.as_bytes()).ok()?;
-    Some(match word {
+    let (word, after) = word.split_at(word.find(ends).unwrap_or(word.len()));
+    let Ok(value) = number::parse(number.as_bytes()) else {
+        return Ok(None);
+    };
+    Ok(Some(match word {
         "hz" | "sps" | "samples/s" | "samples/sec" | "points/sec" => 1.0 / value,
         "ms" | "msec" | "milliseconds" => 1.0e-3 * value,
-        _ => value,
-    })
+        "" | "s" | "sec" | "secs" | "second" | "seconds" => value,
+        // The next key.
+        _ if after.trim_start().starts_with('=') => value,
+        _ => return Err(word.to_ascii_uppercase()),
+    }))
 }
 
-fn counts(line: Line<'_>) -> (Option<usize>, Option<f64>) {
+fn counts(line: Line<'_>) -> Result<(Option<usize>, Option<f64>), String> {
     let lower = line.lower();
     let after = |key: &str| {
         let at = lower.find(key)? + key.len();
@@ -167,13 +195,13 @@ fn counts(line: Line<'_>) -> (Option<usize>, Option<f64>) {
         rest.trim_start().split([' ', ',', '\t']).next()
     };
     if let Some(count) = after("npts") {
-        return (count.parse().ok(), step(&lower));
+        return Ok((count.parse().ok(), step(&lower)?));
     }
     let mut numbers = line.fields().filter_map(|(_, f)| number::parse(f).ok());
     let count = numbers
         .next()
         .filter(|n| n.fract() == 0.0 && (0.0..1.0e9).contains(n));
-    (count.map(|n| n as usize), numbers.next())
+    Ok((count.map(|n| n as usize), numbers.next()))
 }
 
 /// Unit from the header's text: `IN UNITS OF G`, `The units are (g)`.

@@ -21,7 +21,8 @@ pub(super) struct Keys {
     title: Vec<String>,
     component: String,
     history: Vec<String>,
-    unit: Option<(usize, String)>,
+    /// Units and their lines.
+    units: Vec<(usize, String)>,
     stage: Option<Processing>,
     /// Time step (s) and its line.
     step: Option<(usize, f64)>,
@@ -77,7 +78,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         }
     };
     let unit = unit_of_header(suffix).map_err(at(header.number, START.len()))?;
-    if let Some((line, stated)) = &keys.unit {
+    for (line, stated) in &keys.units {
         // A word that is no unit is wrong here, where the key is part of the layout.
         let _: AccelerationUnit = stated.parse().map_err(at(*line, 0))?;
     }
@@ -118,23 +119,23 @@ impl Keys {
         keys
     }
 
-    /// Refuses a unit in the keys other than that of the column header.
+    /// Refuses units in the keys other than that of the column header.
     pub(super) fn agree(
         &self,
         source: &Source<'_>,
         unit: SeriesUnit,
         header: &str,
     ) -> Result<(), GroundMotionError> {
-        match &self.unit {
-            Some((line, stated)) if SeriesUnit::parse(stated).is_some_and(|s| s != unit) => {
-                Err(source.error(
-                    *line,
-                    0,
-                    format!("unit \"{stated}\" contradicts the column header \"{header}\""),
-                    "make both the same",
-                ))
-            }
-            _ => Ok(()),
+        let differs =
+            |(_, stated): &&(usize, String)| SeriesUnit::parse(stated).is_some_and(|s| s != unit);
+        match self.units.iter().find(differs) {
+            Some((line, stated)) => Err(source.error(
+                *line,
+                0,
+                format!("unit \"{stated}\" contradicts the column header \"{header}\""),
+                "make both the same",
+            )),
+            None => Ok(()),
         }
     }
 
@@ -203,7 +204,7 @@ impl Keys {
                 }
                 self.stage = Some(stage);
             }
-            "Unit" => self.unit = Some((line.number, value.to_owned())),
+            "Unit" => self.units.push((line.number, value.to_owned())),
             "dt" => {
                 let number = value.strip_suffix('s').unwrap_or(value);
                 self.step = Some((line.number, source.number(line, 0, number.as_bytes())?));

@@ -5,8 +5,27 @@ use std::sync::Arc;
 
 use pounding_gap_element::{ModelParameters, SeparationRule, registry};
 use pounding_shear_building::{Damping, ShearBuilding};
-use pounding_time_history::{Floor, GroundAcceleration, System};
+use pounding_time_history::{
+    Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, TimeHistoryError, run,
+};
 use serde::Deserialize;
+
+/// What a method finds over this time (s), with the usual bound of the ledger.
+///
+/// # Errors
+/// Those of the run.
+pub fn outcome_by(
+    system: &System,
+    method: MethodChoice,
+    duration: f64,
+) -> Result<Outcome, TimeHistoryError> {
+    let options = RunOptions {
+        method,
+        duration: Some(duration),
+        energy_tolerance: None,
+    };
+    run(system, &options, &mut [], &mut |_| {})
+}
 
 /// Any failure while a case is built.
 pub type Failure = Box<dyn std::error::Error>;

@@ -9,11 +9,11 @@ use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, registry};
 use pounding_shear_building::ShearBuilding;
-use pounding_time_history::{Floor, MethodChoice, Outcome, RunOptions, System, run};
+use pounding_time_history::{Floor, MethodChoice, Outcome, System};
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 use proptest::test_runner::{RngSeed, TestRunner};
-use verification::{EqualStoreys, synthetic_motion};
+use verification::{EqualStoreys, outcome_by, synthetic_motion};
 
 const DURATION: f64 = 3.0;
 /// Rows of every test, and the part of them that has to be compared.
@@ -112,12 +112,7 @@ impl Row {
 }
 
 fn go(system: &System, method: MethodChoice) -> Outcome {
-    let options = RunOptions {
-        method,
-        duration: Some(DURATION),
-        energy_tolerance: None,
-    };
-    run(system, &options, &mut [], &mut |_| {}).unwrap()
+    outcome_by(system, method, DURATION).unwrap()
 }
 
 /// Peaks of all storeys and levels.

@@ -9,12 +9,10 @@ use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, SeparationRule, registry};
 use pounding_shear_building::ShearBuilding;
-use pounding_time_history::{
-    Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run,
-};
+use pounding_time_history::{Floor, GroundAcceleration, MethodChoice, Outcome, System};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use verification::{EqualStoreys, synthetic_motion};
+use verification::{EqualStoreys, outcome_by, synthetic_motion};
 
 const DURATION: f64 = 6.0;
 /// Affine, powers of the penetration, powers with a dashpot, with a change of phase, and one
@@ -132,12 +130,7 @@ impl Row {
 }
 
 fn go(system: &System, method: MethodChoice) -> Outcome {
-    let options = RunOptions {
-        method,
-        duration: Some(DURATION),
-        energy_tolerance: None,
-    };
-    run(system, &options, &mut [], &mut |_| {}).unwrap()
+    outcome_by(system, method, DURATION).unwrap()
 }
 
 /// Maximum difference of peaks, as a part of the maximum of their kind.

@@ -11,7 +11,7 @@ use pounding_gap_element::{
     registry,
 };
 use pounding_time_history::{Floor, MethodChoice, Outcome, RunOptions, System, run};
-use verification::{constant_ground, single_storey, synthetic_motion};
+use verification::{constant_ground, outcome_by, single_storey, synthetic_motion};
 
 const MASS: f64 = 2.0e4;
 const STIFFNESS: f64 = 9.35e7;
@@ -142,16 +142,7 @@ fn ends_of_contacts_with_adams_impact_are_located() {
         let pair = (Floor::Storey(0, 0), Floor::Wall, width, model);
         let names = ["body".to_owned(), "wall".to_owned()];
         system.add_gap("body-wall", names, vec![pair]).unwrap();
-        let go = |method| {
-            let options = RunOptions {
-                method,
-                duration: Some(20.0),
-                energy_tolerance: None,
-            };
-            run(&system, &options, &mut [], &mut |_| {})
-                .unwrap()
-                .impacts
-        };
+        let go = |method| outcome_by(&system, method, 20.0).unwrap().impacts;
         let relative_tolerance = 1.0e-10;
         let series = go(MethodChoice::EventDriven { relative_tolerance });
         let pair = go(MethodChoice::Adaptive { relative_tolerance });

@@ -6,10 +6,10 @@ use std::sync::Arc;
 
 use pounding_gap_element::{ModelParameters, registry};
 use pounding_shear_building::ShearBuilding;
-use pounding_time_history::{Floor, MethodChoice, Outcome, RunOptions, System, run};
+use pounding_time_history::{Floor, MethodChoice, Outcome, System};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use verification::{EqualStoreys, single_storey, synthetic_motion};
+use verification::{EqualStoreys, outcome_by, single_storey, synthetic_motion};
 
 const DURATION: f64 = 3.0;
 /// As long (s) the light frame is held.
@@ -29,12 +29,7 @@ fn beside_a_wall(model: &str, stiffness: f64) -> System {
 }
 
 fn go(system: &System, method: MethodChoice) -> Outcome {
-    let options = RunOptions {
-        method,
-        duration: Some(DURATION),
-        energy_tolerance: None,
-    };
-    run(system, &options, &mut [], &mut |_| {}).unwrap()
+    outcome_by(system, method, DURATION).unwrap()
 }
 
 #[test]
@@ -164,14 +159,10 @@ fn steps_that_stability_limits_are_seldom_rejected() {
             .add_gap(&names.join("-"), names, vec![level(0), level(1)])
             .unwrap();
     }
-    let options = RunOptions {
-        method: MethodChoice::EventDriven {
-            relative_tolerance: 1e-9,
-        },
-        duration: Some(HELD),
-        energy_tolerance: None,
+    let method = MethodChoice::EventDriven {
+        relative_tolerance: 1e-9,
     };
-    let outcome = run(&system, &options, &mut [], &mut |_| {}).unwrap();
+    let outcome = outcome_by(&system, method, HELD).unwrap();
     let statistics = outcome.statistics;
     // One step is a thousandth of a sample.
     assert!(statistics.steps > 100_000, "{statistics:?}");

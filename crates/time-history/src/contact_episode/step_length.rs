@@ -18,8 +18,9 @@ pub(crate) struct StepLength {
     /// Part of the even steps tried lately that were rejected, and whether stability limits them.
     rejections: f64,
     limited: bool,
-    /// Series of powers in a row that did not reach far, and the steps of the pair since.
+    /// Series of powers in a row that did not reach far, and steps of the pair since the last.
     short_series: u32,
+    since_series: u32,
 }
 
 /// A step to try.
@@ -76,6 +77,7 @@ impl StepLength {
             rejections: 0.0,
             limited: false,
             short_series: 0,
+            since_series: 0,
         }
     }
 
@@ -134,7 +136,7 @@ impl StepLength {
         penetrations: impl Iterator<Item = (f64, f64)>,
         rest: f64,
     ) -> Option<f64> {
-        if self.short_series > SHORT_SERIES && !self.short_series.is_multiple_of(SHORT_SERIES) {
+        if self.short_series >= SHORT_SERIES && self.since_series < SHORT_SERIES {
             return None;
         }
         let mut longest = rest;
@@ -165,9 +167,8 @@ impl StepLength {
 
     /// A series did not reach far.
     pub(crate) fn refuse_series(&mut self) {
-        if self.short_series < SHORT_SERIES {
-            self.short_series += 1;
-        }
+        self.short_series = self.short_series.saturating_add(1);
+        self.since_series = 0;
     }
 
     /// A step of this error was rejected; returns the shorter one to try.
@@ -199,9 +200,7 @@ impl StepLength {
 
     /// A step was taken over `length` (s), of the `tried` one or cut short.
     pub(crate) fn accept(&mut self, tried: &Proposal, length: f64, error: f64) {
-        if self.short_series >= SHORT_SERIES {
-            self.short_series = self.short_series.wrapping_add(1).max(SHORT_SERIES);
-        }
+        self.since_series = self.since_series.saturating_add(1);
         let factor = factor(error);
         match tried.pace {
             Pace::Start => {
@@ -244,9 +243,7 @@ impl StepLength {
             Pace::End(_) => {}
         }
     }
-}
 
-impl StepLength {
     /// An even step was rejected (1) or taken (0).
     fn note_even_step(&mut self, rejected: f64) {
         self.rejections += LATELY * (rejected - self.rejections);

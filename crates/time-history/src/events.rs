@@ -59,13 +59,13 @@ impl Finder {
     }
 
     /// Collects the first event of every level and returns the earliest.
-    /// Events for which `muted(level, theta)` do not count.
+    /// Events for which `muted` holds do not count.
     pub(crate) fn find(
         &mut self,
         context: &mut Context<'_, '_>,
         method: &dyn Method,
         (tau, step): (f64, f64),
-        muted: impl Fn(usize, f64) -> bool,
+        muted: impl Fn(Candidate) -> bool,
     ) -> Option<Candidate> {
         self.candidates.clear();
         for level in 0..context.contacts.modes.len() {
@@ -73,17 +73,17 @@ impl Finder {
             let kinds = kinds(context, level);
             for kind in kinds.into_iter().flatten() {
                 let guard = self.guard(context, method, level, kind, tau, step);
-                if let Some(theta) = first_rise(&guard)
-                    && !muted(level, theta)
-                    && first.is_none_or(|f| theta < f.theta)
+                let found = first_rise(&guard).map(|theta| Candidate { level, kind, theta });
+                if let Some(found) = found.filter(|found| !muted(*found))
+                    && first.is_none_or(|f| found.theta < f.theta)
                 {
-                    first = Some(Candidate { level, kind, theta });
+                    first = Some(found);
                 }
             }
             self.candidates.extend(first);
         }
         if !method.information().implicit {
-            self.find_branches(context, method);
+            self.find_branches(context, method, muted);
         }
         self.candidates
             .iter()
@@ -92,7 +92,12 @@ impl Finder {
     }
 
     /// Collects the first change of branch of every element.
-    fn find_branches(&mut self, context: &Context<'_, '_>, method: &dyn Method) {
+    fn find_branches(
+        &mut self,
+        context: &Context<'_, '_>,
+        method: &dyn Method,
+        muted: impl Fn(Candidate) -> bool,
+    ) {
         let Dynamics { system, layout, .. } = *context.dynamics;
         let memory = &context.contacts.elements;
         let elements = system.elements().iter().zip(&memory.histories);
@@ -104,11 +109,12 @@ impl Finder {
                 let theta = guard_function(element, history, guard, layout, component)
                     .map(|function| if turned { at_rest(function) } else { function })
                     .and_then(|function| first_rise(&function));
-                if let Some(theta) = theta
-                    && first.is_none_or(|f| theta < f.theta)
+                let kind = EventKind::Branch(guard);
+                let found = theta.map(|theta| Candidate { level, kind, theta });
+                if let Some(found) = found.filter(|found| !muted(*found))
+                    && first.is_none_or(|f| found.theta < f.theta)
                 {
-                    let kind = EventKind::Branch(guard);
-                    first = Some(Candidate { level, kind, theta });
+                    first = Some(found);
                 }
             }
             self.candidates.extend(first);

@@ -61,7 +61,8 @@ impl Driver<'_> {
 
     /// The first event inside a trial step that was cut at this one, or before any, if it is clearly
     /// over at the end. The interpolant of the whole step may have put events in another order, as
-    /// where a law has a kink in it, and that of the cut one knows better. Its events are then those
+    /// where a law has a kink in it, and that of the cut one knows better; or this event hid another
+    /// one of its level. Its events are then those
     /// of the finder.
     pub(super) fn stepped_over(
         &mut self,
@@ -71,15 +72,14 @@ impl Driver<'_> {
         event: Option<Candidate>,
     ) -> Option<Candidate> {
         std::mem::swap(&mut self.finder.candidates, &mut self.finder.others);
-        self.find(segment, tau, step);
+        self.find(segment, tau, step, event);
         let mut first: Option<Candidate> = None;
         for number in 0..self.finder.candidates.len() {
             let other = self.finder.candidates[number];
             let is_inside = other.theta * step > SIMULTANEOUS
                 && (1.0 - other.theta) * step > SIMULTANEOUS
                 && first.is_none_or(|first| other.theta < first.theta);
-            let same = event.is_some_and(|e| e.level == other.level && e.kind == other.kind);
-            if is_inside && !same && self.is_over(segment, tau, step, other) {
+            if is_inside && self.is_over(segment, tau, step, other) {
                 first = Some(other);
             }
         }

@@ -356,10 +356,10 @@ impl<'a> Driver<'a> {
             while step > PROGRESS_STEP && self.overlaps_unseen() {
                 step = self.trial(segment, tau, (0.5 * step).max(PROGRESS_STEP))?;
             }
-            let mut earliest = self.find(segment, tau, step);
+            let mut earliest = self.find(segment, tau, step, None);
             while step > PROGRESS_STEP && earliest.is_some_and(|e| self.turns_at_once(e, step)) {
                 step = self.trial(segment, tau, (0.1 * step).max(PROGRESS_STEP))?;
-                earliest = self.find(segment, tau, step);
+                earliest = self.find(segment, tau, step, None);
             }
             let mut ended_by = None;
             if let Some(event) = earliest {
@@ -466,7 +466,15 @@ impl<'a> Driver<'a> {
             && (elements.turned[event.level] || elements.changes[event.level] >= CHANGES_ON_THE_WAY)
     }
 
-    fn find(&mut self, segment: &Segment, tau: f64, step: f64) -> Option<Candidate> {
+    /// The earliest event of the trial step, and the first of every level, but for one that is known
+    /// and may hide others of its level.
+    fn find(
+        &mut self,
+        segment: &Segment,
+        tau: f64,
+        step: f64,
+        known: Option<Candidate>,
+    ) -> Option<Candidate> {
         if self.method.step_impulses().is_some() {
             return None;
         }
@@ -480,7 +488,13 @@ impl<'a> Driver<'a> {
             &mut context,
             self.method.as_ref(),
             (tau, step),
-            |level, theta| mute[level].hides(theta * step, at_once[level]),
+            |Candidate { level, kind, theta }| {
+                let is_muted = match kind {
+                    EventKind::Branch(_) => false,
+                    _ => mute[level].hides(theta * step, at_once[level]),
+                };
+                is_muted || known.is_some_and(|known| known.level == level && known.kind == kind)
+            },
         )
     }
 

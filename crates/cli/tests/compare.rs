@@ -154,9 +154,9 @@ fn answer(command: &str, case: &Path, more: &[&str]) -> Value {
     serde_json::from_slice(&output.stdout).unwrap_or_else(|_| panic!("{}", text(&output.stderr)))
 }
 
-/// One model of two overturns the building: the conclusions say so, and are those of the other.
-#[test]
-fn a_model_that_brings_a_building_to_collapse_is_named() {
+/// The example with storeys that yield under gravity, so that a strong motion overturns the light
+/// building, with more of it replaced.
+fn example_that_collapses(from: &str, to: &str) -> (tempfile::TempDir, PathBuf) {
     let folder = tempfile::tempdir().unwrap();
     let example = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
     let law = "height = \"3 m\"\np_delta = true\nlaw = { model = \"elastic_perfectly_plastic\", yield_force = \"110 kN\" }";
@@ -166,9 +166,78 @@ fn a_model_that_brings_a_building_to_collapse_is_named() {
         .replacen("height = \"3 m\"", law, 1)
         .replace("damping_ratio = 0.35", "restitution = 0.65")
         .replace("../../ground_motions", &records)
-        .replace("[ground_motion]", "[ground_motion]\nscale = 1.25");
+        .replace(from, to);
     let file = folder.path().join("case.toml");
     std::fs::write(&file, case).unwrap();
+    (folder, file)
+}
+
+/// One of two records overturns a building without contact, whatever the model: the other one is compared
+/// as by itself.
+#[test]
+fn a_record_that_overturns_a_building_is_left_out() {
+    let (folder, file) = example_that_collapses("", "");
+    let motions = root().join("ground_motions");
+    let motion = |name: &str| motions.join(name).display().to_string();
+    let (standing, falling) = (
+        motion("el_centro_1940_ns.csv"),
+        motion("kobe_1995_jma_ns.csv"),
+    );
+    let models = "jankowski_2005,hertz_1882";
+    let alone = answer(
+        "compare",
+        &file,
+        &["--models", models, "--records", &standing],
+    );
+    let page = folder.path().join("page.html").display().to_string();
+    let both = ["--models", models, "--records", &falling, &standing];
+    let found = answer(
+        "compare",
+        &file,
+        &[&both[..], &["--report", &page]].concat(),
+    );
+    assert_eq!(found["records"], serde_json::json!(["el_centro_1940_ns"]));
+    let collapsed = &found["collapsed"];
+    assert_eq!(collapsed.as_array().map(Vec::len), Some(1));
+    assert_eq!(collapsed[0]["name"], "kobe_1995_jma_ns");
+    assert_eq!(collapsed[0]["building"], "light");
+    for key in [
+        "references",
+        "models",
+        "quantities",
+        "gaps",
+        "conclusions",
+        "differences_from_gap",
+    ] {
+        assert_eq!(found[key], alone[key], "{key}");
+    }
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(
+        page.contains("<strong>light collapses without contact</strong> under kobe_1995_jma_ns")
+    );
+    let call = |records: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .arg("compare")
+            .arg(&file)
+            .args(records)
+            .output();
+        output.unwrap()
+    };
+    let shown = text(&call(&both).stdout);
+    assert!(
+        shown.contains("Collapse without contact under 1 of 2 records, whatever the model;"),
+        "{shown}"
+    );
+    // Under it alone there is nothing to compare.
+    let output = call(&both[..4]);
+    assert_eq!(output.status.code(), Some(3), "{}", text(&output.stdout));
+    assert!(text(&output.stderr).contains("light collapsed at t = "));
+}
+
+/// One model of two overturns the building: the conclusions say so, and are those of the other.
+#[test]
+fn a_model_that_brings_a_building_to_collapse_is_named() {
+    let (folder, file) = example_that_collapses("[ground_motion]", "[ground_motion]\nscale = 1.25");
     let page = folder.path().join("page.html");
     let models = ["--models", "jankowski_2005,gharib_hurmuzlu_2012,hertz_1882"];
     let output = Command::new(env!("CARGO_BIN_EXE_pounding"))

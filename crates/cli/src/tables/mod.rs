@@ -1,5 +1,6 @@
 //! Tables that an engineer can read.
 
+mod collapsed;
 mod elements;
 mod foundation;
 mod isolators;
@@ -13,6 +14,7 @@ use pounding_catalogue::wording::counted;
 use pounding_gap_element::Verification;
 use pounding_time_history::{ContactLevel, LevelOutcome, NamedPeak, Outcome, Peak, System};
 
+pub use collapsed::collapsed;
 use elements::kilojoules;
 pub use width::{Table, paragraphs};
 

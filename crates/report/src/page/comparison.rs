@@ -5,7 +5,7 @@ use serde_json::Value;
 
 use super::answer::{Answer, in_parentheses, spoken, unit_of};
 use super::html::{escaped, note, section, sentences, warnings};
-use super::studies::{Inputs, Picture, pictures, rows};
+use super::studies::{Inputs, Picture, collapsed, pictures, rows};
 use super::table::Column;
 
 /// Quantities side by side in a table of values.
@@ -56,7 +56,10 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         .filter(|c| c["holds"].as_str() == Some("depends on the model"))
         .filter_map(|c| c["statement"].as_str())
         .collect();
-    let mut points = Vec::new();
+    let mut points = collapsed(
+        answer,
+        "That does not depend on the model: all else here is of the other records.",
+    );
     if !fallen.is_empty() {
         points.push(format!(
             "<strong>Pounding brings a building to collapse with {}</strong>: {} of {}. What follows counts the \

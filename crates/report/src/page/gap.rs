@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::answer::Answer;
 use super::html::{JUMPS, escaped, note, section, sentences, warnings};
-use super::studies::{Inputs, Picture, pictures, rows};
+use super::studies::{Inputs, Picture, collapsed, pictures, rows};
 use super::table::Column;
 
 /// Name of the picture of the widths that were tried; all others are of the records.
@@ -18,7 +18,11 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
     let answer = Answer(answer);
     let gaps = answer.list("/gaps").len();
     let mut points: Vec<String> = (0..gaps).flat_map(|g| verdict(answer, g)).collect();
-    points.extend(collapsed(answer));
+    points.extend(collapsed(
+        answer,
+        "No gap is wide enough for that: the record counts as one that brings the buildings into contact, and all \
+         else here is of the other records.",
+    ));
     points.extend(failures(answer));
     let warned: Vec<String> = answer
         .list("/warnings")
@@ -273,21 +277,6 @@ fn taken(answer: Answer<'_>, of: &str) -> String {
     let others = answer.list(&format!("{of}/others")).len();
     parts.extend((0..others).map(|i| answer.quote(&format!("{of}/others/{i}"))));
     parts.join("; ")
-}
-
-/// The records under which a building collapses without contact.
-fn collapsed(answer: Answer<'_>) -> Vec<String> {
-    let records = answer.list("/collapsed").iter().map(|record| {
-        let text = |key: &str| escaped(record[key].as_str().unwrap_or_default());
-        format!(
-            "<strong>{} collapses without contact</strong> under {}: {}. No gap is wide enough for that: the record \
-             counts as one that brings the buildings into contact, and all else here is of the other records.",
-            text("building"),
-            text("name"),
-            text("diagnosis"),
-        )
-    });
-    records.collect()
 }
 
 fn failures(answer: Answer<'_>) -> Vec<String> {

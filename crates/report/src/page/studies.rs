@@ -2,8 +2,9 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::answer::Answer;
 use super::document::{Document, listing};
-use super::html::{figure, section};
+use super::html::{escaped, figure, section};
 use super::table::facts;
 use crate::chart::{Chart, Plot};
 
@@ -117,4 +118,18 @@ pub(super) fn rows<'h>(heads: impl IntoIterator<Item = &'h str>) -> Vec<(String,
     heads
         .map(|(i, head)| (i.to_string(), head.to_owned()))
         .collect()
+}
+
+/// The records under which a building collapses without contact, each with what follows from it.
+pub(super) fn collapsed(answer: Answer<'_>, consequence: &str) -> Vec<String> {
+    let records = answer.list("/collapsed").iter().map(|record| {
+        let text = |key: &str| escaped(record[key].as_str().unwrap_or_default());
+        format!(
+            "<strong>{} collapses without contact</strong> under {}: {}. {consequence}",
+            text("building"),
+            text("name"),
+            text("diagnosis"),
+        )
+    });
+    records.collect()
 }

@@ -22,9 +22,9 @@ use pounding_time_history::{BuildingOutcome, Peak, StoreyPeaks, System, run};
 use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
-    Amplification, CaseUnderRecord, CheckError, GapLevel, Progress, RecordDemand, Repeated,
-    amplification, beside_that_across, collapsed_building, demands, in_parallel, levels, rebuilt,
-    step_warnings,
+    Amplification, CaseUnderRecord, CheckError, CollapsedRecord, GapLevel, Progress, RecordDemand,
+    Repeated, amplification, beside_that_across, collapsed_building, in_parallel, levels, rebuilt,
+    stand_or_collapse, step_warnings, without_collapsed,
 };
 
 /// What is asked for.
@@ -137,8 +137,11 @@ pub struct Comparison {
     pub options: ComparisonOptions,
     /// The collision that models are calibrated in, for each gap.
     pub references: Vec<ReferenceCollision>,
-    /// Names of the records.
+    /// Names of the records under which all buildings stand without contact.
     pub records: Vec<String>,
+    /// Records under which a building collapses without contact: no model has anything to change
+    /// there, and they are left out of all else.
+    pub collapsed: Vec<CollapsedRecord>,
     /// What a gap check finds under each record, with the gaps' own laws.
     pub own: Vec<RecordDemand>,
     /// Contact levels of each gap.
@@ -171,7 +174,8 @@ pub struct Comparison {
 ///
 /// # Errors
 /// A case without gaps, unknown models, a gap whose own law gives nothing to calibrate
-/// to, or own runs that fail. Models that fail are kept with their diagnosis.
+/// to, own runs that fail, or buildings that collapse without contact under every record. Models
+/// that fail are kept with their diagnosis.
 pub fn compare(
     case: &Case,
     records: &[CaseUnderRecord],
@@ -199,7 +203,10 @@ pub fn compare_dealt(
     let descriptors = descriptors(&options.models)?;
     let total = records.len() + descriptors.len() * records.len();
     let tell = |done, _| progress(done, total);
-    let own = demands(records, options.threads, &tell)?;
+    let (own, collapsed) = stand_or_collapse(records, options.threads, &tell)?;
+    let (asked_for, records) = (records, &*without_collapsed(records, &collapsed));
+    let looked_at = asked_for.len();
+    let total = looked_at + descriptors.len() * records.len();
     let wanted = (options.restitution, options.approach_velocity);
     let references = references(case, &records[0].assembly.system, &own, wanted)?;
     let rules = (options.stiffness_rule, options.restitution_rule);
@@ -215,14 +222,14 @@ pub fn compare_dealt(
             }
         });
     let quantities = quantities::of_system(system);
-    let tell = |done, _| progress(records.len() + done, total);
+    let tell = |done, _| progress(looked_at + done, total);
     let count = models.len() * records.len();
     let asked = ComparisonOptions {
         // Nothing depends on it.
         threads: 0,
         ..options.clone()
     };
-    let identity = || identity("compare", &asked, case, records);
+    let identity = || identity("compare", &asked, case, asked_for);
     let runs = deal.runs(identity, count, (options.threads, &tell), |number| {
         let model = &models[number / records.len()];
         let record = number % records.len();
@@ -246,6 +253,7 @@ pub fn compare_dealt(
         options: options.clone(),
         references,
         records: records.iter().map(|r| r.name.clone()).collect(),
+        collapsed,
         isolated: isolated.collect(),
         own,
         levels: gaps.map(|gap| levels(system, gap)).collect(),

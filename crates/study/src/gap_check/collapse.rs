@@ -1,16 +1,22 @@
 //! Runs that ended as gravity overturned a building: an answer, and no failure.
 
+use std::borrow::Cow;
+
 use pounding_assembly::AssemblyError;
 use pounding_time_history::TimeHistoryError;
+use serde::Serialize;
 
+use super::demand::{RecordDemand, by_record};
 use super::error::CheckError;
+use super::parallel::Progress;
 use super::records::CaseUnderRecord;
 
 /// A record under which a building collapses without contact: it has no demand, and no gap is wide
 /// enough for it.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct CollapsedRecord {
     /// Number of the record among those that were given, from zero.
+    #[serde(skip)]
     pub number: usize,
     /// Name.
     pub name: String,
@@ -50,6 +56,55 @@ impl CollapsedRecord {
             diagnosis: collapse.to_string(),
         })
     }
+}
+
+/// The records that have a demand, and those under which a building collapses without contact.
+///
+/// # Errors
+/// As [`super::demands`], and where no record has a demand.
+pub(crate) fn stand_or_collapse(
+    records: &[CaseUnderRecord],
+    threads: usize,
+    progress: Progress<'_>,
+) -> Result<(Vec<RecordDemand>, Vec<CollapsedRecord>), CheckError> {
+    let (mut standing, mut collapsed, mut first) = (Vec::new(), Vec::new(), None);
+    let results = by_record(records, threads, progress);
+    for (record, result) in records.iter().enumerate().zip(results) {
+        match result {
+            Ok(demand) => standing.push(demand),
+            Err(error) => {
+                let Some(found) = CollapsedRecord::of(record, &error) else {
+                    return Err(error);
+                };
+                collapsed.push(found);
+                first = first.or(Some(error));
+            }
+        }
+    }
+    match first {
+        Some(CheckError::Record { record, source }) if standing.is_empty() && records.len() > 1 => {
+            Err(CheckError::AllCollapse {
+                records: records.len(),
+                record,
+                source,
+            })
+        }
+        Some(error) if standing.is_empty() => Err(error),
+        _ => Ok((standing, collapsed)),
+    }
+}
+
+/// The records that have a demand.
+pub(crate) fn without_collapsed<'r>(
+    records: &'r [CaseUnderRecord],
+    collapsed: &[CollapsedRecord],
+) -> Cow<'r, [CaseUnderRecord]> {
+    if collapsed.is_empty() {
+        return Cow::Borrowed(records);
+    }
+    let stands = |number: &usize| !collapsed.iter().any(|c| c.number == *number);
+    let standing = (0..records.len()).filter(stands);
+    standing.map(|number| records[number].clone()).collect()
 }
 
 /// What stands between the building and the time in the message of a collapse.

@@ -19,6 +19,7 @@ mod systems;
 pub use code_answer::{CodeAnswer, LevelAnswer, OwnershipAnswer};
 pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words, wrong_rules};
 pub use collapse::{CollapsedRecord, collapsed_building};
+pub(crate) use collapse::{stand_or_collapse, without_collapsed};
 pub use demand::{
     Amplification, AmplifiedQuantity, GapLevel, RecordDemand, amplification, demands,
 };
@@ -40,8 +41,6 @@ pub(crate) use parallel::in_parallel;
 pub(crate) use records::across_of_another;
 pub(crate) use records::{beside_that_across, step_warnings};
 pub use systems::rebuilt;
-
-use std::borrow::Cow;
 
 use pounding_case::{Case, Separation};
 use pounding_time_history::NamedPeak;
@@ -308,14 +307,7 @@ pub fn gap_check_dealt(
     let tell = |done, _| progress(done, total);
     let (demands, collapsed) = stand_or_collapse(records, options.threads, &tell)?;
     // Under the others nothing is known that runs of the sweep could be compared with.
-    let standing: Cow<'_, [CaseUnderRecord]> = match collapsed.is_empty() {
-        true => Cow::Borrowed(records),
-        false => {
-            let stands = |number: &usize| !collapsed.iter().any(|c| c.number == *number);
-            let standing = (0..records.len()).filter(stands);
-            standing.map(|number| records[number].clone()).collect()
-        }
-    };
+    let standing = without_collapsed(records, &collapsed);
     let total = records.len() + runs(standing.len());
     let repeated = Repeated::among(records);
     let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
@@ -366,42 +358,6 @@ pub fn gap_check_dealt(
             .collect(),
         repeated,
     })
-}
-
-/// The records that have a demand, and those under which a building collapses without contact.
-///
-/// # Errors
-/// As [`demands`], and where no record has a demand.
-fn stand_or_collapse(
-    records: &[CaseUnderRecord],
-    threads: usize,
-    progress: Progress<'_>,
-) -> Result<(Vec<RecordDemand>, Vec<CollapsedRecord>), CheckError> {
-    let (mut standing, mut collapsed, mut first) = (Vec::new(), Vec::new(), None);
-    let results = demand::by_record(records, threads, progress);
-    for (record, result) in records.iter().enumerate().zip(results) {
-        match result {
-            Ok(demand) => standing.push(demand),
-            Err(error) => {
-                let Some(found) = CollapsedRecord::of(record, &error) else {
-                    return Err(error);
-                };
-                collapsed.push(found);
-                first = first.or(Some(error));
-            }
-        }
-    }
-    match first {
-        Some(CheckError::Record { record, source }) if standing.is_empty() && records.len() > 1 => {
-            Err(CheckError::AllCollapse {
-                records: records.len(),
-                record,
-                source,
-            })
-        }
-        Some(error) if standing.is_empty() => Err(error),
-        _ => Ok((standing, collapsed)),
-    }
 }
 
 fn check_options(options: &GapCheckOptions) -> Result<(), CheckError> {

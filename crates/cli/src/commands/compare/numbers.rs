@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use pounding_study::comparison::{
     self, Comparison, LevelDifference, QuantityKind, ReferenceCollision, StoreyDifference,
 };
-use pounding_study::gap_check::collapsed_building;
+use pounding_study::gap_check::{CollapsedRecord, collapsed_building};
 use pounding_time_history::LevelPlace;
 use serde::Serialize;
 
@@ -15,7 +15,10 @@ pub struct Compared<'c> {
     stiffness_rule: &'static str,
     restitution_rule: &'static str,
     references: Vec<Reference>,
+    /// Without those under which a building collapses.
     records: &'c [String],
+    /// Records under which a building collapses without contact.
+    collapsed: &'c [CollapsedRecord],
     warnings: &'c [String],
     models: Vec<Model<'c>>,
     quantities: Vec<Quantity<'c>>,
@@ -34,6 +37,7 @@ impl<'c> Compared<'c> {
             restitution_rule: c.options.restitution_rule.name(),
             references: c.references.iter().map(Reference::of).collect(),
             records: &c.records,
+            collapsed: &c.collapsed,
             warnings: &c.warnings,
             models: c.models.iter().map(|m| Model::of(c, m)).collect(),
             quantities: (0..c.quantities.len())

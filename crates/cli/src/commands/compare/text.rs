@@ -6,7 +6,7 @@ use pounding_catalogue::wording::{agreeing, counted};
 use pounding_gap_element::Verification;
 use pounding_study::comparison::{Comparison, Holds, Judgement, Quantity, QuantityKind};
 
-use crate::tables::{G, new_table, warning_lines};
+use crate::tables::{G, collapsed, new_table, warning_lines};
 
 /// More records than this have no tables of their own.
 const LISTED: usize = 6;
@@ -56,6 +56,10 @@ pub fn report(case: &Case, c: &Comparison) -> String {
         text.push_str(&format!("{}\n", case.title));
     }
     text.push_str(&warning_lines(&c.warnings));
+    text.push_str(&collapsed(
+        (&c.collapsed, c.records.len()),
+        ", whatever the model; values and conclusions",
+    ));
     text.push_str(&calibration(c));
     if c.records.len() <= LISTED {
         for record in 0..c.records.len() {

@@ -28,7 +28,7 @@ pub struct Check<'c> {
     distinct_records: usize,
     records: Vec<Record<'c>>,
     /// Records under which a building collapses without contact; `records` is without them.
-    collapsed: Vec<Collapsed<'c>>,
+    collapsed: &'c [gap_check::CollapsedRecord],
     spectra: Spectra<'c>,
     gaps: Vec<Gap<'c>>,
     sweep: Option<Sweep<'c>>,
@@ -53,7 +53,7 @@ impl<'c> Check<'c> {
             warnings: &check.warnings,
             distinct_records: check.repeated.distinct,
             records: check.records.iter().map(Record::of).collect(),
-            collapsed: check.collapsed.iter().map(Collapsed::of).collect(),
+            collapsed: &check.collapsed,
             spectra: Spectra::of(&check.spectra),
             gaps: (0..check.gaps.len()).map(|i| Gap::of(check, i)).collect(),
             sweep: check.sweep.as_ref().map(Sweep::of),
@@ -213,30 +213,6 @@ impl<'c> Record<'c> {
             impacts,
             failure,
             collapsed: failure.and_then(gap_check::collapsed_building),
-        }
-    }
-}
-
-/// A record under which a building collapses without contact.
-#[derive(Serialize)]
-struct Collapsed<'c> {
-    name: &'c str,
-    factor: f64,
-    peak_ground_acceleration: f64,
-    building: &'c str,
-    time: f64,
-    diagnosis: &'c str,
-}
-
-impl<'c> Collapsed<'c> {
-    fn of(record: &'c gap_check::CollapsedRecord) -> Self {
-        Self {
-            name: &record.name,
-            factor: record.factor,
-            peak_ground_acceleration: record.peak_ground_acceleration,
-            building: &record.building,
-            time: record.time,
-            diagnosis: &record.diagnosis,
         }
     }
 }

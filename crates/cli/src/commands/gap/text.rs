@@ -10,12 +10,10 @@ use pounding_study::gap_check::{
 use super::answer::answer;
 use super::rules;
 use super::suite::{suite, target};
-use crate::tables::{against_capacity, decimal, new_table, warning_lines};
+use crate::tables::{against_capacity, collapsed, decimal, new_table, warning_lines};
 
 /// More records than this are summed up instead of listed.
 const LISTED: usize = 6;
-/// Records under which buildings collapse that are named.
-const NAMED_COLLAPSES: usize = 20;
 /// Rows of the printed sweep; every width is in the CSV file.
 const ROWS: usize = 16;
 
@@ -33,7 +31,10 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     text.push_str(&foundations(case, check));
     text.push_str(&target(check));
     text.push_str(&warning_lines(&check.warnings));
-    text.push_str(&collapsed(check));
+    text.push_str(&collapsed(
+        (&check.collapsed, check.records.len()),
+        ", which no gap is wide enough for; demands, widths by rule and ratios",
+    ));
     for gap in &check.gaps {
         text.push_str(&answer(check, gap));
     }
@@ -57,29 +58,6 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     text.push_str(&provided(check));
     if let Some(sweep) = &check.sweep {
         text.push_str(&swept(check, sweep));
-    }
-    text
-}
-
-/// The records under which a building collapses without contact, with what that makes of them.
-fn collapsed(check: &GapCheck) -> String {
-    let (fallen, standing) = (check.collapsed.len(), check.records.len());
-    if fallen == 0 {
-        return String::new();
-    }
-    let mut text = format!(
-        "\nCollapse without contact under {fallen} of {}, which no gap is wide enough for; demands, widths by rule and ratios are of the {} under which all buildings stand\n",
-        counted(fallen + standing, "record"),
-        match standing {
-            1 => "one".to_owned(),
-            some => some.to_string(),
-        }
-    );
-    for record in check.collapsed.iter().take(NAMED_COLLAPSES) {
-        text.push_str(&format!("  {}: {}\n", record.name, record.diagnosis));
-    }
-    if fallen > NAMED_COLLAPSES {
-        text.push_str("  ... --json names all of them\n");
     }
     text
 }

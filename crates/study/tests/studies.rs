@@ -82,12 +82,15 @@ values = [0.5, 1.25]
 name = "method"
 path = "analysis.method"
 values = ["event_driven", "adaptive"]
+[[variable]]
+path = "building.light.p_delta"
+values = [false, true]
 "#,
     )
     .unwrap();
-    assert_eq!(study.runs(), 32);
+    assert_eq!(study.runs(), 64);
     let rows = rows(&study, folder.path());
-    assert_eq!(rows.len(), 32);
+    assert_eq!(rows.len(), 64);
     let mut touched = 0;
     for (row, point) in &rows {
         assert_eq!(
@@ -126,11 +129,11 @@ values = ["event_driven", "adaptive"]
         );
         touched += usize::from(!alone.impacts.is_empty());
     }
-    assert!((20..=32).contains(&touched), "{touched}");
+    assert!((40..=64).contains(&touched), "{touched}");
     let mut ids: Vec<_> = rows.iter().map(|(r, _)| r.id).collect();
     ids.sort_unstable();
     ids.dedup();
-    assert_eq!(ids.len(), 32, "every run has its own identity");
+    assert_eq!(ids.len(), 64, "every run has its own identity");
 }
 
 /// A run is the same run in any study: its identity depends on values and bytes only.

@@ -172,12 +172,17 @@ impl<'r> Value<'r> {
         visitor: &dyn Expected,
         text: &'r mut String,
     ) -> Result<Asked<'r>, Error> {
+        if name == ask::SCALAR
+            && let Some(flag) = self.given()?.get_ref().as_bool()
+        {
+            return Ok(Asked::Flag(flag));
+        }
         Ok(match name {
             ask::ONE_OR_EACH => match self.given()?.get_ref() {
                 DeValue::Array(_) => Asked::Parts(self.entries()?),
                 _ => Asked::Value(self),
             },
-            ask::WRITTEN => match self.written(visitor)? {
+            ask::WRITTEN | ask::SCALAR => match self.written(visitor)? {
                 Cow::Borrowed(text) => Asked::Text(text),
                 Cow::Owned(digits) => {
                     *text = digits;
@@ -493,6 +498,7 @@ impl<'de> Deserializer<'de> for Value<'_> {
         match self.asked(name, &visitor, &mut String::new())? {
             Asked::Value(value) => visitor.visit_newtype_struct(value),
             Asked::Text(text) => visitor.visit_str(text),
+            Asked::Flag(flag) => visitor.visit_bool(flag),
             Asked::Parts(parts) => visitor.visit_seq(parts),
         }
     }
@@ -593,6 +599,7 @@ impl<'de> Deserializer<'de> for Value<'_> {
 enum Asked<'r> {
     Value(Value<'r>),
     Text(&'r str),
+    Flag(bool),
     Parts(Parts<'r>),
 }
 

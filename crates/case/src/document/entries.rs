@@ -22,6 +22,7 @@ pub(super) mod ask {
     pub(in crate::document) const ONE_OR_EACH: &str = "$one_or_each";
     pub(in crate::document) const TABLE_OR: &str = "$table_or";
     pub(in crate::document) const WRITTEN: &str = "$written";
+    pub(in crate::document) const SCALAR: &str = "$scalar";
 }
 
 /// A key that must be given. What is wrong in its value was recorded.

@@ -189,7 +189,7 @@ impl<'de> Deserialize<'de> for Scalar {
         impl<'de> Visitor<'de> for Given {
             type Value = Scalar;
             fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str("a number or a text")
+                f.write_str("a number, a text, or true or false")
             }
             fn visit_bool<E>(self, flag: bool) -> Result<Scalar, E> {
                 Ok(Scalar::Flag(flag))
@@ -204,7 +204,7 @@ impl<'de> Deserialize<'de> for Scalar {
                 Text.visit_newtype_struct(digits).map(Scalar::Written)
             }
         }
-        deserializer.deserialize_newtype_struct(ask::WRITTEN, Given)
+        deserializer.deserialize_newtype_struct(ask::SCALAR, Given)
     }
 }
 
@@ -387,7 +387,17 @@ macro_rules! written {
     )*};
 }
 
-written!(Written, Quantity, Scalar);
+written!(Written, Quantity);
+
+impl JsonSchema for Scalar {
+    fn schema_name() -> Cow<'static, str> {
+        "scalar".into()
+    }
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({"type": ["number", "string", "boolean"]})
+    }
+}
+
 
 impl<D, R: Within> JsonSchema for Amount<D, R> {
     fn schema_name() -> Cow<'static, str> {

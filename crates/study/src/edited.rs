@@ -1,6 +1,6 @@
 //! A case with some of its entries replaced, as a text that `pounding run` takes.
 
-use crate::case_text::{Edit, Path, apply, entry, with_model, with_motion};
+use crate::case_text::{Edit, KEPT, Path, apply, entry, with_model, with_motion};
 
 /// What is changed in a case; values are TOML.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -19,8 +19,8 @@ pub enum Change {
         /// `model` and its parameters.
         keys: Vec<(String, String)>,
     },
-    /// The record with all that says how it is read; its scale stays, and so does the record
-    /// across the row.
+    /// The record with all that says how it is read; its scale and how it is processed stay, and so
+    /// does the record across the row.
     Record {
         /// `file`, and how it is read where its own header does not say it.
         keys: Vec<(String, String)>,
@@ -60,7 +60,10 @@ fn one(text: &str, change: &Change) -> Result<String, (String, String)> {
             vec![Edit::new(&entry(text, &path(place)?)?, value.clone())]
         }
         Change::Model { gap, keys } => with_model(text, &path(gap)?, keys.clone())?,
-        Change::Record { keys } => with_motion(text, &["scale", "across"], keys.clone())?,
+        Change::Record { keys } => {
+            let [first, second] = KEPT;
+            with_motion(text, &["scale", first, second], keys.clone())?
+        }
     };
     Ok(apply(text, &edits))
 }
@@ -98,8 +101,10 @@ mod tests {
             text,
             "[[gap]]\nmodel = \"linear_elastic\"\nstiffness = 2e8\nwidth = \"118 mm\" # as built\n\n\n\n[ground_motion]\nfile = \"b.csv\"\n\n\nscale = 2\n"
         );
-        // The record across the row stays, wherever it stands.
+        // What acts on every record stays, wherever it stands.
         for across in [
+            "process = [{ filter = { high_pass = 0.1 } }]\n",
+            "\n[[ground_motion.process]]\nresample = 0.01\n",
             "across = { file = \"ew.csv\", scale = 2 }\n",
             "\n[ground_motion.across]\nfile = \"ew.csv\"\nscale = 2\n",
         ] {

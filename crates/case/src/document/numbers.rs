@@ -398,7 +398,6 @@ impl JsonSchema for Scalar {
     }
 }
 
-
 impl<D, R: Within> JsonSchema for Amount<D, R> {
     fn schema_name() -> Cow<'static, str> {
         Written::schema_name()

@@ -6,6 +6,7 @@ use pounding_case::Case;
 use pounding_explorer_page::{ExplorerPageError, Inputs, page};
 use pounding_files::FileUse;
 use pounding_ground_motion::read_all_bytes;
+use pounding_study::gap_check::distinct;
 
 use crate::arguments::ExploreArguments;
 use crate::asked_separation::{Asked, overridden};
@@ -47,7 +48,16 @@ pub fn explore(arguments: &ExploreArguments, mut files: FileUse) -> Result<(), F
     for record in &records {
         let bytes = bytes_of(record)?;
         read_all_bytes(&record.display().to_string(), &bytes, &Default::default())?;
-        held.push((name_of(record), bytes));
+        let name = name_of(record);
+        if held
+            .iter()
+            .any(|(known, of)| (known, of) == (&name, &bytes))
+        {
+            continue;
+        }
+        let (stem, ending) = name.split_at(name.rfind('.').unwrap_or(name.len()));
+        let is_held = |name: &str| held.iter().any(|(known, _)| known == name);
+        held.push((distinct(stem, ending, is_held), bytes));
     }
     let name = name_of(path);
     let documentation = arguments.documentation.as_deref();

@@ -44,3 +44,15 @@ fn a_hazard_curve_that_begins_late_is_told() {
     let page = String::from_utf8(bench.bytes("page.html")).unwrap();
     assert!(page.contains(said));
 }
+
+/// An intensity that stands twice would count each record twice.
+#[test]
+fn an_intensity_stands_once() {
+    let hazard = "[[\"0.02 g\", 0.5], [\"0.2 g\", 5e-3], [\"9 g\", 2e-6]]";
+    let bench = Bench::new(&study("\"0.1 g\", \"3 g\", 0.980665", hazard));
+    let said = bench.complaint("ida study.toml -o out.h5", 2);
+    assert!(
+        said.contains("the intensity 0.980665 m s-2 stands twice"),
+        "{said}"
+    );
+}

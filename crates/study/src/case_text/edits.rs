@@ -280,6 +280,9 @@ pub(crate) fn root_key(source: &str, keys: &[&str], others: &[&str]) -> Option<R
     found.next().map(|(key, _)| key.span())
 }
 
+/// Keys of the motion that act on every record without one of its own.
+pub(crate) const KEPT: [&str; 2] = ["process", "across"];
+
 /// A case without all that says which record to read and how, but for some keys, and with these
 /// keys, as TOML, instead.
 pub(crate) fn with_motion(

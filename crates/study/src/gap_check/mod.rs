@@ -25,7 +25,9 @@ pub use demand::{
 };
 pub use error::CheckError;
 pub use parallel::Progress;
-pub use records::{CaseUnderRecord, RecordFiles, SkippedFile, record_files, under_records};
+pub use records::{
+    CaseUnderRecord, RecordFiles, SkippedFile, distinct, record_files, under_records,
+};
 pub use repeated::Repeated;
 pub use required::{LognormalFit, RequiredGap};
 pub use spectra::{SuiteSpectra, SuiteTarget};

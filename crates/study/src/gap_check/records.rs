@@ -225,16 +225,21 @@ fn given_once(files: &[PathBuf]) -> Result<(), CheckError> {
 fn distinct_names(files: &[PathBuf]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for file in files {
-        let name = name_of(file);
-        let mut distinct = name.clone();
-        let mut number = 2;
-        while names.contains(&distinct) {
-            distinct = format!("{name} ({number})");
-            number += 1;
-        }
-        names.push(distinct);
+        let name = distinct(&name_of(file), "", |name| names.iter().any(|n| n == name));
+        names.push(name);
     }
     names
+}
+
+/// A name with an ending, with a number between them where one is known: `x (2).csv`.
+pub fn distinct(name: &str, ending: &str, is_known: impl Fn(&str) -> bool) -> String {
+    let mut distinct = format!("{name}{ending}");
+    let mut number = 2;
+    while is_known(&distinct) {
+        distinct = format!("{name} ({number}){ending}");
+        number += 1;
+    }
+    distinct
 }
 
 fn name_of(file: &Path) -> String {

@@ -65,8 +65,8 @@ pub struct MinimumGap {
     /// Width (m); `None` if the intensities of the analysis do not reach far enough to tell,
     /// or no width does because the isolated buildings collapse.
     pub width: Option<f64>,
-    /// Frequency of pounding at this width (1/year); without a width the least that the
-    /// analysis can show.
+    /// Frequency of pounding at this width (1/year); without a width that of a gap as wide as the
+    /// maximum demand.
     pub frequency: f64,
     /// What the intensities leave open: then the width is an upper bound.
     pub open: Option<OpenGap>,
@@ -78,7 +78,8 @@ pub struct MinimumGap {
 /// passes the target.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct OpenGap {
-    /// Width (m) that is too narrow whatever the missing runs would say; zero if none is.
+    /// Below this width (m) every gap is too narrow whatever the missing runs would say; zero if none
+    /// is.
     pub wider_than: f64,
     /// Highest intensity at which no run closes a gap a little narrower; `None`: there is none.
     pub from: Option<ShownIntensity>,
@@ -214,6 +215,8 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
         .collect();
     let mut intensities = intensities(study, settings);
     intensities.sort_by(f64::total_cmp);
+    // In a list several records have the same.
+    intensities.dedup();
     let (mut runs, undefined) = runs(result, settings, &needs, &intensities)?;
     if let Some((limit, _)) = limits
         .iter()
@@ -526,8 +529,10 @@ impl Evaluation<'_> {
             };
             if least_frequency(&fit, hazard) <= target {
                 best.open = Some(self.open(&fit, hazard, target, || {
-                    let too_narrow = |w: &&f64| least_frequency(&fitted(**w), hazard) > target;
-                    demands[i..].iter().find(too_narrow).copied()
+                    // Up to the next demand no run tells gaps apart.
+                    let too_narrow = |w: &f64| least_frequency(&fitted(*w), hazard) > target;
+                    let narrow = demands[i..].iter().position(too_narrow)?;
+                    (i + narrow).checked_sub(1).map(|next| demands[next])
                 }));
             }
             break;
@@ -567,7 +572,21 @@ mod tests {
     /// Records whose demand grows in proportion to the intensity, at quantiles of a lognormal
     /// distribution, and the least gap by these intensities (g).
     fn least_gap(intensities: &[f64]) -> MinimumGap {
-        let points = [0.02, 0.5, 10.0].map(|x| (x * STANDARD_GRAVITY, 2e-4 / f64::powi(x, 2)));
+        let quantile = pounding_ground_motion::distributions::normal_quantile;
+        let per_g =
+            (0..30).map(|record| 0.2 * (0.4 * quantile((f64::from(record) + 0.5) / 30.0)).exp());
+        let demands: Vec<f64> = per_g.collect();
+        least_gap_of(&demands, intensities, (2e-4, 2e-3))
+    }
+
+    /// The same of records with these demands (m) at 1 g, for a hazard of this frequency there, and a
+    /// target.
+    fn least_gap_of(
+        per_g: &[f64],
+        intensities: &[f64],
+        (at_1_g, target): (f64, f64),
+    ) -> MinimumGap {
+        let points = [0.02, 0.5, 10.0].map(|x| (x * STANDARD_GRAVITY, at_1_g / f64::powi(x, 2)));
         let settings = IdaSettings {
             record: 0,
             intensity: 1,
@@ -576,14 +595,11 @@ mod tests {
             limits: Vec::new(),
             hazard: Some(HazardCurve::new(points.to_vec()).unwrap()),
             hazard_file: None,
-            target_frequency: Some(2e-3),
+            target_frequency: Some(target),
             confidence: 0.95,
         };
-        let quantile = pounding_ground_motion::distributions::normal_quantile;
-        let levels = || intensities.iter().enumerate();
-        let runs = (0..30).flat_map(|record| {
-            let per_g = 0.2 * (0.4 * quantile((record as f64 + 0.5) / 30.0)).exp();
-            levels().map(move |(level, g)| Run {
+        let runs = per_g.iter().enumerate().flat_map(|(record, per_g)| {
+            intensities.iter().enumerate().map(move |(level, g)| Run {
                 level,
                 record,
                 sample: record,
@@ -599,7 +615,17 @@ mod tests {
             intensities: &intensities,
             runs: &runs,
         };
-        evaluation.minimum(0, 2e-3).unwrap()
+        evaluation.minimum(0, target).unwrap()
+    }
+
+    /// Two records close every gap below 36.75 mm at 0.1 g, which is exceeded three times as often as the target
+    /// allows: none of them can be the least one, wherever the next narrower demand lies.
+    #[test]
+    fn gaps_below_a_demand_are_too_narrow_up_to_it() {
+        let found = least_gap_of(&[0.3675, 0.4], &[0.1, 0.3], (3e-4, 1e-2));
+        let open = found.open.unwrap();
+        assert!((open.wider_than - 0.03675).abs() < 1e-9, "{found:?}");
+        assert!(found.width.unwrap() > 0.04, "{found:?}");
     }
 
     /// The frequency of a width `w` is `k0 (w / 0.2)^-2 exp(2 beta^2)`: the target asks for

@@ -240,7 +240,9 @@ impl StudyFile {
         let ida = self.ida.stated().and_then(|ida| match ida {
             None => Some(None),
             Some(Located { value, span }) => {
-                let both = whole.and_then(|read| ida_variables(reader, span, &read.variables));
+                let is_grid = matches!(design, Some(Design::Grid { .. }));
+                let both =
+                    whole.and_then(|read| ida_variables(reader, span, &read.variables, is_grid));
                 value.read(reader, context, both, measure).map(Some)
             }
         });
@@ -539,6 +541,7 @@ fn ida_variables(
     reader: &Reader<'_>,
     place: Range<usize>,
     variables: &[Variable],
+    is_grid: bool,
 ) -> Option<(usize, usize)> {
     let at = |is: &dyn Fn(&Variable) -> bool| variables.iter().position(is);
     let record = at(&|v| matches!(v.target, Target::Record));
@@ -550,6 +553,16 @@ fn ida_variables(
                     let message = "the range of intensities has no `count`";
                     reader.refuse(place, message, "add `count = ...`")
                 }
+                _ if is_grid => match repeated_number(&variables[intensity]) {
+                    None => Some((record, intensity)),
+                    Some(repeated) => {
+                        let message = format!(
+                            "the intensity {repeated} {} stands twice, and the same runs would count as more records",
+                            variables[intensity].unit
+                        );
+                        reader.refuse(place, message, "give each intensity once")
+                    }
+                },
                 _ => Some((record, intensity)),
             }
         }
@@ -559,4 +572,15 @@ fn ida_variables(
             "give these two, or remove [ida]",
         ),
     }
+}
+
+/// A number (SI) that a variable takes more than once, but for round-off as of a unit.
+fn repeated_number(variable: &Variable) -> Option<f64> {
+    let Values::Numbers(numbers) = &variable.values else {
+        return None;
+    };
+    let mut sorted = numbers.clone();
+    sorted.sort_by(f64::total_cmp);
+    let same = |pair: &&[f64]| pair[1] - pair[0] <= 1.0e-9 * pair[1].abs();
+    sorted.windows(2).find(same).map(|pair| pair[0])
 }

@@ -23,6 +23,7 @@ use toml::de::DeValue;
 use super::context::Context;
 use super::values::{Whole, all};
 use super::{RecordKind, RecordSource, Study, Target, Variable};
+use crate::case_text::KEPT;
 use crate::case_text::{Edit, Variant, with_motion};
 use crate::gap_check::across_of_another;
 
@@ -64,9 +65,6 @@ static KEYS: LazyLock<Vec<String>> = LazyLock::new(|| {
         .map(|(key, _)| key.clone())
         .collect()
 });
-
-/// Keys of the record of the case that act on every record without one of its own.
-const KEPT: [&str; 2] = ["process", "across"];
 
 /// A file of a study, as a case in any folder names it.
 fn absolute(file: &str, folder: &Path) -> String {

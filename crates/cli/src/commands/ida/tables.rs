@@ -229,7 +229,7 @@ fn widths(
                 beside(minimum)
             ),
             None => format!(
-                "The intensities do not reach far enough{} to find the gap of {} for a mean annual frequency of {}: the least that they can show is {}\n",
+                "The intensities do not reach far enough{} to find the gap of {} for a mean annual frequency of {}: even a gap as wide as the maximum demand has {}\n",
                 if collapsed {
                     ", or the buildings collapse too often by themselves,"
                 } else {

@@ -50,14 +50,38 @@ pub fn reads_too(
     Ok(files.check()?)
 }
 
-/// Finds out before the work, not after it, that outputs have no place.
+/// Finds out before the work, not after it, that outputs have no place: tables, pages and figures.
 pub fn have_a_place<'p>(
     outputs: impl IntoIterator<Item = Option<&'p Path>>,
 ) -> Result<(), Failure> {
     for path in outputs.into_iter().flatten() {
-        PartFile::beside(path).map_err(|e| Failure::output(&e, &path.display().to_string()))?;
+        no_result_stands(path)?;
+        has_a_place(path)?;
     }
     Ok(())
+}
+
+/// Finds out before the work that an output has no place.
+pub fn has_a_place(path: &Path) -> Result<(), Failure> {
+    let part = PartFile::beside(path);
+    part.map_err(|e| Failure::output(&e, &path.display().to_string()))?;
+    Ok(())
+}
+
+/// Refuses to put a table, a page or a figure into the place of a result, which may be the work of
+/// days.
+pub fn no_result_stands(path: &Path) -> Result<(), Failure> {
+    let Some(found) = Label::of(path) else {
+        return Ok(());
+    };
+    Err(Failure::unwritten(
+        format!(
+            "{} is the result of {}: what is to be written there does not take its place",
+            path.display(),
+            found.kind
+        ),
+        Some("name another file, or move it away".to_owned()),
+    ))
 }
 
 /// What stands where a result is to be written, which takes the place of an earlier one of the same

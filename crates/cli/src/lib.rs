@@ -49,7 +49,7 @@ pub mod answers {
     pub use crate::commands::ida::numbers::Analysis;
     pub use crate::commands::models::descriptor::Described as DescribedModel;
     pub use crate::faults::of_check;
-    pub use crate::files::Replaced;
+    pub use crate::files::{Replaced, no_result_stands};
     pub use crate::separate::{Answer as AnswerOfChild, answered as answered_by_child};
     pub use crate::study::Finished;
 }

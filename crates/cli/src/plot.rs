@@ -9,10 +9,12 @@ use pounding_report::{Chart, PictureFormat, ReportError};
 
 use crate::arguments::FigureArguments;
 use crate::failure::Failure;
+use crate::files::no_result_stands;
 use crate::output::warn;
 
 /// A picture as wide as asked for, written as a file of the form that its ending says.
 pub fn write_drawn(path: &Path, picture: Chart, size: &FigureArguments) -> Result<(), Failure> {
+    no_result_stands(path)?;
     let picture = picture.of_width(size.millimetres()).svg();
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let format = PictureFormat::of_ending(&ending).unwrap_or(PictureFormat::Svg);
@@ -55,6 +57,7 @@ pub fn not_drawn(e: &impl std::error::Error) -> Failure {
 
 /// Writes a text file, whole or not at all.
 pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
+    no_result_stands(path)?;
     pounding_files::write(path, text.as_bytes())
         .map_err(|e| Failure::output(&e, &path.display().to_string()))
 }

@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use crate::arguments::{RunningArguments, ShardArguments, value};
 use crate::failure::Failure;
-use crate::files::{Replaced, ShardName, name_left_over, reads_too};
+use crate::files::{Replaced, ShardName, name_left_over, no_result_stands, reads_too};
 use crate::heartbeat::{Heartbeat, State};
 use crate::interruption;
 use crate::progress::{Progress, Unit};
@@ -90,6 +90,7 @@ pub fn options(
     };
     replaced.spared(running.resume || into.is_some())?;
     if let Some(csv) = &running.csv {
+        no_result_stands(csv)?;
         writable(csv)?;
     }
     let seconds = value(&running.store_every, "store-every", Dimension::TIME)?;

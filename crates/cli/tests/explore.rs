@@ -643,3 +643,28 @@ fn page_is_whole() {
     bench.write("case.toml", "title = 1\n");
     bench.refused("explore case.toml", &["`title` must be a text"]);
 }
+
+/// Two records of one file name are two records.
+#[test]
+fn records_of_one_name_are_kept_apart() {
+    if !has_module() {
+        return;
+    }
+    let bench = Bench::with(
+        &std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"))
+            .unwrap()
+            .replace("../../ground_motions", "MOTIONS"),
+    );
+    for (folder, name) in [("a", "el_centro_1940_ns"), ("b", "kobe_1995_jma_ns")] {
+        std::fs::create_dir(bench.folder().join(folder)).unwrap();
+        let record = root().join(format!("ground_motions/{name}.csv"));
+        std::fs::copy(record, bench.folder().join(format!("{folder}/x.csv"))).unwrap();
+    }
+    let output = bench.output("explore case.toml --records a/x.csv b/x.csv -o page.html");
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(0), "{told}");
+    let page = bench.read("page.html");
+    for name in ["\"x.csv\"", "\"x (2).csv\""] {
+        assert_eq!(page.matches(name).count(), 1, "{name}");
+    }
+}

@@ -9,7 +9,7 @@ use numpy::ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pounding_assembly::{Assembly, RecordFiles};
 use pounding_cli::Failure;
-use pounding_cli::answers::Replaced;
+use pounding_cli::answers::{Replaced, no_result_stands};
 use pounding_files::checksum::Checksum;
 use pounding_report::{RunResult, page};
 use pounding_results::{Kind, RunEnding, RunHead, check_size, image, run_in_memory, write_run};
@@ -319,6 +319,7 @@ impl Run {
     /// Writes a page to a file.
     fn write_page(&self, path: PathBuf, page: &str) -> Result<(), Problem> {
         self.case.writes("page", &path)?;
+        no_result_stands(&path)?;
         let failed = |e: std::io::Error| Failure::output(&e, &path.display().to_string()).into();
         pounding_files::write(&path, page.as_bytes()).map_err(failed)
     }

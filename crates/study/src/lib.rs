@@ -57,6 +57,7 @@ pub use dealt::Deal;
 pub use design::{Design, MOST_DIMENSIONS};
 #[cfg(feature = "results")]
 pub use error::StudyError;
+pub use fractiles::fractile;
 #[cfg(feature = "results")]
 pub use ida::*;
 #[cfg(feature = "results")]

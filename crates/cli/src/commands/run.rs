@@ -15,7 +15,7 @@ use pounding_time_history::{
 use crate::arguments::RunArguments;
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case, responses_fit};
-use crate::files::{Replaced, have_a_place, name_left_over, reads_too};
+use crate::files::{Replaced, has_a_place, have_a_place, name_left_over, reads_too};
 use crate::output::{pretty, print};
 use crate::progress::{Progress, Unit};
 use crate::{page, plot, tables};
@@ -31,12 +31,9 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     }
     reads_too(&mut files, case.files())?;
     let assembly = assembled(&case)?;
-    have_a_place([
-        output.as_deref(),
-        arguments.plot.as_deref(),
-        arguments.report.as_deref(),
-    ])?;
+    have_a_place([arguments.plot.as_deref(), arguments.report.as_deref()])?;
     if let Some(output) = &output {
+        has_a_place(output)?;
         let replaced = Replaced {
             output,
             kind: Kind::Run,

@@ -131,3 +131,36 @@ fn texts_with_a_nul_are_written() {
     let output = fixture.run(&["run", "nul.toml", "-o", "nul.h5"]);
     assert!(output.status.success(), "{}", message(&output));
 }
+
+/// No table, page or figure takes the place of a result, whose runs may be the work of days.
+#[test]
+fn no_text_takes_the_place_of_a_result() {
+    let fixture = Fixture::new();
+    let made = fixture.run(&["run", "case.toml", "-o", "kept.h5"]);
+    assert!(made.status.success(), "{}", message(&made));
+    let kept = std::fs::read(fixture.path("kept.h5")).unwrap();
+    std::fs::copy(fixture.path("kept.h5"), fixture.path("other.h5")).unwrap();
+    for command in [
+        "gap case.toml --points 0 -o kept.h5",
+        "gap case.toml --points 0 --csv kept.h5",
+        "gap case.toml --points 0 --report kept.h5",
+        "compare case.toml --models linear_elastic -o kept.h5",
+        "run case.toml -o new.h5 --report kept.h5",
+        "sweep study.toml -o new.h5 --csv kept.h5",
+        "report other.h5 -o kept.h5",
+        "explore case.toml -o kept.h5",
+        "motion info record.csv -o kept.h5",
+        "motion convert record.csv -o kept.h5",
+        "motion spectrum record.csv --csv kept.h5",
+    ] {
+        let output = fixture.run(&command.split(' ').collect::<Vec<_>>());
+        assert_ne!(output.status.code(), Some(0), "{command}");
+        let said = message(&output);
+        let is_known = said.contains("kept.h5 is the result of a run");
+        assert!(is_known, "{command}: {said}");
+        assert!(
+            std::fs::read(fixture.path("kept.h5")).unwrap() == kept,
+            "{command}"
+        );
+    }
+}

@@ -1,7 +1,7 @@
 //! The page of the result of a sweep.
 
 use pounding_catalogue::wording::counted;
-use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError};
+use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError, fractile};
 
 use super::answer::{in_parentheses, unit_of};
 use super::document::Document;
@@ -363,19 +363,10 @@ fn cells_of(values: &[f64], quantity: &Quantity) -> [String; 4] {
     };
     [
         shown(least),
-        shown(median(&known)),
+        shown(fractile(&known, 0.5)),
         shown(most),
         known.len().to_string(),
     ]
-}
-
-/// The value in the middle of sorted ones.
-fn median(sorted: &[f64]) -> f64 {
-    match sorted.len() {
-        0 => f64::NAN,
-        n if n % 2 == 1 => sorted[n / 2],
-        n => 0.5 * (sorted[n / 2 - 1] + sorted[n / 2]),
-    }
 }
 
 /// Fractiles of the greatest value of a run over each variable.
@@ -413,9 +404,8 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
                         let mut known: Vec<f64> =
                             rows.iter().map(of_row).filter(|y| !y.is_nan()).collect();
                         known.sort_by(f64::total_cmp);
-                        let place = (part * known.len().saturating_sub(1) as f64).round() as usize;
-                        let y = known.get(place).filter(|y| y.is_finite());
-                        y.map(|y| (scale * x, *y))
+                        let y = fractile(&known, part);
+                        y.is_finite().then_some((scale * x, y))
                     })
                     .collect(),
             };

@@ -100,6 +100,22 @@ fn read(
             .map_err(|e| case.error(span, e.to_string(), e.help()))?
             .first;
     }
+    processed(case, motion, record)
+}
+
+/// Does the steps that a case asks for on every record without steps of its own.
+///
+/// # Errors
+/// A target spectrum that cannot be read, or a step that the record does not allow.
+pub fn process_record(case: &Case, record: Accelerogram) -> Result<Accelerogram, AssemblyError> {
+    processed(case, &case.ground_motion, record)
+}
+
+fn processed(
+    case: &Case,
+    motion: &GroundMotion,
+    mut record: Accelerogram,
+) -> Result<Accelerogram, AssemblyError> {
     for step in &motion.process {
         let refused = |e: GroundMotionError| case.error(step.span.clone(), e.to_string(), e.help());
         let made = step.value.with_target(|band| target(case, band))?;

@@ -37,5 +37,6 @@ pub use assemble::{
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;
 pub use excitation::{
-    RecordFiles, further_record, read_record, read_target, scale_record, scale_target,
+    RecordFiles, further_record, process_record, read_record, read_target, scale_record,
+    scale_target,
 };

@@ -27,6 +27,12 @@ pub struct Asked<'a> {
 /// # Errors
 /// A file of rules that cannot be read, and rules that cannot be.
 pub fn overridden(separation: Separation, asked: &Asked<'_>) -> Result<Separation, Failure> {
+    if asked.code.is_some() && asked.country.is_some() {
+        return Err(Failure::input(
+            "`code` and `country` are both given".to_owned(),
+            Some("give the code, or the country whose code is looked for".to_owned()),
+        ));
+    }
     // Words of arguments stand in no file.
     let word = |text: &str| Located {
         value: text.to_owned(),

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use pounding_assembly::{
-    Assembly, RecordFiles, assemble_sharing, assemble_with_record, scale_record,
+    Assembly, RecordFiles, assemble_sharing, assemble_with_record, process_record, scale_record,
 };
 use pounding_case::{Case, read_text};
 use pounding_cli::Failure;
@@ -72,7 +72,8 @@ impl PyCase {
         let case = self.case.as_ref();
         let made = match &self.motion {
             None => assemble_sharing(case, files),
-            Some(motion) => scale_record(case, Accelerogram::clone(motion))
+            Some(motion) => process_record(case, Accelerogram::clone(motion))
+                .and_then(|motion| scale_record(case, motion))
                 .and_then(|motion| assemble_with_record(case, &motion)),
         };
         made.map_err(|error| {
@@ -136,7 +137,7 @@ impl PyCase {
         })
     }
 
-    /// The same case under another motion, scaled as the case says.
+    /// The same case under another motion, processed and scaled as the case says.
     fn with_motion(&self, motion: &Motion) -> Self {
         Self {
             motion: Some(Arc::clone(&motion.record)),

@@ -106,10 +106,23 @@ fn text(faults: &[Fault]) -> String {
     lines.join("\n")
 }
 
+/// What is wrong with all that led to it, each once.
+fn whole_message(report: &Report) -> String {
+    let mut message = String::new();
+    for cause in report.chain().map(ToString::to_string) {
+        match message.as_str() {
+            "" => message = cause,
+            told if told.contains(&cause) => {}
+            _ => message = format!("{message}: {cause}"),
+        }
+    }
+    message
+}
+
 fn fault(report: &Report, made: Option<&str>) -> Fault {
     let diagnostic: &dyn Diagnostic = report.as_ref();
     let mut fault = Fault {
-        message: report.to_string(),
+        message: whole_message(report),
         help: diagnostic.help().map(|h| h.to_string()),
         shown: String::new(),
     };

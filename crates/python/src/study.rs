@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use pounding_assembly::{assemble_with_record, scale_record};
+use pounding_assembly::{assemble_with_record, process_record, scale_record};
 use pounding_cli::Failure;
 use pounding_cli::answers::{
     Analysis, AskedOfGaps, Check, Compared, Finished, Replaced, answered_by_child, of_check,
@@ -184,7 +184,8 @@ fn under(case: &PyCase, motions: &[(String, Record)]) -> Result<Vec<CaseUnderRec
                 let mut other = pounding_case::Case::clone(&case.case);
                 // As with records of files: for their own durations.
                 other.analysis.duration = None;
-                let assembly = scale_record(&other, Accelerogram::clone(record))
+                let assembly = process_record(&other, Accelerogram::clone(record))
+                    .and_then(|processed| scale_record(&other, processed))
                     .and_then(|scaled| assemble_with_record(&other, &scaled))
                     .map_err(|e| case.problem(Failure::of_case(e, &other).within(name)))?;
                 all.push(CaseUnderRecord {

@@ -203,3 +203,32 @@ def test_no_dict_ends_the_interpreter(changes: list, pair_dict: dict) -> None:
         pounding.Case.from_dict(tables)
     except (ValueError, TypeError, pounding.PoundingError) as error:
         assert str(error)
+
+
+def test_the_steps_of_a_case_act_on_motions_in_memory(pair_dict: dict) -> None:
+    pair_dict["ground_motion"] = {"file": str(RECORD), "process": [{"scale": 5}]}
+    case = pounding.Case.from_dict(pair_dict)
+    motion = pounding.read_motion(RECORD)
+    under = case.with_motion(motion)
+    of_file = pounding.run(case).peaks
+    assert pounding.run(under).peaks.equals(of_file)
+    for copied in (pickle.loads(pickle.dumps(under)), pickle.loads(pickle.dumps(case))):
+        assert pounding.run(copied).peaks.equals(of_file)
+    demands = [
+        pounding.gap_check(case, records).answer["gaps"][0]["demand"]
+        for records in ([RECORD], [motion])
+    ]
+    assert demands[0] == demands[1]
+
+
+def test_two_codes_are_not_asked_for_at_once() -> None:
+    with pytest.raises(pounding.CaseError, match="`code` and `country` are both given"):
+        pounding.gap_check(PAIR, code="ntc_2018", country="Greece")
+
+
+def test_errors_say_all_that_is_wrong(pair_dict: dict) -> None:
+    pair_dict["ground_motion"] = {"file": str(RECORD)}
+    pair_dict["analysis"] = {"energy_tolerance": 1e-18}
+    with pytest.raises(pounding.PoundingError, match="energy") as told:
+        pounding.run(pounding.Case.from_dict(pair_dict))
+    assert "energy" in told.value.faults[0][0]

@@ -222,10 +222,11 @@ class Case:
             given["ground_motion"] = ground
         native_motion = None if motion is None else motion._native
         native = _NativeCase.from_dict(given, os.fspath(folder), native_motion)
-        return cls._of(native, ("dict", given, os.path.abspath(folder)), motion)
+        kind = "dict" if motion is None else "dict with motion"
+        return cls._of(native, (kind, given, os.path.abspath(folder)), motion)
 
     def with_motion(self, motion: Motion) -> Case:
-        """The same case under another motion, scaled as the case says."""
+        """The same case under another motion, processed and scaled as the case says."""
         return Case._of(self._native.with_motion(motion._native), self._made, motion)
 
     @property
@@ -267,7 +268,10 @@ class Case:
 
 def _restored(kind: str, content: Any, place: str, motion: Motion | None) -> Case:
     """A case in another process."""
+    if kind == "dict with motion":
+        return Case.from_dict(content, folder=place, motion=motion)
     if kind == "text":
         case = Case.from_text(content, place)
-        return case if motion is None else case.with_motion(motion)
-    return Case.from_dict(content, folder=place, motion=motion)
+    else:
+        case = Case.from_dict(content, folder=place)
+    return case if motion is None else case.with_motion(motion)

@@ -103,6 +103,41 @@ fn forces_reach_every_command() {
     assert_eq!(told["models"].as_array().unwrap().len(), 2);
 }
 
+/// Every row of a history is in equilibrium, also where a force jumps: its force and its acceleration are those
+/// before the jump, at time zero those after it.
+#[test]
+fn rows_at_jumps_of_a_force_are_in_equilibrium() {
+    for (points, at) in [
+        (
+            "[0.5, 0], [0.5, 500], [1.5, 500]",
+            [0.0, 0.0, 500.0, 500.0, 0.0],
+        ),
+        (
+            "[0, 500], [0.5, 500], [0.5, 200], [3, 200]",
+            [500.0, 500.0, 200.0, 200.0, 200.0],
+        ),
+    ] {
+        let bench = Bench::with(&format!(
+            "[[building]]\nname = \"a\"\nstoreys = 1\nmass = 1000\nstiffness = 4e4\nheight = 3\ndamping = {{ modal = 0.9 }}\n[[building.force]]\nstorey = 1\npoints = [{points}]\n[ground_motion]\nfile = \"zero.csv\"\n[analysis]\nduration = 2\noutput_step = 0.1\n"
+        ));
+        bench.write("zero.csv", "time (s),acceleration (m/s2)\n0,0\n0.1,0\n");
+        bench.text("run case.toml -o case.h5");
+        let [force, u, v, a] = [
+            "applied_force",
+            "displacement",
+            "velocity",
+            "acceleration_absolute",
+        ]
+        .map(|name| history(&bench, &format!("building/a/{name}")));
+        let c = 2.0 * 0.9 * f64::sqrt(4e4 * 1000.0);
+        for row in 0..force.len() {
+            let left = force[row] - c * v[row] - 4e4 * u[row] - 1000.0 * a[row];
+            assert!(left.abs() < 0.05, "{points}, row {row}: {left} N");
+        }
+        assert_eq!([0, 5, 6, 15, 16].map(|row| force[row]), at);
+    }
+}
+
 #[test]
 fn forces_that_cannot_be_have_their_line() {
     let bench = example("blast_beside_a_tower", "\"15 s\"", "\"2 s\"");

@@ -153,7 +153,8 @@ impl Content {
                 let mut values = vec![0.0; storeys * block.len()];
                 for (row, time) in values.chunks_exact_mut(*storeys).zip(&block.time) {
                     for force in forces {
-                        row[force.storey] += force.history.at(*time);
+                        // Accelerations are those before a jump.
+                        row[force.storey] += force.history.before(*time);
                     }
                 }
                 values

@@ -151,6 +151,20 @@ impl ForceHistory {
         self.line(time, time)[0]
     }
 
+    /// Force (N) at an instant (s), before a jump that happens there; at time zero, with which all
+    /// begins, after it.
+    #[must_use]
+    pub fn before(&self, time: f64) -> f64 {
+        let next = self.points.partition_point(|p| p.0 < time);
+        let before = next.checked_sub(1).map(|k| self.points[k]);
+        match (before, self.points.get(next)) {
+            _ if time <= 0.0 => self.at(time),
+            (Some((t0, f0)), Some((t1, f1))) => f0 + (f1 - f0) / (t1 - t0) * (time - t0),
+            (Some((_, last)), None) if self.stays => last,
+            _ => 0.0,
+        }
+    }
+
     /// Largest absolute force (N) and when it is there first.
     #[must_use]
     pub fn peak(&self) -> Peak {

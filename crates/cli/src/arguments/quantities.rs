@@ -1,5 +1,7 @@
 //! Values of arguments: texts with units.
 
+use std::f64::consts::TAU;
+
 use pounding_case::{Dimension, parse_quantity};
 
 use crate::failure::Failure;
@@ -32,6 +34,16 @@ pub fn value(text: &str, option: &str, wanted: Dimension) -> Result<f64, Failure
         )),
         _ => Ok(quantity.value),
     }
+}
+
+/// The value (Hz) of an option that must be a frequency: an angle per second, such as "15.6 rad/s", is a circular one.
+pub fn frequency(text: &str, name: &str) -> Result<f64, Failure> {
+    let found = value(text, name, Dimension::FREQUENCY)?;
+    Ok(if text.contains("rad") {
+        found / TAU
+    } else {
+        found
+    })
 }
 
 /// Seconds of a time limit, which is also given in minutes, hours and days.

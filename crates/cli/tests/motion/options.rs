@@ -41,6 +41,16 @@ fn bounds_are_short_and_options_named() {
         &["--from = 5 Hz is not below --to = 2 Hz"],
     );
     spectrum(&["--fourier", "--smoothing", "0"], &["--smoothing: "]);
+    for silent in [&["--damping", "2 %"][..], &["--at-samples"]] {
+        spectrum(
+            &[&["--fourier"], silent].concat(),
+            &["'--fourier' cannot be used with '--"],
+        );
+    }
+    spectrum(
+        &["--fourier", "--unsmoothed", "--at", "2 Hz"],
+        &["'--unsmoothed' cannot be used with"],
+    );
     let folder = Folder::new();
     let out = folder.name("o.csv");
     let process = |option: &str, value: &str, wanted: &[&str]| {

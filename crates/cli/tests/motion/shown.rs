@@ -154,6 +154,10 @@ fn fourier_amplitudes_of_a_ricker_wavelet() {
     }
     assert_eq!(rows.iter().find(|r| r[1] == maximum).unwrap()[0], 2.0);
     let smooth = json(&["spectrum", &motion, "--fourier", "--at", "2 Hz"]);
+    // An angle per second is a circular frequency.
+    let circular = ["--at", "12.566370614359172 rad/s"];
+    let circular = json(&[&["spectrum", &motion, "--fourier"][..], &circular].concat());
+    assert_eq!(circular["amplitudes"], smooth["amplitudes"]);
     let value = number(&smooth["amplitudes"][0]);
     assert!(
         value < maximum && value > 0.9 * maximum,

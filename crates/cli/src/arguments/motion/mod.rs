@@ -152,7 +152,7 @@ pub struct SpectrumArguments {
     )]
     pub smoothing: String,
     /// Fourier amplitudes at every frequency of the transform, not smoothed
-    #[arg(long, requires = "fourier", conflicts_with = "smoothing")]
+    #[arg(long, requires = "fourier", conflicts_with_all = ["smoothing", "at", "from", "to", "count"])]
     pub unsmoothed: bool,
     /// Periods (frequencies for --fourier), such as "0.2 s, 0.5 s, 1 s" [default: --from, --to, --count]
     #[arg(long, conflicts_with_all = ["from", "to", "count"], allow_hyphen_values = true)]
@@ -167,10 +167,15 @@ pub struct SpectrumArguments {
     #[arg(long)]
     pub count: Option<usize>,
     /// Damping ratios, such as "2 %, 5 %"
-    #[arg(long, default_value = "5 %", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        default_value = "5 %",
+        conflicts_with = "fourier",
+        allow_hyphen_values = true
+    )]
     pub damping: String,
     /// Take peaks at samples alone, as most programs do
-    #[arg(long)]
+    #[arg(long, conflicts_with = "fourier")]
     pub at_samples: bool,
     /// Write the spectra into this CSV file, in SI units
     #[arg(long)]

@@ -10,11 +10,10 @@ use pounding_ground_motion::generators::{
 };
 
 use super::synth::{envelope, grid};
-use crate::arguments::value;
 use crate::arguments::{
     BooreArguments, CloughPenzienArguments, GroundArguments, KanaiTajimiArguments,
     MakrisRoussosArguments, MavroeidisPapageorgiouArguments, MechanismWord, PulseWord,
-    RezaeianDerKiureghianArguments, RickerArguments, SineArguments,
+    RezaeianDerKiureghianArguments, RickerArguments, SineArguments, frequency, value,
 };
 use crate::failure::Failure;
 
@@ -27,16 +26,6 @@ fn number(text: &str, name: &str) -> Result<f64, Failure> {
 
 fn time(text: &str, name: &str) -> Result<f64, Failure> {
     value(text, name, Dimension::TIME)
-}
-
-/// In Hz: an angle per second, such as "15.6 rad/s", is a circular one.
-fn frequency(text: &str, name: &str) -> Result<f64, Failure> {
-    let found = value(text, name, Dimension::FREQUENCY)?;
-    Ok(if text.contains("rad") {
-        found / TAU
-    } else {
-        found
-    })
 }
 
 /// In Hz/s, as plain numbers are: an angle, such as "-0.4 rad/s^2", is a circular one.

@@ -14,8 +14,7 @@ use serde::Serialize;
 use super::spectrum_of_code::{self, OfCode};
 use super::spectrum_tables as tables;
 use super::{reading, words};
-use crate::arguments::SpectrumArguments;
-use crate::arguments::value;
+use crate::arguments::{SpectrumArguments, frequency, value};
 use crate::failure::Failure;
 use crate::output::{pretty, print};
 use crate::plot;
@@ -83,11 +82,18 @@ pub(super) fn places(
     default: (f64, f64, usize),
     dimension: Dimension,
 ) -> Result<Vec<f64>, Failure> {
+    let place = |text: &str, name: &str| match dimension == Dimension::FREQUENCY {
+        true => frequency(text, name),
+        false => value(text, name, dimension),
+    };
     if let Some(text) = &arguments.at {
-        return words::list(text, "at", dimension);
+        return text
+            .split(',')
+            .map(|part| place(part.trim(), "at"))
+            .collect();
     }
     let end = |text: &Option<String>, name, default| match text {
-        Some(text) => value(text, name, dimension),
+        Some(text) => place(text, name),
         None => Ok(default),
     };
     let from = end(&arguments.from, "from", default.0)?;

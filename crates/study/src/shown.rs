@@ -7,7 +7,7 @@ use pounding_ground_motion::processing::Scale;
 
 use crate::case_text::{Edit, Path, apply, entry, with_motion};
 use crate::error::StudyError;
-use crate::runs::{Runner, chosen, factor, motion, wanted, written};
+use crate::runs::{Runner, factor, motion, wanted, written};
 use crate::study_file::{RecordKind, Study};
 
 /// The case of one run as a text that `pounding run` takes, if it lies in the folder of
@@ -28,7 +28,7 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
     let not_shown = |reason: String| StudyError::NotShown { run, reason };
     let point = study.point(run);
     let mut text = Runner::text(study, &point);
-    let source = &study.records[chosen(study, &point)];
+    let source = &study.records[study.motion_of(&point)];
     let mut comments = String::new();
     if let RecordKind::Made { command, .. } = &source.kind {
         let file = format!("{}.csv", source.name);

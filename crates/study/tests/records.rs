@@ -9,7 +9,7 @@ use pounding_files::checksum::WithoutChecksum;
 use pounding_study::{
     ResultReader, Row, Shard, Study, StudyError, SweepOptions, case_of_run, sweep,
 };
-use pounding_time_history::run;
+use pounding_time_history::{isolated_demand, run};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -345,4 +345,309 @@ fn records_bring_their_own_across_the_row() {
         differs.clone().all(|(a, c)| (a / c - 1.0).abs() > 1e-3),
         "{found:?}"
     );
+}
+
+/// What each run of a study of the pair gives beside what the shown case of that run gives alone:
+/// displacements, and the demand without gaps where the study asks for it.
+fn assert_each_as_shown(study: &Study, folder: &Path) -> Vec<Vec<f64>> {
+    let (found, reader) = rows(study, folder, false);
+    let displacements = column(&found, &reader, "peak_displacement");
+    let demands = study
+        .isolated_demand
+        .then(|| column(&found, &reader, "isolated_demand"));
+    for (row, displacements) in found.iter().zip(&displacements) {
+        let shown = case_of_run(study, row.run).unwrap();
+        assert_eq!(*displacements, alone(&shown, folder), "{shown}");
+        if let Some(demands) = &demands {
+            let case = Case::parse(&shown, &folder.join("case.toml")).unwrap();
+            let assembly = assemble(&case).unwrap();
+            let (_, peaks) = isolated_demand(&assembly.system, &assembly.options).unwrap();
+            let peaks: Vec<f64> = peaks.iter().map(|peak| peak.value).collect();
+            assert_eq!(demands[row.run], peaks, "{shown}");
+        }
+    }
+    let mut ids: Vec<_> = found.iter().map(|row| row.id).collect();
+    ids.sort_unstable();
+    ids.dedup();
+    assert_eq!(ids.len(), found.len());
+    displacements
+}
+
+/// Columns of numbers that are read in many ways.
+fn columns(folder: &Path) {
+    let columns: String = (0..400)
+        .map(|i| {
+            let t = 0.01 * f64::from(i);
+            let (a, b) = ((9.0 * t).sin(), 0.5 * (5.0 * t).cos());
+            format!("{a:9.6} {b:9.6}\n")
+        })
+        .collect();
+    std::fs::write(folder.join("columns.txt"), columns).unwrap();
+}
+
+/// A study of the pair whose case has this under `[ground_motion]` and nothing else.
+fn study_of(folder: &Path, motion: &str, text: &str) -> Result<Study, StudyError> {
+    let file = format!("file = \"{}/el_centro_1940_ns.csv\"", motions());
+    let case = root().join("examples/sweep_three_storey_pair/case.toml");
+    let case = std::fs::read_to_string(case).unwrap();
+    let case = case
+        .replace("../../ground_motions", &motions())
+        .replace("31 s", "6 s");
+    let motion = motion.replace("EL_CENTRO", &file);
+    std::fs::write(folder.join("case.toml"), case.replace(&file, &motion)).unwrap();
+    let text = text.replace("MOTIONS", &motions());
+    let text = format!("case = \"case.toml\"\n{text}");
+    Study::parse(&text, &folder.join("study.toml"))
+}
+
+/// A record with much to say of how it is read.
+const COLUMNS: &str = "file = \"columns.txt\"\nlayout = \"a,b\"\ncomponent = \"a\"\nsecond_component = \"b\"\nrotate = 30\nunit = \"m/s2\"\ntime_step = 0.01";
+
+/// Variables that say how the record of the case is read have it read so in each run, whatever
+/// else varies: each run is, to the last bit, that of the case that is shown for it.
+#[test]
+fn variables_say_how_the_record_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    columns(folder.path());
+    let kobe = root().join("ground_motions/kobe_1995_jma_ns.csv");
+    std::fs::copy(kobe, folder.path().join("k.csv")).unwrap();
+    let filtered = "EL_CENTRO\nprocess = [{ filter = { high_pass = \"0.5 Hz\" } }]";
+    let gap = "[[variable]]\nname = \"gap\"\npath = \"gap.0.width\"\nvalues = [0.01, 0.05]\n";
+    let intensity = "[[variable]]\nintensity = \"spectral_acceleration\"\nbuilding = \"light\"\nvalues = [\"0.3 g\", \"0.5 g\"]\n[output]\nisolated_demand = true\n";
+    for (motion, path, values, distinct) in [
+        (
+            "EL_CENTRO",
+            "file",
+            "values = [\"k.csv\", \"MOTIONS/el_centro_1940_ns.csv\"]",
+            2,
+        ),
+        (COLUMNS, "unit", "values = [\"g\", \"m/s2\"]", 2),
+        (
+            COLUMNS,
+            "time_step",
+            "from = 0.01\nto = \"20 ms\"\ncount = 3",
+            3,
+        ),
+        (COLUMNS, "rotate", "values = [0, 45, 90]", 3),
+        (
+            filtered,
+            "process.0.filter.high_pass",
+            "values = [\"0.2 Hz\", 1]",
+            2,
+        ),
+    ] {
+        for more in [gap, intensity] {
+            let text = format!("[[variable]]\npath = \"ground_motion.{path}\"\n{values}\n{more}");
+            let study = study_of(folder.path(), motion, &text).unwrap();
+            let found = assert_each_as_shown(&study, folder.path());
+            assert_eq!(found.len(), 2 * distinct);
+            let of_readings: Vec<_> = found.chunks(2).collect();
+            for pair in of_readings.windows(2) {
+                let scaled_alike = more == intensity && path == "unit";
+                assert!(scaled_alike || pair[0] != pair[1], "{path}");
+            }
+        }
+    }
+}
+
+/// The same of samples, in which each run reads the record in its own way, and of values that are
+/// given to one another by a list.
+#[test]
+fn designs_may_say_how_the_record_is_read() {
+    let folder = tempfile::tempdir().unwrap();
+    columns(folder.path());
+    let variables = "[[variable]]\nname = \"unit\"\npath = \"ground_motion.unit\"\nvalues = [\"g\", \"m/s2\", \"cm/s2\"]\n[[variable]]\nname = \"angle\"\npath = \"ground_motion.rotate\"\n";
+    for (angles, design) in [
+        (
+            "from = 0\nto = 90\n",
+            "[design]\nkind = \"latin_hypercube\"\nruns = 5\n",
+        ),
+        (
+            "values = [0, 90]\n",
+            "[design]\nkind = \"sobol\"\nruns = 16\n",
+        ),
+        ("values = [0, 90, 45]\n", "[design]\nkind = \"list\"\n"),
+    ] {
+        let text = format!("{variables}{angles}{design}");
+        let study = study_of(folder.path(), COLUMNS, &text).unwrap();
+        let (found, reader) = rows(&study, folder.path(), false);
+        let found = column(&found, &reader, "peak_displacement");
+        for (run, found) in found.iter().enumerate() {
+            let shown = case_of_run(&study, run).unwrap();
+            assert_eq!(*found, alone(&shown, folder.path()), "{shown}");
+        }
+    }
+    let text = format!("{variables}from = 0\nto = 90\n[design]\nkind = \"sobol\"\nruns = 16384\n");
+    let refused = study_of(folder.path(), COLUMNS, &text).unwrap_err();
+    let said = refused.to_string();
+    assert!(
+        said.contains("study.toml:2") && said.contains("more than 10000 ways"),
+        "{said}"
+    );
+}
+
+/// Values that make no reading together are runs that fail, where others are to go on.
+#[test]
+fn readings_that_cannot_be_are_told_before_the_runs() {
+    let folder = tempfile::tempdir().unwrap();
+    let band =
+        "EL_CENTRO\nprocess = [{ filter = { high_pass = \"0.5 Hz\", low_pass = \"20 Hz\" } }]";
+    let text = "[[variable]]\nname = \"low\"\npath = \"ground_motion.process.0.filter.high_pass\"\nvalues = [0.5, 5]\n[[variable]]\nname = \"high\"\npath = \"ground_motion.process.0.filter.low_pass\"\nvalues = [2, 20]\n";
+    let study = study_of(folder.path(), band, text).unwrap();
+    let (found, reader) = rows(&study, folder.path(), true);
+    let failed: Vec<bool> = found.iter().map(|row| row.ending.failed()).collect();
+    assert_eq!(failed, [false, false, true, false]);
+    let records = &reader.description.records;
+    assert!(
+        records.contains("el_centro_1940_ns (low = 5, high = 20)"),
+        "{records}"
+    );
+    assert_eq!(records.matches("unreadable").count(), 1, "{records}");
+    // A file whose content changes makes another study, whichever value names it.
+    let file = folder.path().join("k.csv");
+    let kobe = std::fs::read(root().join("ground_motions/kobe_1995_jma_ns.csv")).unwrap();
+    let identity = |bytes: &[u8]| {
+        std::fs::write(&file, bytes).unwrap();
+        let text = "[[variable]]\npath = \"ground_motion.file\"\nvalues = [\"MOTIONS/el_centro_1940_ns.csv\", \"k.csv\"]\n";
+        let study = study_of(folder.path(), "EL_CENTRO", text).unwrap();
+        assert!(study.files().iter().any(|(_, path)| *path == file));
+        let (_, reader) = rows(&study, folder.path(), false);
+        reader.description.study_sha256
+    };
+    assert_ne!(identity(&kobe), identity(&kobe[..kobe.len() / 2]));
+}
+
+/// All other files of a case vary as the record does: forces, matrices, target spectra, records
+/// across the row and of buildings, alone and beside an intensity.
+#[test]
+fn files_of_the_case_vary() {
+    let ground = "ground = { file = \"MOTIONS/el_centro_1940_ns.csv\", scale = 2 }\n";
+    let spectrum = "scale = { target = \"t.csv\", from = 0.2, to = 1 }\n";
+    let sheared = ("mass = ", format!("{ground}mass = "));
+    let scaled = ("[analysis]", format!("{spectrum}[analysis]"));
+    let nothing = ("", String::new());
+    let both = "values = [\"MOTIONS/el_centro_1940_ns.csv\", \"MOTIONS/kobe_1995_jma_ns.csv\"]";
+    let names = |a: &str, b: &str| format!("values = [\"{a}\", \"{b}\"]");
+    for (example, (from, to), path, values) in [
+        (
+            "blast_beside_a_tower",
+            &nothing,
+            "building.low.force.1.file",
+            names("blast.csv", "b.csv"),
+        ),
+        (
+            "blast_beside_a_tower",
+            &nothing,
+            "building.low.force.1.column",
+            "values = [2, 4]".to_owned(),
+        ),
+        (
+            "wall_and_frame",
+            &nothing,
+            "building.frame.stiffness_matrix.file",
+            names("frame.csv", "f.csv"),
+        ),
+        (
+            "wall_and_frame",
+            &nothing,
+            "building.frame.stiffness_matrix.unit",
+            names("kN/mm", "MN/mm"),
+        ),
+        (
+            "wall_and_frame",
+            &scaled,
+            "ground_motion.scale.target",
+            names("t.csv", "t2.csv"),
+        ),
+        (
+            "wall_and_frame",
+            &sheared,
+            "building.frame.ground.file",
+            both.to_owned(),
+        ),
+        (
+            "wall_and_frame",
+            &sheared,
+            "building.frame.ground.scale",
+            "values = [1, 3]".to_owned(),
+        ),
+        (
+            "three_frame_bridge",
+            &nothing,
+            "building.east.ground.distance",
+            "values = [10, 200]".to_owned(),
+        ),
+        (
+            "pair_that_turns",
+            &nothing,
+            "ground_motion.across.file",
+            both.to_owned(),
+        ),
+        (
+            "pair_that_turns",
+            &nothing,
+            "ground_motion.across.scale.pga",
+            "values = [1, 3]".to_owned(),
+        ),
+    ] {
+        let folder = tempfile::tempdir().unwrap();
+        for entry in std::fs::read_dir(root().join("examples").join(example)).unwrap() {
+            let path = entry.unwrap().path();
+            std::fs::copy(&path, folder.path().join(path.file_name().unwrap())).unwrap();
+        }
+        let write =
+            |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+        write("b.csv", "time (s),a,b,c\n0,0,0,0\n1,0,400,0\n2,0,900,0\n");
+        write("f.csv", "90,-50,10\n-50,70,-30\n10,-30,25\n");
+        write("t.csv", "period_s,psa_g\n0.1,1\n4,0.1\n");
+        write("t2.csv", "period_s,psa_g\n0.1,0.5\n4,0.2\n");
+        let case = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+        let case = case.lines().map(|line| match line.starts_with("duration") {
+            true => "duration = 4\n".to_owned(),
+            false => format!("{line}\n"),
+        });
+        let mut case = case
+            .collect::<String>()
+            .replace("../../ground_motions", &motions());
+        if !from.is_empty() {
+            let at = case.rfind(from).unwrap();
+            case.replace_range(at..at + from.len(), &to.replace("MOTIONS", &motions()));
+        }
+        write("case.toml", &case);
+        for intensity in [false, true] {
+            // Which sets the scale of the case itself, and has no use where the ground is at rest.
+            if intensity && (path == "ground_motion.scale.target" || example.starts_with("blast")) {
+                continue;
+            }
+            let more = "[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [2, 4]\n";
+            let text = format!(
+                "case = \"case.toml\"\n[[variable]]\nname = \"varied\"\npath = \"{path}\"\n{}\n{}",
+                values.replace("MOTIONS", &motions()),
+                if intensity { more } else { "" }
+            );
+            let study = Study::parse(&text, &folder.path().join("study.toml")).unwrap();
+            let (found, reader) = rows(&study, folder.path(), false);
+            let displacements = column(&found, &reader, "peak_displacement");
+            let across = reader.description.layout.range("peak_displacement_across");
+            for (row, displacements) in found.iter().zip(&displacements) {
+                let shown = case_of_run(&study, row.run).unwrap();
+                let said = format!("{path}: {:?}\n{shown}", row.ending);
+                let mut found = displacements.clone();
+                let mut expected = alone(&shown, folder.path());
+                if example == "pair_that_turns" {
+                    found.extend(&row.values[across.clone()]);
+                    expected.extend(across_alone(&shown, folder.path()));
+                }
+                assert_eq!(found.len(), expected.len(), "{said}");
+                for (a, b) in found.iter().zip(&expected) {
+                    // Factors of further records are products in the shown case.
+                    let near = (a / b - 1.0).abs() < 1e-12;
+                    assert!(a == b || (intensity && near), "{a} {b}: {said}");
+                }
+            }
+            let (first, last) = (&found[0].values, &found[found.len() - 1].values);
+            assert_ne!(first, last, "{path}");
+            assert_ne!(first, &found[found.len() / 2].values, "{path}");
+        }
+    }
 }

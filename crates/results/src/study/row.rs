@@ -12,6 +12,17 @@ pub enum Value {
     Choice(usize),
 }
 
+impl Value {
+    /// Bits by which values of one variable are told apart.
+    #[must_use]
+    pub fn bits(self) -> u64 {
+        match self {
+            Self::Number(x) => x.to_bits(),
+            Self::Choice(i) => i as u64,
+        }
+    }
+}
+
 /// The result of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Row {

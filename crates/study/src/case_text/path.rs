@@ -75,6 +75,12 @@ impl Path {
         self.table() == "ground_motion" && self.0.get(1) == Some(&Step::Key("scale".to_owned()))
     }
 
+    /// Whether it leads to something that says how the record along the row is read.
+    pub(crate) fn of_reading(&self) -> bool {
+        let across = Step::Key("across".to_owned());
+        self.table() == "ground_motion" && !self.of_scale() && self.0.get(1) != Some(&across)
+    }
+
     /// Whether it is that of the number of storeys of a building.
     pub(crate) fn of_storey_count(&self) -> bool {
         self.table() == "building"

@@ -14,4 +14,4 @@ pub use pounding_results::study::{
     Axis, Ending, Layout, Place, Quantity, RESPONSES, Response, Row,
 };
 pub(crate) use pounding_results::study::{ID, is_result};
-pub(crate) use runner::{Runner, chosen, factor, wanted, written};
+pub(crate) use runner::{Runner, factor, wanted, written};

@@ -144,6 +144,12 @@ pub(crate) fn motion(
     let record = match kind {
         RecordKind::File { case, .. } => read_record(case)?,
         RecordKind::Made { record, .. } => (**record).clone(),
+        RecordKind::Refused(error) => {
+            return Err(StudyError::Text {
+                error: error.clone(),
+                source_text: String::new(),
+            });
+        }
     };
     let sha256 = match record.origin() {
         Some(origin) => origin.sha256.clone(),

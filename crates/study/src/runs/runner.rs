@@ -108,12 +108,14 @@ impl<'s> Runner<'s> {
         let known = |r: usize| {
             let component = match &study.records[r].kind {
                 RecordKind::File { case, .. } => case.ground_motion.component.as_deref(),
-                RecordKind::Made { .. } => None,
+                _ => None,
             };
             let motion = motions.all[r].as_ref().ok()?;
             Some((motion.sha256.as_str(), component))
         };
-        let same = |a: usize, b: usize| known(a).is_some() && known(a) == known(b);
+        // One file that is read in several ways is no repetition.
+        let once = study.readings.is_empty();
+        let same = |a: usize, b: usize| once && known(a).is_some() && known(a) == known(b);
         let names: Vec<&str> = study.records.iter().map(|r| r.name.as_str()).collect();
         warnings.extend(Repeated::by(motions.all.len(), same).warnings(&names));
         let base =
@@ -140,7 +142,7 @@ impl<'s> Runner<'s> {
         folder: Option<&Path>,
     ) -> Result<(), StudyError> {
         let study = self.study;
-        let wanted = runs.iter().map(|run| chosen(study, &study.point(*run)));
+        let wanted = runs.iter().map(|run| study.motion_of(&study.point(*run)));
         let wanted = wanted.collect();
         self.motions.need(study, &wanted, keep_failures, folder)
     }
@@ -192,11 +194,11 @@ impl<'s> Runner<'s> {
     }
 
     fn motion(&self, point: &[Value]) -> Result<&Motion, &String> {
-        self.motions.all[chosen(self.study, point)].as_ref()
+        self.motions.all[self.study.motion_of(point)].as_ref()
     }
 
     fn source(&self, point: &[Value]) -> &str {
-        &self.study.records[chosen(self.study, point)].name
+        &self.study.records[self.study.motion_of(point)].name
     }
 
     fn values(
@@ -365,35 +367,15 @@ fn apart(system: &System, options: &RunOptions) -> Result<Vec<f64>, String> {
 
 /// Edits that make the case of a run.
 fn edits(study: &Study, point: &[Value]) -> Vec<Edit> {
-    let mut all = Vec::new();
-    for (variable, value) in study.variables.iter().zip(point) {
-        match (&variable.target, value) {
-            (Target::Entry { entry, .. }, Value::Number(x)) => {
-                all.push(Edit::new(entry, written(*x)));
-            }
-            (Target::Entry { entry, texts, .. }, Value::Choice(i)) => {
-                all.push(Edit::new(entry, &texts[*i]));
-            }
-            (Target::Model { edits }, Value::Choice(i)) => all.extend(edits[*i].iter().cloned()),
-            (Target::Record, Value::Choice(i)) => {
-                if let RecordKind::File { edits, .. } = &study.records[*i].kind {
-                    all.extend(edits.iter().cloned());
-                }
-            }
-            _ => {}
-        }
-    }
-    all
-}
-
-/// Which motion a run has.
-pub(crate) fn chosen(study: &Study, point: &[Value]) -> usize {
-    let mut values = study.variables.iter().zip(point);
-    let chosen = values.find_map(|(v, x)| match (&v.target, x) {
-        (Target::Record, Value::Choice(i)) => Some(*i),
-        _ => None,
+    let values = study.variables.iter().zip(point);
+    let edits = values.flat_map(|(variable, value)| match (&variable.target, value) {
+        (Target::Record, Value::Choice(i)) => match &study.records[*i].kind {
+            RecordKind::File { edits, .. } => edits.clone(),
+            _ => Vec::new(),
+        },
+        (target, value) => target.edits(value),
     });
-    chosen.unwrap_or(0)
+    edits.collect()
 }
 
 /// The measure and the intensity that a run wants; `None` if the study leaves scaling to
@@ -452,13 +434,10 @@ fn key(study: &Study, point: &[Value]) -> Key {
     };
     let across = study.records.iter().any(|record| match &record.kind {
         RecordKind::File { case, .. } => case.ground_motion.across.is_some(),
-        RecordKind::Made { .. } => false,
+        _ => false,
     });
     for (variable, value) in study.variables.iter().zip(point) {
-        let bits = match value {
-            Value::Number(x) => x.to_bits(),
-            Value::Choice(i) => *i as u64,
-        };
+        let bits = value.bits();
         match &variable.target {
             Target::Model { .. } => {}
             Target::Entry { path, .. } if path.of_gap() => {}

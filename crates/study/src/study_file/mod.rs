@@ -6,6 +6,7 @@ mod hazard_file;
 mod ida;
 mod intensity;
 mod read;
+mod readings;
 mod records;
 mod values;
 mod variables;
@@ -19,6 +20,7 @@ pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
 pub use intensity::IntensityMeasure;
 pub use pounding_results::study::Value;
 pub use read::study_schema;
+pub(crate) use readings::Readings;
 pub(crate) use records::beside_that_across;
 pub use values::{Spacing, Values};
 
@@ -28,6 +30,7 @@ use pounding_ground_motion::Accelerogram;
 use crate::case_text::{Edit, Entry, Path};
 use crate::design::Design;
 use crate::error::StudyError;
+use crate::runs::written;
 
 /// A study: one case, and what varies in it.
 #[derive(Debug, Clone)]
@@ -54,8 +57,10 @@ pub struct Study {
     pub float32: bool,
     /// What an incremental dynamic analysis evaluates.
     pub ida: Option<IdaSettings>,
-    /// Motions: those of the variable `records`, else the one of the case alone.
+    /// Motions: those of the variable `records`, else the one of the case, as often as variables
+    /// say how it is read.
     pub(crate) records: Vec<RecordSource>,
+    pub(crate) readings: Readings,
 }
 
 /// Something that varies from run to run.
@@ -90,6 +95,20 @@ pub(crate) enum Target {
     Intensity(IntensityMeasure),
 }
 
+impl Target {
+    /// What a value changes in the text of the case, but for that of records.
+    pub(crate) fn edits(&self, value: &Value) -> Vec<Edit> {
+        match (self, value) {
+            (Self::Entry { entry, .. }, Value::Number(x)) => vec![Edit::new(entry, written(*x))],
+            (Self::Entry { entry, texts, .. }, Value::Choice(i)) => {
+                vec![Edit::new(entry, &texts[*i])]
+            }
+            (Self::Model { edits }, Value::Choice(i)) => edits[*i].clone(),
+            _ => Vec::new(),
+        }
+    }
+}
+
 /// Where a motion comes from.
 #[derive(Debug, Clone)]
 pub(crate) struct RecordSource {
@@ -110,6 +129,8 @@ pub(crate) enum RecordKind {
         /// The command that makes it, but for the file that it goes into.
         command: String,
     },
+    /// None: values that say how the record is read make no case together.
+    Refused(Box<CaseError>),
 }
 
 impl Study {

@@ -20,9 +20,10 @@ use crate::faults::{parse_case, with_all};
 
 use super::context::{Base, Context};
 use super::ida::IdaTable;
+use super::readings::readings;
 use super::values::{MOST_OF_CHUNK, MOST_RUNS, Whole, all, lacks};
 use super::variables::VariableTable;
-use super::{IntensityMeasure, RecordSource, Study, Target, Values, Variable, records};
+use super::{IntensityMeasure, Readings, RecordSource, Study, Target, Values, Variable, records};
 use crate::design::Design;
 use crate::error::StudyError;
 
@@ -257,20 +258,25 @@ impl StudyFile {
         };
         let (ida, output, read) = (ida?, output?, read?);
         let base = context.base.take()?.case;
+        let design = design?;
+        let (records, readings) = match (read.records, read.reading) {
+            (Some(records), _) => (records, Readings::new()),
+            (None, Some(place)) => readings(reader, place, (&read.variables, &design), &base)?,
+            (None, None) => (vec![records::of_case(&base)], Readings::new()),
+        };
         Some(Study {
             title: self.title.value().unwrap_or_default(),
             file: file.to_owned(),
             source: reader.source.to_owned(),
             variables: read.variables,
-            design: design?,
+            design,
             chunk: output.chunk,
             isolated_demand: output.isolated_demand || ida.is_some(),
             quantities: output.quantities,
             float32: output.float32,
             ida,
-            records: read
-                .records
-                .unwrap_or_else(|| vec![records::of_case(&base)]),
+            records,
+            readings,
             base,
         })
     }
@@ -347,6 +353,8 @@ struct Variables {
     /// Whether these are all.
     whole: bool,
     records: Option<Vec<RecordSource>>,
+    /// Where one says how the record of the case is read.
+    reading: Option<Range<usize>>,
 }
 
 fn variables(
@@ -358,6 +366,7 @@ fn variables(
         variables: Vec::new(),
         whole: true,
         records: None,
+        reading: None,
     };
     // Stated names of variables in which something else is wrong.
     let mut names: Vec<String> = Vec::new();
@@ -402,6 +411,9 @@ fn variables(
         if compared().is_none() {
             read.whole = false;
             continue;
+        }
+        if variable.of_reading() {
+            read.reading.get_or_insert(span);
         }
         read.variables.push(variable);
         read.records = read.records.or(named);

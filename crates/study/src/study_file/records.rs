@@ -128,7 +128,7 @@ pub(crate) fn beside_that_across(study: &Study) -> Option<String> {
             let is_across = |edit: &Edit| edit.entry.path.to_string() == "ground_motion.across";
             !edits.iter().any(is_across)
         }
-        RecordKind::Made { .. } => true,
+        RecordKind::Made { .. } | RecordKind::Refused(_) => true,
     };
     let kept = study.records.iter().filter(keeps);
     let kept: Vec<&str> = kept.map(|record| record.name.as_str()).collect();
@@ -184,7 +184,7 @@ pub(super) fn of_case(base: &Case) -> RecordSource {
     }
 }
 
-fn stem(file: &Path) -> String {
+pub(super) fn stem(file: &Path) -> String {
     file.file_stem()
         .unwrap_or_default()
         .to_string_lossy()

@@ -638,3 +638,110 @@ fn an_intensity_scales_records_of_buildings_too() {
     }
     assert!((roofs[1][0] / roofs[0][0] - 2.5).abs() < 1e-9, "{roofs:?}");
 }
+
+/// The case of an example, changed, in a folder of its own, and a study of it.
+fn study_of_example(
+    folder: &Path,
+    example: &str,
+    change: impl Fn(String) -> String,
+    text: &str,
+) -> Study {
+    let case = root().join("examples").join(example).join("case.toml");
+    let case = std::fs::read_to_string(case).unwrap();
+    let motions = root().join("ground_motions");
+    let case = case.replace("../../ground_motions", motions.to_str().unwrap());
+    let case = case.replace("duration = \"20 s\"", "duration = \"4 s\"");
+    std::fs::write(folder.join("case.toml"), change(case)).unwrap();
+    Study::parse(
+        &format!("case = \"case.toml\"\n{text}"),
+        &folder.join("study.toml"),
+    )
+    .unwrap()
+}
+
+/// A run in which other floors meet than in the case of the study has no place in its levels: it
+/// fails with both, and no force stands under the name of another level.
+#[test]
+fn runs_in_which_other_floors_meet_fail() {
+    let folder = tempfile::tempdir().unwrap();
+    let text =
+        "[[variable]]\nname = \"h\"\npath = \"building.0.height\"\nvalues = [3.0, 3.5, 4.5, 2.5]\n";
+    let study = study_of_example(folder.path(), "slab_hits_column", |case| case, text);
+    let rows = rows(&study, folder.path());
+    let reader =
+        ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
+    let layout = &reader.description.layout;
+    for (row, _) in &rows {
+        let shown = case_of_run(&study, row.run).unwrap();
+        let case = Case::parse(&shown, &folder.path().join("case.toml")).unwrap();
+        let assembly = assemble(&case).unwrap();
+        let alone = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+        let levels = || alone.gaps.iter().flat_map(|gap| &gap.levels);
+        let places = assembly.system.levels().iter().map(|level| level.place);
+        let labels: Vec<String> = places
+            .map(|place| format!("low-tall {}", place.label()))
+            .collect();
+        let of_study: Vec<&str> = layout.levels.iter().map(|l| l.label.as_str()).collect();
+        if labels == of_study {
+            assert_eq!(row.ending, Ending::Complete);
+            let forces: Vec<f64> = levels().map(|level| level.peak_force.value).collect();
+            assert_eq!(row.values[layout.range("peak_force")], forces);
+            // The columns are hit where the floors are whose heights vary.
+            assert!(layout.levels.iter().all(|l| l.elevations == [None; 2]));
+            continue;
+        }
+        let said = row.ending.diagnosis().unwrap();
+        let both = "low-tall 1-1, low-tall 2-2 for low-tall 1-2, low-tall 2-3";
+        assert!(row.ending.failed() && said.contains(both), "{said}");
+        assert!(row.values.iter().all(|x| x.is_nan()));
+    }
+    let failed: Vec<bool> = rows.iter().map(|(row, _)| row.ending.failed()).collect();
+    assert_eq!(failed, [true, false, false, true]);
+}
+
+/// Elevations and positions of contact points that a variable changes are those of no run alone:
+/// they are left out, whichever key of the building they come from.
+#[test]
+fn places_that_vary_are_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    let elevations = |case: String| {
+        case.replacen("height = \"3 m\"", "elevations = [3, 6, 9]", 1)
+            .replace("31 s", "2 s")
+            .replace("[ground_motion]", "[ground_motion]\nscale = 0.1")
+            .replace(
+                "width = \"20 mm\"",
+                "width = \"20 mm\"\nelevation_tolerance = 0.1",
+            )
+    };
+    let text = "[[variable]]\nname = \"z\"\npath = \"building.light.elevations.2\"\nvalues = [9.0, 9.05]\n";
+    let study = study_of_example(folder.path(), "sweep_three_storey_pair", elevations, text);
+    let found = rows(&study, folder.path());
+    assert!(found.iter().all(|(row, _)| row.ending == Ending::Complete));
+    let reader =
+        ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
+    let layout = &reader.description.layout;
+    for storey in &layout.storeys {
+        assert_eq!(
+            storey.elevations == [None],
+            storey.of == "light",
+            "{storey:?}"
+        );
+    }
+    for level in &layout.levels {
+        assert!(level.elevations[0].is_none() && level.elevations[1].is_some());
+    }
+    drop(reader);
+    let text =
+        "[[variable]]\nname = \"w\"\npath = \"building.low.plan.width\"\nvalues = [10, 12]\n";
+    let study = study_of_example(folder.path(), "pair_that_turns", |case| case, text);
+    let found = rows(&study, folder.path());
+    assert!(found.iter().all(|(row, _)| row.ending == Ending::Complete));
+    let reader =
+        ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
+    let levels = &reader.description.layout.levels;
+    let labels: Vec<&str> = levels.iter().map(|l| l.label.as_str()).collect();
+    let points = [1, 2].map(|floor| [1, 2].map(|n| format!("low-stiff {floor}-{floor} point {n}")));
+    assert_eq!(labels, points.concat());
+    let heads: Vec<String> = levels.iter().map(|l| l.heading()).collect();
+    assert_eq!(heads, labels);
+}

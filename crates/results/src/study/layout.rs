@@ -358,9 +358,6 @@ impl Place {
         let (&[left, right], &[z_left, z_right]) = (&self.storeys[..], &self.elevations[..]) else {
             return self.label.clone();
         };
-        if self.label.ends_with(" across") {
-            return self.label.clone();
-        }
         let varies = |storey: usize, z: Option<f64>| storey > 0 && z.is_none();
         if varies(left, z_left) || varies(right, z_right) {
             return self.label.clone();
@@ -370,6 +367,10 @@ impl Place {
             storeys: [left, right].map(|n| (n > 0).then_some(n)),
             elevations: [z_left, z_right],
         };
+        // One of several points of these floors.
+        if self.label != format!("{} {}", self.of, place.label()) {
+            return self.label.clone();
+        }
         format!("{} {place}", self.of)
     }
 }

@@ -81,6 +81,18 @@ impl Path {
         self.table() == "ground_motion" && !self.of_scale() && self.0.get(1) != Some(&across)
     }
 
+    /// Whether it leads to the elevations of floors.
+    pub(crate) fn of_elevations(&self) -> bool {
+        let heights = ["height", "elevations"];
+        self.table() == "building" && heights.iter().any(|key| self.leads_through(key))
+    }
+
+    /// Whether it leads to something by which contact points of floors that turn in plan lie.
+    pub(crate) fn of_plan(&self) -> bool {
+        let of = |table, key| self.table() == table && self.leads_through(key);
+        of("building", "plan") || of("gap", "points")
+    }
+
     /// Whether it is that of the number of storeys of a building.
     pub(crate) fn of_storey_count(&self) -> bool {
         self.table() == "building"

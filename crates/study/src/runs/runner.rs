@@ -43,6 +43,8 @@ pub(crate) struct Runner<'s> {
     pub study: &'s Study,
     pub motions: Motions,
     pub layout: Layout,
+    /// The floors that meet at its contact levels.
+    levels: Vec<FloorsThatMeet>,
     /// What the user should know of the case.
     pub warnings: Vec<String>,
     version: &'static str,
@@ -73,6 +75,7 @@ impl<'s> Runner<'s> {
         let averaged = assembly.warnings_of_buildings();
         let system = assembly.system;
         let mut layout = Layout::of(&system, study.isolated_demand);
+        let levels = floors_that_meet(&system);
         let mut missing = Vec::new();
         if let Some(names) = &study.quantities {
             let has = |name: &&String| layout.quantities.iter().any(|q| q.name == name.as_str());
@@ -122,6 +125,7 @@ impl<'s> Runner<'s> {
             CaseTree::parse(&study.base.source, &study.base.file).map_err(AssemblyError::Case)?;
         Ok(Self {
             layout,
+            levels,
             warnings,
             lines: Lines::of(base.tree()),
             named_files: named_files(study),
@@ -239,12 +243,16 @@ impl<'s> Runner<'s> {
         };
         let regapped = |case: &Case| regap(case, &base);
         let (system, options) = variant.make(&case, regapped).map_err(said)?;
-        let shape = (system.floors(), system.levels().len());
-        let layout = (self.layout.storeys.len(), self.layout.levels.len());
-        if shape != layout {
+        let (found, expected) = (system.floors(), self.layout.storeys.len());
+        if found != expected {
+            return Err(format!("the run has {found} storeys, the study {expected}"));
+        }
+        let levels = floors_that_meet(&system);
+        if levels != self.levels {
             return Err(format!(
-                "the run has {} storeys and {} contact levels, the study {} and {}",
-                shape.0, shape.1, layout.0, layout.1
+                "other floors meet in the run than in the case of the study, whose contact levels all results have: {} for {}; make a study of its own for each set of levels",
+                listed(&levels),
+                listed(&self.levels)
             ));
         }
         let matrices = system
@@ -353,6 +361,31 @@ pub(super) fn named_files(study: &Study) -> Vec<String> {
         None => "unreadable".to_owned(),
     };
     paths.into_iter().map(hash).collect()
+}
+
+/// A gap and the storeys on its left and right, from 1; `None` is a wall.
+type FloorsThatMeet = (String, [Option<usize>; 2]);
+
+/// The floors that meet at each contact level.
+fn floors_that_meet(system: &System) -> Vec<FloorsThatMeet> {
+    let gaps = system.gaps().iter();
+    let levels = gaps.flat_map(|gap| {
+        let levels = system.levels_of(gap).iter();
+        levels.map(|level| (gap.name.clone(), level.place.storeys))
+    });
+    levels.collect()
+}
+
+fn listed(levels: &[FloorsThatMeet]) -> String {
+    let storey = |n: Option<usize>| n.map_or_else(|| "wall".to_owned(), |n| n.to_string());
+    let label = |(gap, sides): &FloorsThatMeet| format!("{gap} {}", sides.map(storey).join("-"));
+    let mut labels: Vec<String> = levels.iter().map(label).collect();
+    // Points of floors that turn in plan are levels of their own.
+    labels.dedup();
+    match labels.is_empty() {
+        true => "none".to_owned(),
+        false => labels.join(", "),
+    }
 }
 
 /// The isolated demand of each level; infinite where the buildings collapse by themselves,

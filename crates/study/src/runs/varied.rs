@@ -2,7 +2,7 @@
 
 use pounding_time_history::System;
 
-use super::Layout;
+use super::{Layout, Place};
 use crate::study_file::{Study, Target};
 
 /// Leaves out the elevations and widths that a variable of the study changes. Returns
@@ -13,7 +13,7 @@ pub(crate) fn leave_out_varied(layout: &mut Layout, study: &Study, system: &Syst
         let Target::Entry { path, .. } = &variable.target else {
             continue;
         };
-        if path.table() == "building" && path.leads_through("height") {
+        if path.of_elevations() {
             let names = system.buildings().iter().map(|b| b.name());
             let name = path.second(names);
             let varies = |building: &str| name.as_deref().is_none_or(|n| n == building);
@@ -25,12 +25,20 @@ pub(crate) fn leave_out_varied(layout: &mut Layout, study: &Study, system: &Syst
                 if sides.contains(&true) && !beside.contains(&gap.name) {
                     beside.push(gap.name.clone());
                 }
+                // A column is hit where the floor is that hits it.
+                let mut in_case = study.base.gaps.iter();
+                let columns = in_case.find(|g| g.name == gap.name);
+                let hit = |side: usize| columns.is_some_and(|g| g.columns[side].is_some());
+                let varies = |side: usize| sides[side] || hit(side) && sides[1 - side];
                 for level in layout.levels.iter_mut().filter(|l| l.of == gap.name) {
-                    for (z, varies) in level.elevations.iter_mut().zip(sides) {
-                        *z = z.filter(|_| !varies);
+                    for (side, z) in level.elevations.iter_mut().enumerate() {
+                        *z = z.filter(|_| !varies(side));
                     }
                 }
             }
+        }
+        if path.of_plan() {
+            number_points(&mut layout.levels);
         }
         if path.table() == "gap" && path.leads_through("width") {
             let name = path.second(system.gaps().iter().map(|g| g.name.as_str()));
@@ -41,4 +49,20 @@ pub(crate) fn leave_out_varied(layout: &mut Layout, study: &Study, system: &Syst
         }
     }
     beside
+}
+
+/// Contact points of floors that turn in plan by their numbers, where their positions vary.
+fn number_points(levels: &mut [Place]) {
+    let mut before = (String::new(), 0);
+    for level in levels {
+        let Some((floors, position)) = level.label.rsplit_once(" at ") else {
+            continue;
+        };
+        if !position.ends_with(" m across") {
+            continue;
+        }
+        let number = if before.0 == floors { before.1 + 1 } else { 1 };
+        before = (floors.to_owned(), number);
+        level.label = format!("{floors} point {number}");
+    }
 }

@@ -54,9 +54,7 @@ fn pounding(folder: &Path, arguments: &[&str]) -> String {
     String::from_utf8(output.stdout).unwrap()
 }
 
-fn said(case: &str) -> Said {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path();
+fn record() -> String {
     let mut record = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n".to_owned();
     for i in 0..120 {
         let t = f64::from(i) * 0.02;
@@ -65,8 +63,16 @@ fn said(case: &str) -> Said {
             0.1 * (2.5 * std::f64::consts::PI * t).sin()
         ));
     }
+    record
+}
+
+fn said(case: &str) -> Said {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
     std::fs::write(path.join("case.toml"), case).unwrap();
-    std::fs::write(path.join("record.csv"), record).unwrap();
+    std::fs::write(path.join("record.csv"), record()).unwrap();
+    let zeros = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n0.00,0\n0.02,0\n0.04,0\n";
+    std::fs::write(path.join("zeros.csv"), zeros).unwrap();
     let warnings = |text: &str| -> Vec<String> {
         let all: Value = serde_json::from_str(text).unwrap();
         let all = all["warnings"].as_array().unwrap().iter();
@@ -170,6 +176,70 @@ fn a_ground_acceleration_that_no_record_has() {
         "file = \"record.csv\"\nscale = { pga = \"3.5 g\" }",
     ));
     one(&said, &["peak ground acceleration is 3.5 g"]);
+}
+
+/// A zero-phase filter puts 3.375 s of zeros before the record, which a `duration` chosen for the record
+/// takes for the shaking.
+#[test]
+fn a_run_that_ends_before_the_peak_of_its_record() {
+    let filtered = CASE.replace(
+        "file = \"record.csv\"",
+        "file = \"record.csv\"\nprocess = [{ filter = { high_pass = \"1 Hz\" } }]",
+    );
+    let words = [
+        "the run ends at 2 s, before the peak ground acceleration at",
+        "`keep_pads = false`",
+    ];
+    one(&said(&filtered), &words);
+    for sound in ["duration = \"2 s\"", "duration = \"5.5 s\""] {
+        let text = match sound.contains("5.5") {
+            true => filtered.replace("duration = \"2 s\"", sound),
+            false => CASE.to_owned(),
+        };
+        assert_eq!(said(&text).check, [""; 0], "{sound}");
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    std::fs::write(path.join("case.toml"), &filtered).unwrap();
+    std::fs::write(path.join("record.csv"), record()).unwrap();
+    let study =
+        "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"20 mm\"]\n";
+    std::fs::write(path.join("study.toml"), study).unwrap();
+    let at = "record: the run ends at 2 s, before the peak ground acceleration";
+    let gap = ["gap", "case.toml"];
+    let compare = [
+        "compare",
+        "case.toml",
+        "--models",
+        "linear_elastic",
+        "--approach-velocity",
+        "0.5 m/s",
+    ];
+    let sweep = ["sweep", "study.toml", "-o", "out.h5"];
+    for arguments in [&gap[..], &compare, &sweep] {
+        let told = pounding(path, arguments);
+        assert_eq!(told.matches(at).count(), 1, "{arguments:?}: {told}");
+    }
+}
+
+#[test]
+fn a_case_in_which_nothing_moves() {
+    let still = CASE.replace("record.csv", "zeros.csv");
+    one(&said(&still), &["nothing moves", "[[building.force]]"]);
+    let released = still.replace(
+        "name = \"a\"\n",
+        "name = \"a\"\ninitial_displacement = -0.01\n",
+    );
+    let pushed = still.replace(
+        "[[building]]\nname = \"b\"",
+        "[[building.force]]\nstorey = 1\nconstant = \"10 kN\"\n[[building]]\nname = \"b\"",
+    );
+    for text in [released, pushed] {
+        let told = said(&text);
+        // That of the record, which says its samples are zero, alone.
+        assert_eq!(told.check.len(), 1, "{:?}", told.check);
+        assert!(!told.check[0].contains("nothing moves"), "{:?}", told.check);
+    }
 }
 
 /// Known after the run alone; with P-Delta the same cause is still one warning.

@@ -11,7 +11,7 @@ use pounding_shear_building::{Damping, DampingMatrix, Modes, OVERTURNING_RATIO, 
 
 use crate::estimate::{StepEstimate, StepLimit, short};
 use crate::options::{MethodChoice, RunOptions};
-use crate::outcome::{BuildingOutcome, LevelOutcome};
+use crate::outcome::{BuildingOutcome, LevelOutcome, Peak};
 use crate::system::{ContactLevel, LevelMotion, System, more_pairs};
 
 /// Fundamental periods (s) that buildings have.
@@ -124,6 +124,17 @@ pub enum Warning {
         /// Peak (m/s2).
         peak: f64,
     },
+    /// A run that ends before the ground shakes most.
+    EndsBeforePeak {
+        /// Whose ground motion it is, in words; empty for the one under all buildings.
+        place: String,
+        /// Duration of the run (s).
+        duration: f64,
+        /// When the peak ground acceleration comes (s).
+        peak: f64,
+    },
+    /// No ground motion, no force and no initial state.
+    NothingMoves,
     /// Damping in proportion to mass and stiffness that brakes an isolator.
     DampingInIsolator {
         /// Name of the building.
@@ -247,6 +258,17 @@ impl fmt::Display for Warning {
                 f,
                 "the peak ground acceleration is {} g, more than the {GROUND_ACCELERATION} g that the strongest records reach: are unit and scale of the record right?",
                 short(peak / STANDARD_GRAVITY)
+            ),
+            Self::EndsBeforePeak {
+                place,
+                duration,
+                peak,
+            } => write!(
+                f,
+                "the run ends at {duration} s, before the peak ground acceleration at {peak} s{place}, and what follows is left out: take a longer `duration`, or leave it out; where a filter puts zeros before the record, `keep_pads = false` in the filter leaves them out"
+            ),
+            Self::NothingMoves => f.write_str(
+                "nothing moves: the ground motion is zero throughout, no force acts, and the buildings start at rest in place; correct the record or its `process`, or add [[building.force]] or an initial displacement or velocity"
             ),
             Self::DampingInIsolator {
                 building,
@@ -382,6 +404,39 @@ impl Warning {
         warnings
     }
 
+    /// What can be said of ground motions, forces and initial state: that they leave all at
+    /// rest, or that the run ends before the ground shakes most.
+    #[must_use]
+    pub fn of_excitation(system: &System, options: &RunOptions) -> Option<Self> {
+        let in_use = system.motions_in_use();
+        let peaks = in_use.iter().map(|(place, motion, delay)| {
+            let mut peak = Peak::default();
+            for (i, a) in motion.samples.iter().enumerate() {
+                peak.raise(a.abs(), delay + motion.time_step * i as f64);
+            }
+            (place, peak)
+        });
+        let shaking: Vec<_> = peaks.filter(|(_, peak)| peak.value > 0.0).collect();
+        let pushed = system.forces().iter().any(|f| f.history.peak().value > 0.0);
+        let released = system.initial_state().iter().any(|x| *x != 0.0);
+        if shaking.is_empty() && !pushed && !released {
+            return Some(Self::NothingMoves);
+        }
+        let last = (shaking.into_iter()).max_by(|a, b| a.1.time.total_cmp(&b.1.time));
+        let ((place, peak), duration) = last.zip(options.duration)?;
+        Self::ends_before_peak(place, duration, peak.time)
+    }
+
+    /// The warning of a run of this duration (s) where the peak ground acceleration comes later (s).
+    #[must_use]
+    pub fn ends_before_peak(place: &str, duration: f64, peak: f64) -> Option<Self> {
+        (duration < peak).then(|| Self::EndsBeforePeak {
+            place: place.to_owned(),
+            duration,
+            peak,
+        })
+    }
+
     /// What can be said of it afterwards.
     pub(crate) fn after(
         system: &System,
@@ -470,6 +525,7 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
     if peak > GROUND_ACCELERATION * STANDARD_GRAVITY {
         warnings.push(Warning::GroundAcceleration { peak });
     }
+    warnings.extend(Warning::of_excitation(system, options));
     let duration = options.duration.unwrap_or_else(|| system.record_duration());
     let StepEstimate { steps, limit } = StepEstimate::new(system, &options.method, duration);
     if steps * system.degrees_of_freedom() as f64 > LONG_RUN {

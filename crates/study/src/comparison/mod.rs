@@ -23,8 +23,8 @@ use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
     Amplification, CaseUnderRecord, CheckError, CollapsedRecord, GapLevel, Progress, RecordDemand,
-    Repeated, amplification, beside_that_across, collapsed_building, in_parallel, levels, rebuilt,
-    stand_or_collapse, step_warnings, without_collapsed,
+    Repeated, amplification, beside_that_across, collapsed_building, excitation_warnings,
+    in_parallel, levels, rebuilt, stand_or_collapse, step_warnings, without_collapsed,
 };
 
 /// What is asked for.
@@ -247,6 +247,7 @@ pub fn compare_dealt(
     let copies = Repeated::among(records).warnings(&names);
     let warnings = warnings.chain(undamped(system, &references));
     let warnings = warnings.chain(copies).chain(step_warnings(records));
+    let warnings = warnings.chain(excitation_warnings(records));
     let warnings = warnings.chain(beside_that_across(case, records));
     let warnings = warnings.collect();
     let mut comparison = Comparison {

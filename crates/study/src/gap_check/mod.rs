@@ -41,7 +41,7 @@ pub(crate) use demand::levels;
 pub(crate) use parallel::in_parallel;
 #[cfg(feature = "results")]
 pub(crate) use records::across_of_another;
-pub(crate) use records::{beside_that_across, step_warnings};
+pub(crate) use records::{beside_that_across, excitation_warnings, of_each_record, step_warnings};
 pub use systems::rebuilt;
 
 use pounding_case::{Case, Separation};
@@ -356,6 +356,7 @@ pub fn gap_check_dealt(
             .map(ToString::to_string)
             .chain(repeated.warnings(&names))
             .chain(step_warnings(records))
+            .chain(excitation_warnings(records))
             .chain(beside_that_across(case, records))
             .collect(),
         repeated,

@@ -1,11 +1,13 @@
 //! One case under many records.
 
 use std::io::Read;
+use std::mem::discriminant;
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};
 use pounding_case::{Case, GroundMotion, Located};
 use pounding_ground_motion::Offset;
+use pounding_time_history::Warning;
 
 use super::error::CheckError;
 
@@ -26,6 +28,33 @@ pub(crate) fn step_warnings(records: &[CaseUnderRecord]) -> impl Iterator<Item =
         let text = record.assembly.accelerogram.unusual_time_step()?;
         Some(format!("{}: {text}", record.name))
     })
+}
+
+/// What the user should know of records in which nothing moves, or whose peak comes after the
+/// end of the run.
+pub(crate) fn excitation_warnings(records: &[CaseUnderRecord]) -> Vec<String> {
+    of_each_record(records.iter().filter_map(|record| {
+        let assembly = &record.assembly;
+        let warning = Warning::of_excitation(&assembly.system, &assembly.options)?;
+        Some((record.name.as_str(), warning))
+    }))
+}
+
+/// Warnings of one kind about records by their names: the first record of each kind, with how many are like it.
+pub(crate) fn of_each_record<'r>(found: impl Iterator<Item = (&'r str, Warning)>) -> Vec<String> {
+    let mut kinds: Vec<(&str, Warning, usize)> = Vec::new();
+    for (name, warning) in found {
+        let same = |k: &&mut (&str, Warning, usize)| discriminant(&k.1) == discriminant(&warning);
+        match kinds.iter_mut().find(same) {
+            Some(known) => known.2 += 1,
+            None => kinds.push((name, warning, 0)),
+        }
+    }
+    let told = kinds.into_iter().map(|(name, warning, more)| match more {
+        0 => format!("{name}: {warning}"),
+        _ => format!("{name}: {warning}; {more} more of the records are like it"),
+    });
+    told.collect()
 }
 
 /// What the user should know of records that stand beside the record across the row that the case

@@ -23,6 +23,8 @@ pub(crate) struct Motion {
     pub sha256: String,
     /// Intensity as recorded, if the study scales to one.
     pub intensity: Option<f64>,
+    /// Time of its peak acceleration (s).
+    pub peak_time: f64,
 }
 
 /// All motions; those that cannot be read with the reason.
@@ -164,6 +166,7 @@ pub(crate) fn motion(
     };
     Ok(Motion {
         intensity: measure.map(|m| m.of(&record)).transpose()?,
+        peak_time: record.peak().time,
         record: Some(Arc::new(record)),
         sha256,
     })

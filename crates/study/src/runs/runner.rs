@@ -10,7 +10,7 @@ use pounding_assembly::{
 use pounding_case::{Case, CaseTree};
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{
-    GroundAcceleration, RunOptions, System, TimeHistoryError, isolated_demand, run,
+    GroundAcceleration, RunOptions, System, TimeHistoryError, Warning, isolated_demand, run,
 };
 use sha2::{Digest, Sha256};
 
@@ -18,9 +18,9 @@ use super::cache::Cache;
 use super::motions::{Motion, Motions};
 use super::varied::leave_out_varied;
 use super::{Ending, ID, Layout, Row};
-use crate::case_text::{Edit, Lines, Variant, apply, canonical};
+use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
 use crate::error::StudyError;
-use crate::gap_check::Repeated;
+use crate::gap_check::{Repeated, of_each_record};
 use crate::study_file::{IntensityMeasure, RecordKind, Study, Target, Value, beside_that_across};
 use pounding_files::checksum::hexadecimal;
 
@@ -101,6 +101,12 @@ impl<'s> Runner<'s> {
             )
         }));
         warnings.extend(beside_that_across(study));
+        let told = motions.all.iter().zip(&study.records);
+        warnings.extend(of_each_record(told.filter_map(|(motion, source)| {
+            let (duration, peak) = (duration_of_case(study)?, motion.as_ref().ok()?.peak_time);
+            let warning = Warning::ends_before_peak("", duration, peak)?;
+            Some((source.name.as_str(), warning))
+        })));
         if !missing.is_empty() {
             warnings.push(format!(
                 "[output] chooses {}, which no building or gap of this study has",
@@ -335,6 +341,17 @@ impl<'s> Runner<'s> {
         self.named_files.iter().for_each(|f| hash.update(f));
         hexadecimal(&hash.finalize())
     }
+}
+
+/// Duration (s) of the runs that the case gives; `None` where it is the record's, or varies.
+fn duration_of_case(study: &Study) -> Option<f64> {
+    let varied = study.variables.iter().any(|v| match &v.target {
+        Target::Entry { path, .. } => {
+            case_text::Path::parse("analysis.duration").is_ok_and(|p| p == *path)
+        }
+        _ => false,
+    });
+    study.base.analysis.duration.filter(|_| !varied)
 }
 
 /// Hashes of the files that a study names beside its records, each file once.

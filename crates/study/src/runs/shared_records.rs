@@ -46,6 +46,8 @@ struct Known {
     sha256: String,
     /// The bits of the intensity, so that none is lost.
     intensity: Option<u64>,
+    /// The bits of the time of the peak.
+    peak_time: u64,
 }
 
 impl SharedRecords {
@@ -87,6 +89,7 @@ impl SharedRecords {
             record: None,
             sha256: known.sha256.clone(),
             intensity: known.intensity.map(f64::from_bits),
+            peak_time: f64::from_bits(known.peak_time),
         })
     }
 
@@ -135,6 +138,7 @@ impl SharedRecords {
                 stamp,
                 sha256: motion.sha256.clone(),
                 intensity: motion.intensity.map(f64::to_bits),
+                peak_time: motion.peak_time.to_bits(),
             });
         }
         if self.list.records == before {

@@ -604,6 +604,28 @@ impl System {
         [own, across].map(|m| m.map(|m| &motions.motions[m]))
     }
 
+    /// The ground motions that move buildings, each with whose it is, in words, and when it
+    /// begins (s).
+    pub(crate) fn motions_in_use(&self) -> Vec<(String, &GroundAcceleration, f64)> {
+        let Some(motions) = &self.motions else {
+            return vec![(String::new(), &self.ground, 0.0)];
+        };
+        let mut found: Vec<Option<String>> = vec![None; motions.motions.len()];
+        for (building, support) in self.buildings.iter().zip(&motions.supports) {
+            let own = || format!(" under building {}", building.name());
+            let first = found[support.along].get_or_insert_with(own);
+            if support.along == 0 {
+                first.clear();
+            }
+            if let Some(across) = support.across {
+                found[across].get_or_insert_with(|| " across the row".to_owned());
+            }
+        }
+        let used = motions.motions.iter().zip(found);
+        used.filter_map(|(m, place)| Some((place?, &m.acceleration, m.delay)))
+            .collect()
+    }
+
     /// What moves and pushes the buildings beside the first ground motion, line by line, for
     /// the user.
     #[must_use]

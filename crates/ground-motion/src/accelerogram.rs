@@ -35,6 +35,8 @@ pub struct Origin {
     pub component: String,
     /// Unit of the values in the file, and who stated it.
     pub unit: String,
+    /// One such unit in SI, of counts the unit that they stand for; `None` without a file.
+    pub unit_in_si: Option<f64>,
     /// Time step (s) and who stated it.
     pub time_step: String,
     /// Number of samples in the header, if it has one.
@@ -161,6 +163,13 @@ impl Accelerogram {
         other.origin.clone_from(&self.origin);
         other.steps.clone_from(&self.steps);
         Ok(other)
+    }
+
+    /// Says in which unit (m/s2) the values of its file are.
+    pub(crate) fn read_in(&mut self, unit_in_si: f64) {
+        if let Some(origin) = &mut self.origin {
+            origin.unit_in_si = Some(unit_in_si);
+        }
     }
 
     /// Notes that these steps made it what it is.

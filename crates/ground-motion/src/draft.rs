@@ -180,6 +180,12 @@ impl Draft {
         self.missing();
         let (factor, quantity, symbol, unit_text) = self.unit(source)?;
         self.agrees_in_words(source, quantity, symbol)?;
+        // Counts are of no unit: they stand for values in one.
+        let stated = match &self.unit {
+            DraftUnit::Scaled { unit, .. } => unit.in_si(gravity(source.options.gravity)),
+            DraftUnit::Counts => 1.0,
+            _ => factor,
+        };
         let (sampling, step_text) = self.sampling(source)?;
         self.warn_of_step(source, &sampling);
         self.duration(source, &sampling)?;
@@ -207,6 +213,7 @@ impl Draft {
                 title: std::mem::take(&mut self.title),
                 component: std::mem::take(&mut self.component),
                 unit: unit_text,
+                unit_in_si: Some(stated),
                 time_step: step_text,
                 header_count: self.header_count,
                 processing: self.processing,

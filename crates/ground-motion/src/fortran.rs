@@ -1,7 +1,10 @@
-//! Fortran formats such as `(8F10.5)`: how many numbers per line, how wide each.
+//! Fortran formats such as `(8F10.5)`: how many numbers per line, how wide each, and what a number
+//! without a decimal point or without an exponent means.
 
 /// Widest line that a card image has.
 const WIDEST_LINE: usize = 512;
+/// Largest scale factor: no program prints another than 1 or 2.
+const MOST_SCALE: i32 = 20;
 
 /// Numbers of one width.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -12,6 +15,12 @@ pub(crate) struct Layout {
     pub width: usize,
     /// Blank columns before the first number of a line.
     pub margin: usize,
+    /// Blank columns before each number, which are of its width.
+    pub gap: usize,
+    /// Digits that are decimals where a number has no point: `-241` under F10.5 is -0.00241.
+    decimals: i32,
+    /// Power of ten by which numbers without an exponent are printed larger: `kP`.
+    scale: i32,
 }
 
 impl Layout {
@@ -21,6 +30,34 @@ impl Layout {
             per_line,
             width,
             margin: 0,
+            gap: 0,
+            decimals: 0,
+            scale: 0,
+        }
+    }
+
+    /// Whether nothing but numbers stands on a line.
+    pub(crate) fn is_plain(self) -> bool {
+        self.margin == 0 && self.gap == 0
+    }
+
+    /// The value of a field that was read as a number with a point behind its digits.
+    pub(crate) fn value(self, field: &[u8], number: f64) -> f64 {
+        let plain = field.trim_ascii();
+        let has_exponent =
+            |(i, b): (usize, &u8)| b"eEdD".contains(b) || (i > 0 && matches!(b, b'+' | b'-'));
+        let mut power = 0;
+        if !plain.contains(&b'.') {
+            power += self.decimals;
+        }
+        if !plain.iter().enumerate().any(has_exponent) {
+            power += self.scale;
+        }
+        match power {
+            0 => number,
+            // Exact where the power is.
+            1.. => number / 10.0_f64.powi(power),
+            _ => number * 10.0_f64.powi(-power),
         }
     }
 
@@ -38,30 +75,66 @@ impl Layout {
         let per_line = points.len();
         let fits = decimals + 1 < width && margin + per_line * width <= WIDEST_LINE;
         (even && plain && blank && fits).then_some(Self {
-            per_line,
-            width,
             margin,
+            ..Self::new(per_line, width)
         })
     }
 
-    /// Parses `8F10.5`, `(10I8)`, `(1E15.6)`, `8(1PE10.4E1)`; `None` for anything
-    /// else, also for widths that no agency prints.
+    /// Parses `8F10.5`, `(10I8)`, `(1PE15.6)`, `1P5E14.6`, `2X,8F9.5`, `5(1X,E14.7)`,
+    /// `8(1PE10.4E1)`; `None` for anything else, also for widths that no agency prints and for
+    /// groups of two numbers. What follows the numbers is not looked at.
     pub(crate) fn parse(text: &str) -> Option<Self> {
-        let mut rest = text.trim().trim_start_matches('(').trim_start();
-        let per_line = leading_number(&mut rest).unwrap_or(1);
-        rest = rest.trim_start_matches(['(', ' ']);
-        let scaled = rest.to_ascii_uppercase();
-        if let Some(after) = scaled.strip_prefix("1P") {
-            rest = &rest[rest.len() - after.len()..];
+        let upper = text.to_ascii_uppercase();
+        let mut rest = upper.trim().trim_start_matches('(').trim_start();
+        let mut layout = Self::new(1, 0);
+        let mut group = None;
+        loop {
+            let negative = rest.strip_prefix('-');
+            rest = negative.unwrap_or(rest);
+            let number = leading_number(&mut rest);
+            let mut letters = rest.chars();
+            let kind = letters.next()?;
+            rest = letters.as_str();
+            match (kind, group) {
+                ('X', None) => layout.margin += number.unwrap_or(1).min(WIDEST_LINE),
+                ('X', Some(_)) => layout.gap += number.unwrap_or(1).min(WIDEST_LINE),
+                ('P', _) => {
+                    let power = i32::try_from(number?).ok().filter(|k| *k <= MOST_SCALE)?;
+                    layout.scale = if negative.is_some() { -power } else { power };
+                }
+                ('(', None) => group = Some(number.unwrap_or(1)),
+                ('I' | 'F' | 'E' | 'D' | 'G', _) if negative.is_none() => {
+                    // ES and EN are read as E.
+                    rest = match kind {
+                        'E' => rest.strip_prefix(['S', 'N']).unwrap_or(rest),
+                        _ => rest,
+                    };
+                    let width = leading_number(&mut rest).filter(|w| *w >= 3)?;
+                    if let Some(behind) = rest.strip_prefix('.') {
+                        rest = behind;
+                        let decimals = leading_number(&mut rest).filter(|d| *d <= width)?;
+                        layout.decimals = i32::try_from(decimals).ok()?;
+                    }
+                    if kind == 'I' {
+                        (layout.decimals, layout.scale) = (0, 0);
+                    }
+                    let other = rest.trim_start().starts_with(',');
+                    let uneven = layout.gap > 0 && number.is_some_and(|n| n > 1);
+                    if group.is_some() && (other || uneven) {
+                        return None;
+                    }
+                    layout.per_line = group.unwrap_or(1).checked_mul(number.unwrap_or(1))?;
+                    layout.width = layout.gap + width;
+                    break;
+                }
+                _ => return None,
+            }
+            rest = rest.trim_start_matches([' ', ',']);
         }
-        let kind = rest.chars().next()?.to_ascii_uppercase();
-        if !matches!(kind, 'I' | 'F' | 'E' | 'D' | 'G') {
-            return None;
-        }
-        rest = rest.get(1..)?;
-        let width = leading_number(&mut rest)?;
-        (width >= 3 && (1..=WIDEST_LINE).contains(&per_line) && per_line * width <= WIDEST_LINE)
-            .then_some(Self::new(per_line, width))
+        let fits = (1..=WIDEST_LINE).contains(&layout.per_line)
+            && layout.width <= WIDEST_LINE
+            && layout.margin + layout.per_line * layout.width <= WIDEST_LINE;
+        fits.then_some(layout)
     }
 
     /// The last format in parentheses in a line of text.
@@ -83,6 +156,7 @@ fn leading_number(rest: &mut &str) -> Option<usize> {
 
 #[cfg(test)]
 mod tests {
+    #![allow(clippy::unwrap_used)]
     use super::*;
 
     #[test]
@@ -94,9 +168,8 @@ mod tests {
             ("  12.000-100.066", 2, 8, 0),
         ] {
             let expected = Layout {
-                per_line,
-                width,
                 margin,
+                ..Layout::new(per_line, width)
             };
             assert_eq!(Layout::of_points(line.as_bytes()), Some(expected), "{line}");
         }
@@ -122,12 +195,15 @@ mod tests {
             ("8(1PE10.4E1)", 8, 10),
             ("8F9.6,I7", 8, 9),
             ("(E13.6)", 1, 13),
+            ("(1PE15.6)", 1, 15),
+            ("(1P5E14.6)", 5, 14),
+            ("1P,5E14.6", 5, 14),
+            ("5(1X,E14.7)", 5, 15),
+            ("2X,8F9.5", 8, 9),
+            ("6ES12.4", 6, 12),
         ] {
-            assert_eq!(
-                Layout::parse(text),
-                Some(Layout::new(per_line, width)),
-                "{text}"
-            );
+            let found = Layout::parse(text).map(|l| (l.per_line, l.width));
+            assert_eq!(found, Some((per_line, width)), "{text}");
         }
         for text in [
             "",
@@ -138,12 +214,41 @@ mod tests {
             "8F1.0",
             "99999999999999999999F10",
             "8A10",
+            "4(F8.3,F10.4)",
+            "5(1X,2E14.7)",
+            "F10.99",
         ] {
             assert_eq!(Layout::parse(text), None, "{text}");
         }
         assert_eq!(
             Layout::find(" 42000 acceleration pts, units=cm/sec2(04),Format=(1E15.6)"),
-            Some(Layout::new(1, 15))
+            Layout::parse("1E15.6")
         );
+    }
+
+    /// Fortran's rules for input: decimals are implied without a point, and a scale factor
+    /// counts without an exponent alone.
+    #[test]
+    fn numbers_without_point_or_exponent() {
+        for (format, field, value) in [
+            ("4F10.5", "      -241", -0.00241),
+            ("4F10.5", "   -0.0241", -0.0241),
+            ("4F10.0", "      -241", -241.0),
+            ("10I8", "    -241", -241.0),
+            ("(1PE15.6)", "   1.500000E-01", 0.15),
+            ("(1PE15.6)", "       1.500000", 0.15),
+            ("(1PE15.6)", "     1.500000-1", 1.5e-1),
+            ("2P8F9.3", "   12.500", 0.125),
+            ("-2P8F9.3", "   12.500", 1250.0),
+            ("(E12.4)", "     15000E2", 150.0),
+        ] {
+            let layout = Layout::parse(format).unwrap();
+            let read = match field.trim() {
+                "1.500000-1" => 0.15,
+                plain => plain.parse().unwrap(),
+            };
+            let found = layout.value(field.as_bytes(), read);
+            assert!((found / value - 1.0).abs() < 1e-15, "{format}: {found}");
+        }
     }
 }

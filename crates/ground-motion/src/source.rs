@@ -201,6 +201,17 @@ impl<'a> Source<'a> {
         })
     }
 
+    /// A number in a field of a Fortran format.
+    pub(crate) fn field(
+        &self,
+        line: Line<'_>,
+        column: usize,
+        field: &[u8],
+        layout: Layout,
+    ) -> Result<f64, GroundMotionError> {
+        Ok(layout.value(field, self.number(line, column, field)?))
+    }
+
     /// Refuses a file that ends in the middle of its last value: without an end of line, and
     /// without the exponent, or a digit of it, that all other values of the last two lines have,
     /// with as many decimals. `1.494E-02` cut after `1.494` or `1.494E-0` is a number too.
@@ -260,7 +271,7 @@ impl<'a> Source<'a> {
         if line.bytes.contains(&b'\t') {
             self.warn("tabs where columns must be: the rows were split at blanks and tabs");
             for (column, field) in line.fields() {
-                values.push(self.number(line, column, field)?);
+                values.push(self.field(line, column, field, layout)?);
             }
             return Ok(());
         }
@@ -299,7 +310,11 @@ impl<'a> Source<'a> {
                     "the file is damaged or truncated: get it again",
                 ));
             }
-            values.push(self.number(line, column, field)?);
+            if !field[..layout.gap].trim_ascii().is_empty() {
+                let message = format!("{} columns before each number must be blank", layout.gap);
+                return Err(self.error(line.number, column, message, REMEDY_VALUE));
+            }
+            values.push(self.field(line, column, field, layout)?);
         }
         Ok(())
     }

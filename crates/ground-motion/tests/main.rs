@@ -23,6 +23,7 @@ mod processing;
 mod pulses;
 mod raw_records;
 mod readers;
+mod rows_of_numbers;
 mod spectra;
 mod stated_durations;
 mod station_xml;

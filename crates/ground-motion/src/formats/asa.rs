@@ -228,7 +228,7 @@ fn columns(
                         "the file is damaged or truncated: get it again",
                     ));
                 }
-                None => source.number(line, at, field)?,
+                None => source.field(line, at, field, layout)?,
             };
             if column.len() < rows {
                 return Err(source.error(
@@ -496,7 +496,7 @@ impl Header {
                 }
             }
             k if k.starts_with("FORMATO DATOS") || k.starts_with("FORMATO DE LOS DATOS") => {
-                self.layout = Layout::parse(value);
+                self.layout = Layout::parse(value).filter(|l| l.is_plain());
             }
             k if k.starts_with("FACTOR DE DECIMACION") => {
                 self.decimation = number.filter(|n| *n >= 1.0 && n.fract() == 0.0);

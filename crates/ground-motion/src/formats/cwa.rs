@@ -175,7 +175,7 @@ fn header(lines: &mut Lines<'_>) -> Header {
                     .map(|n| n.split('(').next().unwrap_or(n).to_owned())
                     .collect();
             }
-            "data" => header.layout = Layout::parse(value),
+            "data" => header.layout = Layout::parse(value).filter(|l| l.is_plain()),
             "recordlength(sec)" => {
                 let stated = number::first_in(value).map(|l| l.0).filter(|l| *l > 0.0);
                 header.duration = stated.map(|seconds| StatedDuration {
@@ -219,7 +219,7 @@ fn row(
         ));
     }
     for (k, field) in line.bytes.chunks(layout.width).enumerate() {
-        let value = source.number(line, k * layout.width, field)?;
+        let value = source.field(line, k * layout.width, field, layout)?;
         match k.checked_sub(1) {
             None => times.push(value, field),
             Some(k) => values[k].push(value),

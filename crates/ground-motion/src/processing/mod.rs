@@ -36,7 +36,7 @@ pub enum OffsetCorrection {
 /// One step of processing. `T` is a band with its spectrum, as in [`Scale`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum ProcessingStep<T = BandTarget> {
-    /// The values, taken as m/s2, are in truth in this unit.
+    /// The values of the file are in truth in this unit, not in the one by which they were read.
     Unit(AccelerationUnit),
     /// Turns the sign.
     Sign,
@@ -149,10 +149,15 @@ impl ProcessingStep {
     ) -> Result<(Accelerogram, StepRecord), GroundMotionError> {
         match self {
             Self::Unit(unit) => {
+                // One that was made in memory is in m/s2.
+                let read = record.origin().and_then(|o| o.unit_in_si).unwrap_or(1.0);
+                let factor = unit.in_si() / read;
                 let step = StepRecord::new("unit")
-                    .number("factor", unit.in_si(), "-")
-                    .remark(format!("values are in {}", unit.symbol()));
-                Ok((times(record, unit.in_si())?, step))
+                    .number("factor", factor, "-")
+                    .remark(format!("values of the file are in {}", unit.symbol()));
+                let mut corrected = times(record, factor)?;
+                corrected.read_in(unit.in_si());
+                Ok((corrected, step))
             }
             Self::Sign => Ok((times(record, -1.0)?, StepRecord::new("sign"))),
             Self::Offset(offset) => remove_offset(record, *offset),

@@ -153,6 +153,13 @@ pub(super) fn parse(line: &Line<'_>) -> Option<Header> {
     })
 }
 
+/// Whether a line names so many components, without units: `NS EW UD`.
+pub(super) fn names_components(line: &Line<'_>, count: usize) -> bool {
+    cells(line).is_some_and(|cells| {
+        cells.names.len() == count && cells.names.iter().all(|name| is_component(&plain(name)))
+    })
+}
+
 /// Why a line that names columns is not the header of an acceleration.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Fault {

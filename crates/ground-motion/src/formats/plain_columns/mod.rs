@@ -176,6 +176,14 @@ fn numbers(source: &Source<'_>, header: Option<&Header>) -> Result<Vec<Series>, 
         if let Some(layout) = Layout::parse(text) {
             return fixed(source, layout);
         }
+        // No column has such a name.
+        if text.contains(['(', ')', '.']) {
+            return Err(GroundMotionError::Unsupported {
+                file: source.file.to_owned(),
+                what: format!("the Fortran format \"{text}\" is not understood"),
+                remedy: "give one of numbers of one width, such as \"8F10.5\", \"(1P5E14.6)\", \"2X,8F9.5\" or \"5(1X,E14.7)\"",
+            });
+        }
         let names: Vec<String> = text.split(',').map(|n| n.trim().to_owned()).collect();
         if names == ["a"] {
             let survey = Survey::new(source, true)?;
@@ -327,12 +335,18 @@ fn fixed(source: &Source<'_>, layout: Layout) -> Result<Vec<Series>, GroundMotio
     let mut samples = Vec::with_capacity(room);
     let mut first = 0;
     let mut last = 0;
-    for line in rows(source) {
+    let mut lines = rows(source).peekable();
+    while let Some(line) = lines.next() {
         first = if first == 0 { line.number } else { first };
         last = line.number;
         // What stands after the numbers, e.g. row numbers of cards, is not data.
-        let width = (layout.per_line * layout.width).min(line.bytes.len());
-        let bytes = &line.bytes[..width];
+        let width = layout.margin + layout.per_line * layout.width;
+        let mut bytes = &line.bytes[..width.min(line.bytes.len())];
+        if lines.peek().is_none() && line.bytes.len() > width {
+            // The last card may hold fewer numbers before its own.
+            let filled = bytes.trim_ascii_end().len().saturating_sub(layout.margin);
+            bytes = &bytes[..layout.margin + filled.next_multiple_of(layout.width)];
+        }
         source.row(Line { bytes, ..line }, layout, &mut samples)?;
     }
     let draft = Draft::new(samples, DraftUnit::Unstated, (first, first, last));

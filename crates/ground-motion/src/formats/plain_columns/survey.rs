@@ -1,10 +1,21 @@
 //! A first look at all rows: how many numbers, and how they are arranged.
 
-use super::rows;
+use super::{header, rows};
+use crate::draft::Times;
 use crate::error::GroundMotionError;
 use crate::number;
 use crate::source::Source;
 use crate::time_column::TimeColumn;
+
+/// Rows from which on a column that increases evenly is one of times: fewer values of a series
+/// along the rows may do so by chance.
+const EVEN_ROWS: usize = 4;
+/// Rows from which on a column that increases at all is one of times.
+const INCREASING_ROWS: usize = 20;
+/// Columns among which one of times is looked for.
+const TIME_AMONG: usize = 16;
+/// Values of a row that may be components: agencies print more of one series.
+const COMPONENTS: std::ops::RangeInclusive<usize> = 2..=3;
 
 /// How the numbers are arranged.
 pub(super) enum Arrangement {
@@ -123,18 +134,75 @@ impl Survey {
             return Ok(Arrangement::Wrapped);
         }
         if !short_last && self.first_is_time(source)? {
-            let names = match width {
-                2 => vec!["t".to_owned(), "a".to_owned()],
-                _ => std::iter::once("t".to_owned())
-                    .chain((2..=width).map(|k| format!("column_{k}")))
-                    .collect(),
+            return Ok(Arrangement::Columns(named(width, 0)));
+        }
+        let counts = self.rows > 2 && last_counts(source);
+        let mut times = Vec::new();
+        for k in 0..width.min(TIME_AMONG) {
+            if !(counts && k + 1 == width) && self.is_time(source, k)? {
+                times.push(k);
+            }
+        }
+        match (times.as_slice(), counts) {
+            ([], true) => Ok(Arrangement::Cards),
+            ([], false) => self.components(source, width),
+            ([k], false) => Ok(Arrangement::Columns(named(width, *k))),
+            ([k, ..], _) => Err(source.error(
+                self.first,
+                0,
+                format!(
+                    "the values of column {} increase as times do, and so do those of column {}",
+                    k + 1,
+                    times.get(1).map_or(width, |other| other + 1)
+                ),
+                "say what the columns are with `layout`, such as \"t,a\" or \"-,t,a\"; \"a\" if the values follow one another along the rows",
+            )),
+        }
+    }
+
+    /// One series along the rows, unless the rows may be those of several components.
+    fn components(
+        &self,
+        source: &Source<'_>,
+        width: usize,
+    ) -> Result<Arrangement, GroundMotionError> {
+        let before = source.lines().skip(source.options.skip_lines);
+        let before = before.take_while(|l| l.number < self.first).last();
+        let named = before.is_some_and(|l| header::names_components(&l, width));
+        if !named && !(COMPONENTS.contains(&width) && self.rows > EVEN_ROWS) {
+            return Ok(Arrangement::Wrapped);
+        }
+        Err(source.error(
+            self.first,
+            0,
+            format!(
+                "rows of {width} values, of which none is a time: {width} components beside one another, or one series along the rows?"
+            ),
+            "give `layout` with a name for each column, such as \"ns,ew\" or \"ns,ew,ud\" (`-` passes one over), and choose one by `component`; or \"a\" if the values follow one another along the rows",
+        ))
+    }
+
+    /// Whether the values of a column (from 0) increase evenly, or for long at all, as times do
+    /// wherever they start. A last row may be short.
+    fn is_time(&self, source: &Source<'_>, k: usize) -> Result<bool, GroundMotionError> {
+        let mut times = TimeColumn::with_capacity(0);
+        let mut before = f64::NEG_INFINITY;
+        let mut count = 0;
+        for line in rows(source) {
+            let Some((column, field)) = line.fields().nth(k) else {
+                continue;
             };
-            return Ok(Arrangement::Columns(names));
+            let column = column + source.options.skip_columns;
+            let time = source.number(line, column, field)?;
+            if !(time > before) {
+                return Ok(false);
+            }
+            before = time;
+            count += 1;
+            times.push(time, field);
         }
-        if width > 2 && self.rows > 2 && last_counts(source) {
-            return Ok(Arrangement::Cards);
-        }
-        Ok(Arrangement::Wrapped)
+        let even = || matches!(times.finish(&mut Vec::new()), Times::Step(Some(_)));
+        Ok(count >= INCREASING_ROWS || count >= EVEN_ROWS && even())
     }
 
     /// A first row of count and step, if the other rows bear it out.
@@ -186,6 +254,16 @@ impl Survey {
         let step = start[1] - start[0];
         Ok(start[0].abs() <= 0.01 * step || (start[0] - step).abs() <= 0.1 * step)
     }
+}
+
+/// Names of so many columns, of which one (from 0) holds the times.
+fn named(width: usize, time: usize) -> Vec<String> {
+    let name = |k: usize| match (k == time, width) {
+        (true, _) => "t".to_owned(),
+        (false, 2) => "a".to_owned(),
+        (false, _) => format!("column_{}", k + 1),
+    };
+    (0..width).map(name).collect()
 }
 
 /// Names numbers that touch as what is wrong with a row that has fewer fields than the others.

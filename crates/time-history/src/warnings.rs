@@ -408,7 +408,14 @@ impl Warning {
     /// rest, or that the run ends before the ground shakes most.
     #[must_use]
     pub fn of_excitation(system: &System, options: &RunOptions) -> Option<Self> {
-        let in_use = system.motions_in_use();
+        let mut in_use = system.motions_in_use();
+        in_use.retain(|(_, motion, _)| motion.samples.iter().any(|a| *a != 0.0));
+        let pushed = system.forces().iter().any(|f| f.history.peak().value > 0.0);
+        let released = system.initial_state().iter().any(|x| *x != 0.0);
+        if in_use.is_empty() && !pushed && !released {
+            return Some(Self::NothingMoves);
+        }
+        let duration = options.duration?;
         let peaks = in_use.iter().map(|(place, motion, delay)| {
             let mut peak = Peak::default();
             for (i, a) in motion.samples.iter().enumerate() {
@@ -416,14 +423,7 @@ impl Warning {
             }
             (place, peak)
         });
-        let shaking: Vec<_> = peaks.filter(|(_, peak)| peak.value > 0.0).collect();
-        let pushed = system.forces().iter().any(|f| f.history.peak().value > 0.0);
-        let released = system.initial_state().iter().any(|x| *x != 0.0);
-        if shaking.is_empty() && !pushed && !released {
-            return Some(Self::NothingMoves);
-        }
-        let last = (shaking.into_iter()).max_by(|a, b| a.1.time.total_cmp(&b.1.time));
-        let ((place, peak), duration) = last.zip(options.duration)?;
+        let (place, peak) = peaks.max_by(|a, b| a.1.time.total_cmp(&b.1.time))?;
         Self::ends_before_peak(place, duration, peak.time)
     }
 

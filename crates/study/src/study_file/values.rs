@@ -55,13 +55,23 @@ impl Values {
         match self {
             Self::Numbers(numbers) => super::Value::Number(numbers[index]),
             Self::Choices(_) => super::Value::Choice(index),
-            Self::Range { to, count, .. } => {
+            Self::Range {
+                from,
+                to,
+                count,
+                spacing,
+            } => {
                 let last = count.unwrap_or(2) - 1;
-                // The end is the number of the file to the last bit.
-                if index == last {
-                    return super::Value::Number(*to);
-                }
-                self.sample(index as f64 / last as f64)
+                let (before, after) = (index as f64, (last - index.min(last)) as f64);
+                super::Value::Number(match spacing {
+                    // The ends are the numbers of the file to the last bit.
+                    _ if index == 0 => *from,
+                    _ if index >= last => *to,
+                    Spacing::Linear => short((from * after + to * before) / last as f64),
+                    Spacing::Logarithmic => {
+                        short(from * libm::exp(before / last as f64 * libm::log(to / from)))
+                    }
+                })
             }
         }
     }
@@ -79,9 +89,18 @@ impl Values {
             } => super::Value::Number(match spacing {
                 Spacing::Linear => from + part * (to - from),
                 Spacing::Logarithmic if part == 0.0 => *from,
-                Spacing::Logarithmic => from * (part * (to / from).ln()).exp(),
+                Spacing::Logarithmic => from * libm::exp(part * libm::log(to / from)),
             }),
         }
+    }
+}
+
+/// A number of a grid without the round-off of its steps: the decimal number of 12 digits, if it lies
+/// as near as round-off does, so that 0.8 is what `0.8` is read as. Others stay as they are.
+fn short(x: f64) -> f64 {
+    match format!("{x:.11e}").parse() {
+        Ok(near) if f64::abs(near - x) <= 16.0 * f64::EPSILON * x.abs() => near,
+        _ => x,
     }
 }
 
@@ -321,6 +340,42 @@ mod tests {
         };
         assert!((middle - 0.1).abs() < 1e-15);
         assert_eq!(range(Spacing::Logarithmic).at(2), Number(1.0));
+    }
+
+    /// Whatever the ends and the count, values that are short decimals are the numbers that these
+    /// are read as, and all are in order.
+    #[test]
+    fn grids_have_short_decimals() {
+        let numbers = |from: f64, to: f64, count: usize, spacing| -> Vec<f64> {
+            let range = Values::Range {
+                from,
+                to,
+                spacing,
+                count: Some(count),
+            };
+            let numbers = (0..count).map(|i| match range.at(i) {
+                Number(x) => x,
+                Choice(_) => panic!("a range has numbers"),
+            });
+            numbers.collect()
+        };
+        let read = |text: String| text.parse::<f64>().unwrap();
+        for (digits, scale) in [(1, 10), (2, 100), (3, 1000), (4, 10_000)] {
+            for first in [0, 1, 2, 5, 7, 33] {
+                for step in [1, 2, 3, 5, 7, 25] {
+                    let at = |i: usize| first + i * step;
+                    let exact = |n: usize| read(format!("{}.{:0digits$}", n / scale, n % scale));
+                    let count = 41;
+                    let found = numbers(exact(at(0)), exact(at(40)), count, Spacing::Linear);
+                    let expected: Vec<f64> = (0..count).map(|i| exact(at(i))).collect();
+                    assert_eq!(found, expected, "{first} {step} {digits}");
+                }
+            }
+        }
+        let decades = numbers(1e-3, 1e3, 7, Spacing::Logarithmic);
+        assert_eq!(decades, [1e-3, 0.01, 0.1, 1.0, 10.0, 100.0, 1e3]);
+        let down = numbers(0.3, -0.3, 7, Spacing::Linear);
+        assert_eq!(down, [0.3, 0.2, 0.1, 0.0, -0.1, -0.2, -0.3]);
     }
 
     #[test]

@@ -2,12 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use pounding_files::checksum::hexadecimal;
 use pounding_files::{FileUse, LeftOver, PartFile, left_over};
 use pounding_results::{Kind, Label};
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
-
-use sha2::{Digest, Sha256};
 
 use crate::arguments::InputPath;
 use crate::failure::Failure;
@@ -93,8 +90,8 @@ pub struct Replaced<'r> {
     pub kind: Kind,
     /// The case or study file, if it is known.
     pub file: Option<&'r Path>,
-    /// The text of the study, if it is one.
-    pub text: Option<&'r str>,
+    /// SHA-256 of the text of the study, if it is one.
+    pub text_sha256: Option<String>,
     /// Whether the user has named the output.
     pub named: bool,
 }
@@ -137,8 +134,7 @@ impl Replaced<'_> {
         }
         let here = self.file.map(pounding_files::label::seen_from_here);
         let other = here.filter(|here| !found.file.is_empty() && found.file != *here);
-        let text = self.text.map(|text| hexadecimal(&Sha256::digest(text)));
-        let other_text = match (&found.study, &text) {
+        let other_text = match (&found.study, &self.text_sha256) {
             (Some(study), Some(text)) => study.text_sha256 != *text,
             _ => false,
         };

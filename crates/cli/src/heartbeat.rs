@@ -72,6 +72,8 @@ pub struct Heartbeat {
     began: Instant,
     last: Instant,
     beat: Beat,
+    /// What a call before this one told, if it completed the result.
+    done: Option<Beat>,
 }
 
 impl Heartbeat {
@@ -86,6 +88,7 @@ impl Heartbeat {
         };
         std::fs::create_dir_all(folder.join(FOLDER)).map_err(failed)?;
         let heartbeat = Self {
+            done: read(folder, shard).filter(|beat| beat.state == State::Done),
             path: path.clone(),
             began: Instant::now(),
             last: Instant::now(),
@@ -135,6 +138,19 @@ impl Heartbeat {
         (beat.failed, beat.collapsed) = (report.failed, report.collapsed);
         beat.remaining_seconds = Some(0.0);
         self.end(State::Done, "");
+    }
+
+    /// Tells that an error has ended it; where the result of a call before it stands all the same,
+    /// what that one told stays true.
+    pub fn failed(&mut self, message: &str, result_stands: bool) {
+        match self.done.take().filter(|_| result_stands) {
+            Some(done) => {
+                self.beat = done;
+                // As in `told`.
+                let _ = self.write();
+            }
+            None => self.end(State::Failed, message),
+        }
     }
 
     /// Tells how it ended.

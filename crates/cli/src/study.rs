@@ -7,12 +7,14 @@ use std::time::Duration;
 use pounding_case::Dimension;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_files::FileUse;
-use pounding_results::Kind;
+use pounding_files::checksum::hexadecimal;
+use pounding_results::{Kind, Label};
 use pounding_study::{
     Progress as Stand, Shard, Study, StudyError, StudyFileError, SweepOptions, SweepReport,
-    default_result, parts_folder, study_name, sweep as make, writable,
+    default_result, parts_folder, study_name, sweep as make, writable, writable_table,
 };
 use serde::Serialize;
+use sha2::{Digest, Sha256};
 
 use crate::arguments::{RunningArguments, ShardArguments, value};
 use crate::failure::Failure;
@@ -85,13 +87,13 @@ pub fn options(
         output: &output,
         kind: Kind::Study,
         file: Some(&study.file),
-        text: Some(&study.source),
+        text_sha256: Some(text_sha256(study)),
         named: running.output.is_some() || into.is_some(),
     };
     replaced.spared(running.resume || into.is_some())?;
     if let Some(csv) = &running.csv {
         no_result_stands(csv)?;
-        writable(csv)?;
+        writable_table(csv)?;
     }
     let seconds = value(&running.store_every, "store-every", Dimension::TIME)?;
     let store_every = Duration::try_from_secs_f64(seconds).map_err(|_| {
@@ -205,10 +207,22 @@ pub fn run(
             }
             // The process that is at work there says how far it is.
             Err(StudyError::Busy { .. }) => {}
-            Err(e) => heartbeat.end(State::Failed, &e.to_string()),
+            Err(e) => heartbeat.failed(&e.to_string(), stands(&options.output, study)),
         }
     }
     Ok(report?)
+}
+
+/// Whether a result of the study stands there as its file says it now: another record, or another
+/// case, makes it one of an earlier version, which no call replaces.
+fn stands(output: &Path, study: &Study) -> bool {
+    let found = Label::of(output).and_then(|label| label.study);
+    found.is_some_and(|found| found.text_sha256 == text_sha256(study))
+}
+
+/// SHA-256 of the text of a study.
+fn text_sha256(study: &Study) -> String {
+    hexadecimal(&Sha256::digest(&study.source))
 }
 
 fn show(progress: &Progress, now: &Stand) {
@@ -362,6 +376,7 @@ impl From<StudyError> for Failure {
             }
             StudyError::Base(error) => Self::assembly(error, ""),
             e @ (StudyError::Store { .. }
+            | StudyError::Table { .. }
             | StudyError::ResultFile(StudyFileError::File { what: "write", .. })) => {
                 Self::unwritten(e.to_string(), help)
             }

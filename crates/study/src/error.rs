@@ -53,6 +53,16 @@ pub enum StudyError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// The table of runs cannot be written.
+    #[error("cannot write {path}, the table of the runs: {source}")]
+    Table {
+        /// The table.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+        /// Whether runs of this call are stored, with which another one goes on.
+        stored: bool,
+    },
     /// A finished chunk cannot be stored; what was stored before stays.
     #[error(
         "cannot store runs in {folder}: {source}; {stored} of {} {} stored there and intact",
@@ -104,6 +114,14 @@ pub enum StudyError {
     /// The result of another shard in the place of that of this one.
     #[error("{path} is not replaced: {reason}")]
     OtherShard {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        reason: String,
+    },
+    /// A result in the place of a merged one that does not hold all of its shards.
+    #[error("{path} is not replaced: {reason}, and what is merged does not hold all of its runs")]
+    NotMerged {
         /// The file.
         path: PathBuf,
         /// What it is.
@@ -205,6 +223,12 @@ impl StudyError {
             Self::File { .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o"
             }
+            Self::Table { stored: false, .. } => {
+                "check that its folder exists, may be written to and has room, or name another table with --csv"
+            }
+            Self::Table { stored: true, .. } => {
+                "make room, or name another table with --csv; the runs that have finished are stored, and --resume goes on with them and writes the table"
+            }
             Self::Store { .. } => {
                 "make room, then go on with --resume: only the runs that are not stored are computed"
             }
@@ -220,6 +244,9 @@ impl StudyError {
             }
             Self::OtherShard { .. } => {
                 "name another result with -o, or give all shards one folder with --into, where each has a name of its own; move the file away if it is of no use"
+            }
+            Self::NotMerged { .. } => {
+                "name another result with -o, merge this one with the others, or move it away if it is of no use"
             }
             Self::Busy { .. } => "wait for it, or name another result with -o",
             Self::ResultFile(error) => error.help(),

@@ -82,4 +82,4 @@ pub use sweep::{
     writable,
 };
 #[cfg(feature = "results")]
-pub use table::RunTable;
+pub use table::{RunTable, writable_table};

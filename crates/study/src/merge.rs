@@ -3,9 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use pounding_files::FileUse;
-use pounding_results::study::{MergeOptions, ResultWriter, Shards};
+use pounding_results::Label;
+use pounding_results::study::{Description, MergeOptions, ResultWriter, Shards};
 
 use crate::error::StudyError;
+use crate::sweep::of_this_study;
 use crate::table::RunTable;
 
 /// What a merged result holds.
@@ -31,7 +33,8 @@ pub struct MergeReport {
 ///
 /// # Errors
 /// [`StudyError::FileUse`] if the output or the table is one of the files,
-/// as [`Shards::open`], or [`StudyError::ResultFile`].
+/// as [`Shards::open`], [`StudyError::NotMerged`] if runs of the study would be lost that stand
+/// in the place of the output alone, or [`StudyError::ResultFile`].
 pub fn merge(
     files: &[PathBuf],
     output: &Path,
@@ -55,6 +58,7 @@ pub fn merge(
         ..MergeReport::default()
     };
     let whole = shards.description();
+    spare_what_is_not_merged(whole, output)?;
     let mut writer = ResultWriter::create(output, whole, shards.count()?)?;
     let mut table = csv.map(|path| RunTable::create(path, whole)).transpose()?;
     shards.rows(|row, point| {
@@ -71,4 +75,26 @@ pub fn merge(
     }
     writer.finish()?;
     Ok(report)
+}
+
+/// A result of the study stays where it holds shards that these files do not: what has been
+/// computed is not lost by a wrong name.
+fn spare_what_is_not_merged(merged: &Description, output: &Path) -> Result<(), StudyError> {
+    let Some(found) = Label::of(output).and_then(|label| label.study) else {
+        return Ok(());
+    };
+    let held = merged.part.is_whole()
+        || found.part.count() == merged.part.count()
+            && found
+                .part
+                .shards()
+                .iter()
+                .all(|shard| merged.part.shards().contains(shard));
+    match found.sha256 == merged.study_sha256 && !held {
+        true => Err(StudyError::NotMerged {
+            path: output.to_owned(),
+            reason: of_this_study(&found.part),
+        }),
+        false => Ok(()),
+    }
 }

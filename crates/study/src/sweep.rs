@@ -425,7 +425,7 @@ fn other(found: &Description, wanted: &Description) -> Option<String> {
 }
 
 /// What holds these shards of this study.
-fn of_this_study(part: &Part) -> String {
+pub(crate) fn of_this_study(part: &Part) -> String {
     match part.is_whole() {
         true => "it is the result of the whole study".to_owned(),
         false => format!("it is {part} of this study"),

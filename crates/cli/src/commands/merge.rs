@@ -1,12 +1,12 @@
 //! `pounding merge`: one result from the results of shards.
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
-use pounding_results::Kind;
+use pounding_results::{Kind, Label};
 use pounding_study::{Fault, MergeOptions, Survey, ranges, survey, writable};
 use serde::Serialize;
 
@@ -21,14 +21,7 @@ pub fn merge(arguments: &MergeArguments, files: FileUse) -> Result<(), Failure> 
     let shards = shard_files(&arguments.shards)?;
     if let Some(output) = &arguments.output {
         writable(output)?;
-        let replaced = Replaced {
-            output,
-            kind: Kind::Study,
-            file: None,
-            text: None,
-            named: true,
-        };
-        replaced.spared(true)?;
+        replaced(output, None).spared(true)?;
     }
     let child = arguments.read_in_this_process;
     let without_checksum = match &arguments.output {
@@ -42,6 +35,17 @@ pub fn merge(arguments: &MergeArguments, files: FileUse) -> Result<(), Failure> 
     match &arguments.output {
         Some(output) => merged(arguments, &shards, output, without_checksum),
         None => checked(arguments, &shards, without_checksum),
+    }
+}
+
+/// What stands where shards of a study of this text are merged into.
+fn replaced(output: &Path, text_sha256: Option<String>) -> Replaced<'_> {
+    Replaced {
+        output,
+        kind: Kind::Study,
+        file: None,
+        text_sha256,
+        named: true,
     }
 }
 
@@ -69,9 +73,12 @@ fn looked_at(shards: &[PathBuf], files: &FileUse, child: bool) -> Result<Reading
 fn merged(
     arguments: &MergeArguments,
     shards: &[PathBuf],
-    output: &std::path::Path,
+    output: &Path,
     without_checksum: WithoutChecksum,
 ) -> Result<(), Failure> {
+    // Not before, where another process may read them, and say it once more.
+    let label = shards.first().and_then(|shard| Label::of(shard)?.study);
+    replaced(output, label.map(|study| study.text_sha256)).spared(false)?;
     let merged = pounding_study::merge(
         shards,
         output,

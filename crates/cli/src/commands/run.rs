@@ -38,7 +38,7 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
             output,
             kind: Kind::Run,
             file: Some(&arguments.case),
-            text: None,
+            text_sha256: None,
             named: arguments.output.is_some(),
         };
         replaced.spared(false)?;

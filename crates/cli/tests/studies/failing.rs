@@ -191,3 +191,32 @@ fn a_full_disk_loses_nothing_that_was_finished() {
     );
     assert!(bench.bytes("full.h5") == bench.bytes("whole.h5"));
 }
+
+/// A table that has no room is said to be the table, with its own option; the runs are stored, and
+/// a call that goes on writes it.
+#[test]
+fn a_table_without_room_loses_no_run() {
+    let bench = Bench::new(MIXED);
+    let (code, told) = bench.with_limit(20, "sweep study.toml -o full.h5 --csv full.csv");
+    assert_eq!(code, Some(4), "{told}");
+    for part in [
+        "cannot write full.csv, the table of the runs: File too large",
+        "name another table with --csv",
+        "--resume goes on",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    assert!(!told.contains("-o"), "{told}");
+    assert!(!bench.path("full.csv").exists());
+    bench.no_part_file();
+    bench.text("sweep study.toml -o full.h5 --csv full.csv --resume");
+    bench.text("sweep study.toml -o whole.h5 --csv whole.csv");
+    assert!(bench.bytes("full.csv") == bench.bytes("whole.csv"));
+    let told = bench.complaint("sweep study.toml -o new.h5 --csv nowhere/t.csv", 4);
+    assert!(
+        told.contains("cannot write nowhere/t.csv, the table of the runs"),
+        "{told}"
+    );
+    assert!(told.contains("name another table with --csv"), "{told}");
+    assert!(!bench.path("new.h5.parts").exists());
+}

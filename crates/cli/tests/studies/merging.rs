@@ -177,3 +177,55 @@ chunk = 2
 [ida]
 gaps = ["10 mm", "20 mm"]
 "#;
+
+/// What a merge does not hold stays, whatever name it is given: another shard, the whole, and more
+/// shards than are merged. What it holds is replaced, and a result of another study with a note.
+#[test]
+fn a_merge_replaces_no_runs_that_it_does_not_hold() {
+    let bench = Bench::new(MIXED);
+    shards(&bench, 3);
+    bench.text("sweep study.toml -o whole.h5");
+    bench.text("merge 2.h5 3.h5 --partial -o some.h5");
+    for (merged, stands, what) in [
+        ("1.h5 2.h5", "3.h5", "it is shard 3/3 of this study"),
+        ("1.h5", "whole.h5", "it is the result of the whole study"),
+        (
+            "1.h5 2.h5",
+            "some.h5",
+            "it is shards 2-3 of 3 of this study",
+        ),
+    ] {
+        let before = bench.bytes(stands);
+        let told = bench.complaint(&format!("merge {merged} --partial -o {stands}"), 2);
+        for part in [
+            stands,
+            "is not replaced",
+            what,
+            "name another result with -o",
+        ] {
+            assert!(told.contains(part), "{part}: {told}");
+        }
+        assert!(bench.bytes(stands) == before, "{stands}");
+    }
+    let whole = bench.bytes("whole.h5");
+    for stands in ["some.h5", "whole.h5"] {
+        let output = bench.run(&format!("merge 1.h5 2.h5 3.h5 -o {stands}"));
+        assert!(
+            output.status.success() && output.stderr.is_empty(),
+            "{output:?}"
+        );
+        assert!(bench.bytes(stands) == whole);
+    }
+    bench.study(&MIXED.replace("60 mm", "70 mm"));
+    bench.text("sweep study.toml -o other.h5");
+    let output = bench.run("merge 1.h5 2.h5 3.h5 -o other.h5");
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success());
+    assert_eq!(
+        told.matches("other.h5 is replaced, the result of another study")
+            .count(),
+        1,
+        "{told}"
+    );
+    assert!(bench.bytes("other.h5") == whole);
+}

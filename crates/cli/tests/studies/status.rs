@@ -170,3 +170,26 @@ fn what_cannot_be_merged_is_not_done() {
     let told = String::from_utf8(output.stdout).unwrap();
     assert!(told.contains("1 of 2 shards done"), "{told}");
 }
+
+/// A call that is refused since a record has changed leaves the finished shard, and what was told of
+/// it: no list of unfinished shards has it for ever.
+#[test]
+fn a_refused_call_leaves_a_shard_done() {
+    let bench = Bench::new(&MIXED.replace("MOTIONS/el_centro_1940_ns.csv", "own.csv"));
+    let record = super::root().join("ground_motions/el_centro_1940_ns.csv");
+    let mut text = std::fs::read_to_string(record).unwrap();
+    std::fs::write(bench.path("own.csv"), &text).unwrap();
+    for shard in 1..=3 {
+        bench.text(&format!(
+            "sweep study.toml --shard {shard}/3 --into all --keep-going"
+        ));
+    }
+    let before = bench.text("status all");
+    assert!(before.contains("3 of 3 shards done"), "{before}");
+    text.insert_str(0, "# Another event\n");
+    std::fs::write(bench.path("own.csv"), &text).unwrap();
+    let told = bench.complaint("sweep study.toml --shard 3/3 --into all --keep-going", 2);
+    assert!(told.contains("another version of this one"), "{told}");
+    assert_eq!(bench.text("status all"), before);
+    assert_eq!(bench.run("status all --unfinished").stdout, b"\n");
+}

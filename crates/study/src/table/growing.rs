@@ -24,7 +24,7 @@ impl<'s> GrowingTable<'s> {
     /// Begins the table with its header.
     ///
     /// # Errors
-    /// [`StudyError::File`].
+    /// [`StudyError::Table`].
     pub(crate) fn create(
         study: &'s Study,
         path: &Path,
@@ -40,10 +40,11 @@ impl<'s> GrowingTable<'s> {
     /// Adds the runs that have been stored since, up to the first that is not.
     ///
     /// # Errors
-    /// [`StudyError::File`] of the table, or of a stored run that cannot be read.
+    /// [`StudyError::Table`], or [`StudyError::File`] of a stored run that cannot be read.
     pub(crate) fn follow(&mut self, parts: &Parts) -> Result<(), StudyError> {
         while let Some(row) = self.rows.next(parts)? {
-            self.table.push(&row, &self.study.point(row.run))?;
+            let pushed = self.table.push(&row, &self.study.point(row.run));
+            pushed.map_err(with_stored_runs)?;
         }
         Ok(())
     }
@@ -54,6 +55,18 @@ impl<'s> GrowingTable<'s> {
     /// As [`follow`](Self::follow).
     pub(crate) fn finish(mut self, parts: &Parts) -> Result<(), StudyError> {
         self.follow(parts)?;
-        self.table.finish()
+        self.table.finish().map_err(with_stored_runs)
+    }
+}
+
+/// The rows of this table are those of stored runs.
+fn with_stored_runs(error: StudyError) -> StudyError {
+    match error {
+        StudyError::Table { path, source, .. } => StudyError::Table {
+            path,
+            source,
+            stored: true,
+        },
+        error => error,
     }
 }

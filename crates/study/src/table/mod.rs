@@ -38,7 +38,7 @@ impl RunTable {
     /// Begins a table with its header; units are SI and stand in brackets.
     ///
     /// # Errors
-    /// [`StudyError::File`].
+    /// [`StudyError::Table`].
     pub fn create(path: &Path, description: &Description) -> Result<Self, StudyError> {
         let refused = |e| failed(path, e);
         let part = PartFile::beside(path).map_err(refused)?;
@@ -69,7 +69,7 @@ impl RunTable {
     /// Adds a run.
     ///
     /// # Errors
-    /// [`StudyError::File`].
+    /// [`StudyError::Table`].
     pub fn push(&mut self, row: &Row, point: &[Value]) -> Result<(), StudyError> {
         let mut cells = vec![Cell::Whole(i64::try_from(row.run).unwrap_or(i64::MAX))];
         cells.extend(
@@ -102,7 +102,7 @@ impl RunTable {
     /// Brings the table to its place.
     ///
     /// # Errors
-    /// [`StudyError::File`].
+    /// [`StudyError::Table`].
     pub fn finish(self) -> Result<(), StudyError> {
         let written = match self.writer {
             Writer::Csv(mut csv) => csv.flush(),
@@ -144,11 +144,21 @@ fn kinds(d: &Description) -> Vec<Cell> {
 }
 
 fn failed(path: &Path, source: std::io::Error) -> StudyError {
-    StudyError::File {
-        what: "write",
+    StudyError::Table {
         path: path.to_owned(),
         source,
+        stored: false,
     }
+}
+
+/// Finds out before the runs, not after them, whether a path can be the place of a table.
+///
+/// # Errors
+/// [`StudyError::Table`] if it is a folder or a device, or its folder is not there or cannot be
+/// written to.
+pub fn writable_table(path: &Path) -> Result<(), StudyError> {
+    let part = PartFile::beside(path).map(drop);
+    part.map_err(|source| failed(path, source))
 }
 
 /// A number with all its digits; nothing for one that is missing.

@@ -17,11 +17,11 @@ pub fn agreeing<'w, N: PartialEq + From<u8>>(count: &N, one: &'w str, others: &'
 
 /// A text as a cell of a CSV table. Spreadsheets take what begins with `=`, `+`, `-`, `@`, a tab or a
 /// carriage return for a formula, which may do anything: an apostrophe before it makes it a text. A
-/// number stays as it is.
+/// number stays as it is, and so does the sign `-` of what has no unit.
 #[must_use]
 pub fn cell(text: &str) -> Cow<'_, str> {
     let formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']);
-    match formula && text.parse::<f64>().is_err() {
+    match formula && text != "-" && text.parse::<f64>().is_err() {
         true => Cow::Owned(format!("'{text}")),
         false => Cow::Borrowed(text),
     }
@@ -56,6 +56,7 @@ mod tests {
         }
         for text in [
             "",
+            "-",
             "-1.5",
             "+2",
             "-1e-9",

@@ -120,6 +120,8 @@ fn tables_and_files() {
     // Quantities of two buildings and a gap, then six storeys and three levels.
     assert_eq!(table.lines().count(), 1 + 2 * (2 * 4 + 6 + 6 * 4 + 3));
     assert!(table.contains("stereomechanical,el_centro_1940_ns,light-heavy,peak_force,N,NaN"));
+    // What has no unit is no formula of a spreadsheet.
+    assert!(table.contains("light-heavy,impacts,-,") && !table.contains("'-"));
     assert!(std::fs::read_to_string(svg).unwrap().contains("<svg"));
 }
 

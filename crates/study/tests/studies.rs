@@ -745,3 +745,22 @@ fn places_that_vary_are_left_out() {
     let heads: Vec<String> = levels.iter().map(|l| l.heading()).collect();
     assert_eq!(heads, labels);
 }
+
+/// What changes no result is no variable: its values would be coordinates of equal runs.
+#[test]
+fn variables_without_effect_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    for (path, values) in [
+        ("title", "[\"a\", \"b\"]"),
+        ("analysis.output_step", "[0.01, 0.02]"),
+    ] {
+        let text = format!("[[variable]]\nname = \"x\"\npath = \"{path}\"\nvalues = {values}\n");
+        let refused = study(folder.path(), &text).unwrap_err();
+        let said = refused.to_string();
+        assert!(
+            said.contains("study.toml:4")
+                && said.contains(&format!("`{path}` changes no result of a study")),
+            "{said}"
+        );
+    }
+}

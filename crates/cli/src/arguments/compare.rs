@@ -4,7 +4,7 @@ use super::{DealArguments, InputPath, OutputPath};
 
 use clap::ValueEnum;
 
-use super::figure::{FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, figure_file};
 use super::quantities::{number, positive_velocity};
 
 /// Arguments of `compare`.
@@ -34,7 +34,7 @@ pub struct CompareArguments {
     #[arg(long, value_name = "FILE")]
     pub csv: Option<OutputPath>,
     /// Draw peaks over the models into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file(), value_name = "FILE")]
+    #[arg(long, value_parser = figure_file(), group = FIGURES, value_name = "FILE")]
     pub plot: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,

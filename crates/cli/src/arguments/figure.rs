@@ -1,7 +1,7 @@
 //! Files of figures and how wide these are.
 
-use clap::Args;
 use clap::builder::{OsStringValueParser, TypedValueParser};
+use clap::{ArgGroup, Args};
 use pounding_case::Dimension;
 use pounding_report::{PAGE, PictureFormat};
 
@@ -11,11 +11,15 @@ use super::quantities::of_dimension;
 /// Widths (mm) at which text of a fixed size still leaves room for axes, and that a page holds.
 const WIDTHS: (f64, f64) = (60.0, 500.0);
 
+/// The arguments of a command that name files of figures.
+pub const FIGURES: &str = "figures";
+
 /// How figures are drawn.
 #[derive(Args, Clone, Copy, Debug)]
+#[command(group = ArgGroup::new(FIGURES).multiple(true))]
 pub struct FigureArguments {
     /// Width of the figure, such as "90 mm" for a column of a journal; its text is 8.5 pt
-    #[arg(long, value_name = "WIDTH", default_value = "190 mm", value_parser = width)]
+    #[arg(long, value_name = "WIDTH", default_value = "190 mm", value_parser = width, requires = FIGURES)]
     figure_width: Millimetres,
 }
 

@@ -2,7 +2,7 @@
 
 use super::{DealArguments, InputPath, OutputFolder, OutputPath};
 
-use super::figure::{FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, figure_file};
 use super::quantities::number;
 
 /// Arguments of `gap`.
@@ -69,10 +69,10 @@ pub struct GapArguments {
     #[arg(long, value_name = "FILE")]
     pub codes_csv: Option<OutputPath>,
     /// Draw amplification over the width into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file(), value_name = "FILE")]
+    #[arg(long, value_parser = figure_file(), group = FIGURES, value_name = "FILE")]
     pub plot: Option<OutputPath>,
     /// Draw the spectra of the records, their mean and the target of the scale into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file(), value_name = "FILE")]
+    #[arg(long, value_parser = figure_file(), group = FIGURES, value_name = "FILE")]
     pub spectra: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,

@@ -2,7 +2,7 @@
 
 use super::{InputPath, OutputFolder, OutputPath};
 
-use super::figure::{FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, figure_file};
 
 /// Arguments of `hysteresis`.
 #[derive(Debug, clap::Args)]
@@ -74,7 +74,7 @@ pub struct HysteresisArguments {
     #[arg(long, requires = "law")]
     pub csv: Option<OutputPath>,
     /// Draw the loop and the dissipation curve into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file(), requires = "law")]
+    #[arg(long, value_parser = figure_file(), group = FIGURES, requires = "law")]
     pub svg: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,

@@ -2,7 +2,7 @@
 
 use super::{InputPath, OutputPath};
 
-use super::figure::{FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, figure_file};
 
 use super::ImpactCommand;
 
@@ -76,7 +76,7 @@ pub struct ImpactArguments {
     #[arg(long)]
     pub csv: Option<OutputPath>,
     /// Draw the histories, or the table, into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file())]
+    #[arg(long, value_parser = figure_file(), group = FIGURES)]
     pub svg: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,

@@ -16,7 +16,7 @@ mod verification;
 use clap::{ArgAction, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 
-use figure::figure_file;
+use figure::{FIGURES, figure_file};
 
 pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
 pub use deal::DealArguments;
@@ -170,7 +170,7 @@ pub struct RunArguments {
     #[arg(long, conflicts_with = "output")]
     pub no_output: bool,
     /// Draw roof displacements and contact forces into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file())]
+    #[arg(long, value_parser = figure_file(), group = FIGURES)]
     pub plot: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,

@@ -4,7 +4,7 @@ use clap::ValueEnum;
 
 use super::{InputPath, OutputFolder, OutputPath};
 
-use super::figure::{FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, figure_file};
 
 /// Arguments of `sweep`.
 #[derive(Debug, clap::Args)]
@@ -175,7 +175,7 @@ pub struct StatusArguments {
 /// Arguments of `ida`.
 #[derive(Debug, clap::Args)]
 pub struct IdaArguments {
-    /// Study file (TOML) with a part `ida`
+    /// Study file (TOML) with a part `ida`; `sweep STUDY --show RUN` prints the case of a run
     pub study: InputPath,
     /// How it is run
     #[command(flatten)]
@@ -190,7 +190,7 @@ pub struct IdaArguments {
     #[arg(long, value_name = "FILE", conflicts_with = "shard")]
     pub table: Option<OutputPath>,
     /// Draw fragilities and frequencies into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file(), value_name = "FILE", conflicts_with = "shard")]
+    #[arg(long, value_parser = figure_file(), group = FIGURES, value_name = "FILE", conflicts_with = "shard")]
     pub plot: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,

@@ -365,3 +365,33 @@ fn the_other_kind_of_file_leads_to_its_command() {
         "{told}"
     );
 }
+
+/// Options that could do nothing are errors, not silence.
+#[test]
+fn options_without_use_are_refused() {
+    let bench = Bench::new(MIXED);
+    for call in [
+        "ida study.toml --figure-width 90mm",
+        "compare case.toml --figure-width 90mm",
+        "gap case.toml --figure-width 90mm",
+        "run case.toml --no-output --figure-width 90mm",
+    ] {
+        let told = bench.complaint(call, 2);
+        assert!(
+            told.contains("--plot <FILE>") || told.contains("--plot <PLOT>"),
+            "{call}: {told}"
+        );
+    }
+    for (option, value) in [("--from", "5mm"), ("--to", "5mm"), ("--gap", "light-heavy")] {
+        let told = bench.complaint(&format!("gap case.toml --points 0 {option} {value}"), 2);
+        let said = format!("without a sweep there is nothing that {option} could say");
+        assert!(told.contains(&said), "{told}");
+    }
+    bench.text("sweep study.toml -o out.h5");
+    let told = bench.complaint("report out.h5 --study study.toml -o out.html", 2);
+    assert!(
+        told.contains("study.toml has no [ida], of which --study makes the page"),
+        "{told}"
+    );
+    assert!(told.contains("leave --study away"), "{told}");
+}

@@ -81,6 +81,11 @@ impl Path {
         self.table() == "ground_motion" && !self.of_scale() && self.0.get(1) != Some(&across)
     }
 
+    /// Whether it leads to a title, or to what decides of histories alone, which a study does not keep.
+    pub(crate) fn without_effect(&self) -> bool {
+        ["title", "analysis.output_step"].contains(&&*self.to_string())
+    }
+
     /// Whether it leads to the elevations of floors.
     pub(crate) fn of_elevations(&self) -> bool {
         let heights = ["height", "elevations"];

@@ -361,6 +361,11 @@ fn path(reader: &Reader<'_>, text: &Located<String>) -> Option<Path> {
         let help = "make a case and a study for each number of storeys";
         return reader.refuse(text.span.clone(), message, help);
     }
+    if path.without_effect() {
+        let message = format!("`{}` changes no result of a study", text.value);
+        let help = "remove the variable";
+        return reader.refuse(text.span.clone(), message, help);
+    }
     Some(path)
 }
 

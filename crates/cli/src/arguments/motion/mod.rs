@@ -10,7 +10,7 @@ use clap::{Subcommand, ValueEnum};
 pub use generators::*;
 pub use steps::StepArguments;
 
-use super::figure::{FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, figure_file};
 
 /// What to do with recorded and synthetic motions.
 #[derive(Debug, Subcommand)]
@@ -104,7 +104,7 @@ pub struct InfoArguments {
     #[arg(long)]
     pub csv: Option<OutputPath>,
     /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file())]
+    #[arg(long, value_parser = figure_file(), group = FIGURES)]
     pub svg: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,
@@ -181,7 +181,7 @@ pub struct SpectrumArguments {
     #[arg(long)]
     pub csv: Option<OutputPath>,
     /// Draw the spectra into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file())]
+    #[arg(long, value_parser = figure_file(), group = FIGURES)]
     pub svg: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,
@@ -242,7 +242,7 @@ pub struct OutputArguments {
     #[arg(short, long)]
     pub output: OutputPath,
     /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
-    #[arg(long, value_parser = figure_file())]
+    #[arg(long, value_parser = figure_file(), group = FIGURES)]
     pub svg: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,

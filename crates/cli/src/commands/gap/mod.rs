@@ -132,6 +132,18 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
 fn options(arguments: &GapArguments) -> Result<GapCheckOptions, Failure> {
     let width = |text: &Option<String>, name| optional(text.as_deref(), name, Dimension::LENGTH);
     let (from, to) = (width(&arguments.from, "from")?, width(&arguments.to, "to")?);
+    let of_sweep = [
+        ("--from", &arguments.from),
+        ("--to", &arguments.to),
+        ("--gap", &arguments.gap),
+    ];
+    if let Some((name, _)) = of_sweep.iter().find(|(_, given)| given.is_some())
+        && arguments.points == 0
+    {
+        let help = format!("leave --points 0 away, or {name}");
+        let message = format!("without a sweep there is nothing that {name} could say");
+        return Err(Failure::input(message, Some(help)));
+    }
     let sweep = (arguments.points > 0).then(|| SweepOptions {
         gap: arguments.gap.clone(),
         from,

@@ -151,6 +151,15 @@ pub fn page_of_result(
             Some("the result has both texts, as its attributes `study` and `case`".to_owned()),
         ));
     }
+    if study.ida.is_none() {
+        return Err(Failure::input(
+            format!(
+                "{} has no [ida], of which --study makes the page",
+                study.file.display()
+            ),
+            Some("leave --study away: the page of a sweep needs none".to_owned()),
+        ));
+    }
     let report = evaluate(&study, result)?;
     write_page(output, &study, result, &report)
 }

@@ -102,6 +102,16 @@ fn what_cannot_be_is_refused_once_at_its_place() {
             "sways needs `mass`",
         ),
         (
+            "mass = 1e5\nrotational_inertia = 5e6\nsway = { stiffness = 1e9 }",
+            "5e6",
+            "`rotational_inertia` has no meaning beside `sway` alone",
+        ),
+        (
+            "mass = 2e5\nrotational_inertia = 5e6\nrocking = { stiffness = 1e9 }",
+            "2e5",
+            "`mass` has no meaning beside `rocking` alone",
+        ),
+        (
             "mass = 1e5\nrotational_inertia = 0\nrocking = { stiffness = 1e9 }",
             "0",
             "`rotational_inertia` = 0 must be greater than zero",

@@ -280,6 +280,11 @@ const WRONG: &[(&str, usize, &str)] = &[
         "must be a frequency",
     ),
     (
+        "process = [{ filter = { high_pass = 1, phase = \"causal\", keep_pads = false } }]",
+        23,
+        "`keep_pads` has no meaning beside phase = \"causal\"",
+    ),
+    (
         "process = [{ filter = { order = 4 } }]",
         23,
         "`high_pass`, `low_pass` or both",

@@ -72,6 +72,20 @@ fn mistakes_are_placed() {
         ("\"frame\"", "[\"frame\"]", 21, "one value per building"),
         ("\"0.25 g\"", "\"0.25 m\"", 24, "correct the unit"),
         ("same_owner = true", "same_owner = 1", 22, "true or false"),
+        ("same_owner = true", "ductility = 0.5", 22, "between 1"),
+        ("same_owner = true", "ductility = [4, 2000]", 22, "and 1000"),
+        (
+            "same_owner = true",
+            "fortification_intensity = 10",
+            22,
+            "6, 7, 8 or 9",
+        ),
+        (
+            "[\"asce_7_10_between\"]",
+            "[\"asce_7_10_between\", \"asce_7_10_between\"]",
+            25,
+            "names \"asce_7_10_between\" twice",
+        ),
     ] {
         let error = Case::parse(&CASE.replace(from, to), Path::new("case.toml")).unwrap_err();
         assert_eq!(error.line, line, "{error}");

@@ -189,6 +189,26 @@ impl FoundationTable {
         if lost {
             return None;
         }
+        let unused = [
+            (
+                self.rotational_inertia.span().filter(|_| !support.rocks()),
+                "`rotational_inertia` has no meaning beside `sway` alone: the foundation does not rock",
+                "remove it, or add `rocking = { ... }`",
+            ),
+            // With a length, the mass is part of the weight that holds the foundation down.
+            (
+                self.mass
+                    .span()
+                    .filter(|_| !support.sways() && self.length.is_none()),
+                "`mass` has no meaning beside `rocking` alone without `length`: the foundation does not move",
+                "remove it, or add `sway = { ... }`, or `length`",
+            ),
+        ];
+        for (span, message, help) in unused {
+            if let Some(span) = span {
+                return reader.refuse(span, message, help);
+            }
+        }
         let length = match &support {
             Support::Soil(soil) => Some(soil.length),
             Support::Springs { .. } => self.length.number(),

@@ -277,6 +277,10 @@ impl Step {
                     let either = ["high_pass", "low_pass"];
                     return nothing(reader, span, "filter", either, help);
                 }
+                if let (Some(PhaseWord::Causal), Some(_)) = (&value.phase, value.keep_pads) {
+                    let message = "`keep_pads` has no meaning beside phase = \"causal\": such a filter puts no zeros at the ends";
+                    return reader.refuse(span, message, "remove `keep_pads`");
+                }
                 ProcessingStep::Filter(Butterworth {
                     order: value.order.map_or(4, |order| order.0),
                     high_pass: value.high_pass.map(f64::from),

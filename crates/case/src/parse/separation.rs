@@ -94,16 +94,38 @@ impl SeparationTable {
             let message = "`country` and `code` are both given";
             reader.refuse::<()>(country.span.clone(), message, help);
         }
+        let ductility_at = self.ductility.span();
+        let ductility = numbers(self.ductility);
+        let outside = |list: &Vec<f64>| list.iter().any(|d| !(1.0..=1.0e3).contains(d));
+        if let (Some(span), true) = (ductility_at, ductility.as_ref().is_some_and(outside)) {
+            let message = "`ductility` lies between 1, which is elastic, and 1000";
+            reader.refuse::<()>(span, message, "correct the value, such as ductility = 4");
+        }
+        let intensity_at = self.fortification_intensity.span();
+        let fortification_intensity = self.fortification_intensity.value().map(|c| c.0);
+        let unknown = fortification_intensity.is_some_and(|i| !(6..=9).contains(&i));
+        if let (Some(span), true) = (intensity_at, unknown) {
+            let message = "`fortification_intensity` is 6, 7, 8 or 9";
+            reader.refuse::<()>(span, message, "correct the value, such as 8");
+        }
+        let provisions = self.provisions.value().map(|names| names.into_list());
+        for (place, name) in provisions.iter().flatten().enumerate() {
+            let before = provisions.iter().flatten().take(place);
+            if before.into_iter().any(|other| other.value == name.value) {
+                let message = format!("`provisions` names \"{}\" twice", name.value);
+                reader.refuse::<()>(name.span.clone(), message, "remove one of them");
+            }
+        }
         Separation {
             response_modification: numbers(self.response_modification),
             displacement_amplification: numbers(self.displacement_amplification),
             importance: numbers(self.importance),
             yield_amplification: numbers(self.yield_amplification),
-            ductility: numbers(self.ductility),
+            ductility,
             structural_system: systems.and_then(|s| spread(reader, s, buildings, "building")),
             floors_aligned: self.floors_aligned.value(),
             same_owner: self.same_owner.value(),
-            fortification_intensity: self.fortification_intensity.value().map(|c| c.0),
+            fortification_intensity,
             soil_zone: self.soil_zone.located(),
             design_ground_acceleration: self.design_ground_acceleration.number(),
             seismic_coefficient: self.seismic_coefficient.number(),
@@ -117,7 +139,7 @@ impl SeparationTable {
             code: self.code.located(),
             country,
             date: self.date.located(),
-            provisions: self.provisions.value().map(|names| names.into_list()),
+            provisions,
             rules: self
                 .rule
                 .value()

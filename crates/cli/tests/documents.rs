@@ -381,7 +381,7 @@ fn the_examples_fit_the_schemas() {
     let value: Value = toml::from_str(of_page).unwrap();
     assert!(of_page.contains("records = [\"a.csv\", {") && fits(&value, &study));
     for wrong in [
-        "path = \"a\"\nvalues = [true, false]",
+        "path = \"a\"\nvalues = true",
         "records = [{ nmae = \"a\", file = \"b.csv\" }]",
         "path = \"a\"\nvalues = [{ stiffness = 1 }]",
     ] {

@@ -169,7 +169,8 @@ impl Survey {
         let before = source.lines().skip(source.options.skip_lines);
         let before = before.take_while(|l| l.number < self.first).last();
         let named = before.is_some_and(|l| header::names_components(&l, width));
-        if !named && !(COMPONENTS.contains(&width) && self.rows > EVEN_ROWS) {
+        let many = COMPONENTS.contains(&width) && self.rows > EVEN_ROWS;
+        if !(named || many) {
             return Ok(Arrangement::Wrapped);
         }
         Err(source.error(

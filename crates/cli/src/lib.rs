@@ -51,7 +51,7 @@ pub mod answers {
     pub use crate::faults::of_check;
     pub use crate::files::{Replaced, no_result_stands};
     pub use crate::separate::{Answer as AnswerOfChild, answered as answered_by_child};
-    pub use crate::study::Finished;
+    pub use crate::study::{Finished, text_sha256};
 }
 
 /// All commands with their arguments, as the program knows them.

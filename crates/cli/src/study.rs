@@ -221,7 +221,7 @@ fn stands(output: &Path, study: &Study) -> bool {
 }
 
 /// SHA-256 of the text of a study.
-fn text_sha256(study: &Study) -> String {
+pub fn text_sha256(study: &Study) -> String {
     hexadecimal(&Sha256::digest(&study.source))
 }
 

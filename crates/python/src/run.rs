@@ -297,7 +297,7 @@ impl Run {
             output: &path,
             kind: Kind::Run,
             file: self.case.own_file(),
-            text: None,
+            text_sha256: None,
             named: true,
         };
         let note = replaced.judged(false).map_err(Problem::from)?;

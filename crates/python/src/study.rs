@@ -9,7 +9,7 @@ use pounding_assembly::{assemble_with_record, process_record, scale_record};
 use pounding_cli::Failure;
 use pounding_cli::answers::{
     Analysis, AskedOfGaps, Check, Compared, Finished, Replaced, answered_by_child, of_check,
-    overridden,
+    overridden, text_sha256,
 };
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
@@ -72,7 +72,7 @@ fn run_study(
             output: &output,
             kind: Kind::Study,
             file: Some(&read.file),
-            text: Some(&read.source),
+            text_sha256: Some(text_sha256(&read)),
             named,
         };
         let note = replaced.judged(resume)?;

@@ -4,7 +4,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use pounding_assembly::{
-    Assembly, RecordFiles, assemble_sharing, assemble_with_record, process_record, scale_record,
+    Assembly, AssemblyError, RecordFiles, assemble_sharing, assemble_with_record, process_record,
+    scale_record,
 };
 use pounding_case::{Case, read_text};
 use pounding_cli::Failure;
@@ -72,9 +73,7 @@ impl PyCase {
         let case = self.case.as_ref();
         let made = match &self.motion {
             None => assemble_sharing(case, files),
-            Some(motion) => process_record(case, Accelerogram::clone(motion))
-                .and_then(|motion| scale_record(case, motion))
-                .and_then(|motion| assemble_with_record(case, &motion)),
+            Some(motion) => under_motion(case, motion),
         };
         made.map_err(|error| {
             let all = faults::with_all(error, case, self.motion.is_none());
@@ -185,6 +184,15 @@ impl PyCase {
         })
         .map_err(PyErr::from)
     }
+}
+
+/// The system of a case under a motion in memory, processed and scaled as the case says of records.
+///
+/// # Errors
+/// As of the case file, or what the motion does not allow.
+pub fn under_motion(case: &Case, motion: &Accelerogram) -> Result<Assembly, AssemblyError> {
+    let processed = process_record(case, motion.clone())?;
+    assemble_with_record(case, &scale_record(case, processed)?)
 }
 
 /// A value as JSON.

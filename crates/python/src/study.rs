@@ -5,7 +5,6 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use pounding_assembly::{assemble_with_record, process_record, scale_record};
 use pounding_cli::Failure;
 use pounding_cli::answers::{
     Analysis, AskedOfGaps, Check, Compared, Finished, Replaced, answered_by_child, of_check,
@@ -25,7 +24,7 @@ use pounding_study::{
 };
 use pyo3::prelude::*;
 
-use crate::case::{PyCase, json};
+use crate::case::{PyCase, json, under_motion};
 use crate::errors::{Problem, warn};
 use crate::motion::Motion;
 use crate::watch::{Watch, watched};
@@ -184,9 +183,7 @@ fn under(case: &PyCase, motions: &[(String, Record)]) -> Result<Vec<CaseUnderRec
                 let mut other = pounding_case::Case::clone(&case.case);
                 // As with records of files: for their own durations.
                 other.analysis.duration = None;
-                let assembly = process_record(&other, Accelerogram::clone(record))
-                    .and_then(|processed| scale_record(&other, processed))
-                    .and_then(|scaled| assemble_with_record(&other, &scaled))
+                let assembly = under_motion(&other, record)
                     .map_err(|e| case.problem(Failure::of_case(e, &other).within(name)))?;
                 all.push(CaseUnderRecord {
                     name: name.clone(),

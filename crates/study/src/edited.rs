@@ -61,8 +61,7 @@ fn one(text: &str, change: &Change) -> Result<String, (String, String)> {
         }
         Change::Model { gap, keys } => with_model(text, &path(gap)?, keys.clone())?,
         Change::Record { keys } => {
-            let [first, second] = KEPT;
-            with_motion(text, &["scale", first, second], keys.clone())?
+            with_motion(text, &[&["scale"][..], &KEPT].concat(), keys.clone())?
         }
     };
     Ok(apply(text, &edits))

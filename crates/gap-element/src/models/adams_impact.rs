@@ -102,7 +102,7 @@ const FULLY_DAMPED: [Transition; 2] = [
 
 /// Part of the penetration of full damping up to which a force that has let go does not return. There
 /// the spring exceeds the dashpot once more, for nanometres before the floors part and by less
-/// than a newton, just as they do.
+/// than a newton: the time with force ends where the force lets go, as with other laws.
 const NEAR_END: f64 = 1.0e-3;
 
 #[derive(Debug)]

@@ -201,11 +201,10 @@ pub fn compare_dealt(
         return Err(CheckError::NoGap);
     }
     let descriptors = descriptors(&options.models)?;
-    let total = records.len() + descriptors.len() * records.len();
+    let (looked_at, total) = (records.len(), records.len() * (1 + descriptors.len()));
     let tell = |done, _| progress(done, total);
     let (own, collapsed) = stand_or_collapse(records, options.threads, &tell)?;
     let (asked_for, records) = (records, &*without_collapsed(records, &collapsed));
-    let looked_at = asked_for.len();
     let total = looked_at + descriptors.len() * records.len();
     let wanted = (options.restitution, options.approach_velocity);
     let references = references(case, &records[0].assembly.system, &own, wanted)?;

@@ -299,7 +299,7 @@ fn runs(
             };
             let others = point.iter().enumerate();
             let others = others.filter(|(i, _)| *i != settings.intensity);
-            let key: Vec<u64> = others.map(|(_, value)| bits(value)).collect();
+            let key: Vec<u64> = others.map(|(_, value)| value.bits()).collect();
             let next = samples.len();
             if !row.ending.failed() && !row.ending.collapsed() {
                 for (undefined, demand) in undefined.iter_mut().zip(needs) {
@@ -323,14 +323,6 @@ fn runs(
         }
     }
     Ok((runs, undefined))
-}
-
-/// What tells values apart.
-fn bits(value: &Value) -> u64 {
-    match value {
-        Value::Number(x) => x.to_bits(),
-        Value::Choice(i) => *i as u64,
-    }
 }
 
 struct Evaluation<'a> {

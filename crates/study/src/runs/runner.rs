@@ -44,7 +44,7 @@ pub(crate) struct Runner<'s> {
     pub motions: Motions,
     pub layout: Layout,
     /// The floors that meet at its contact levels.
-    levels: Vec<FloorsThatMeet>,
+    levels: Vec<(String, [Option<usize>; 2])>,
     /// What the user should know of the case.
     pub warnings: Vec<String>,
     version: &'static str,
@@ -75,7 +75,8 @@ impl<'s> Runner<'s> {
         let averaged = assembly.warnings_of_buildings();
         let system = assembly.system;
         let mut layout = Layout::of(&system, study.isolated_demand);
-        let levels = floors_that_meet(&system);
+        let levels = floors_that_meet(&system).map(|(gap, sides)| (gap.to_owned(), sides));
+        let levels = levels.collect();
         let mut missing = Vec::new();
         if let Some(names) = &study.quantities {
             let has = |name: &&String| layout.quantities.iter().any(|q| q.name == name.as_str());
@@ -253,12 +254,12 @@ impl<'s> Runner<'s> {
         if found != expected {
             return Err(format!("the run has {found} storeys, the study {expected}"));
         }
-        let levels = floors_that_meet(&system);
-        if levels != self.levels {
+        let expected = || self.levels.iter().map(|(gap, sides)| (&**gap, *sides));
+        if !floors_that_meet(&system).eq(expected()) {
             return Err(format!(
                 "other floors meet in the run than in the case of the study, whose contact levels all results have: {} for {}; make a study of its own for each set of levels",
-                listed(&levels),
-                listed(&self.levels)
+                listed(floors_that_meet(&system)),
+                listed(expected())
             ));
         }
         let matrices = system
@@ -381,22 +382,21 @@ pub(super) fn named_files(study: &Study) -> Vec<String> {
 }
 
 /// A gap and the storeys on its left and right, from 1; `None` is a wall.
-type FloorsThatMeet = (String, [Option<usize>; 2]);
+type FloorsThatMeet<'s> = (&'s str, [Option<usize>; 2]);
 
 /// The floors that meet at each contact level.
-fn floors_that_meet(system: &System) -> Vec<FloorsThatMeet> {
+fn floors_that_meet(system: &System) -> impl Iterator<Item = FloorsThatMeet<'_>> {
     let gaps = system.gaps().iter();
-    let levels = gaps.flat_map(|gap| {
+    gaps.flat_map(|gap| {
         let levels = system.levels_of(gap).iter();
-        levels.map(|level| (gap.name.clone(), level.place.storeys))
-    });
-    levels.collect()
+        levels.map(|level| (&*gap.name, level.place.storeys))
+    })
 }
 
-fn listed(levels: &[FloorsThatMeet]) -> String {
+fn listed<'s>(levels: impl Iterator<Item = FloorsThatMeet<'s>>) -> String {
     let storey = |n: Option<usize>| n.map_or_else(|| "wall".to_owned(), |n| n.to_string());
-    let label = |(gap, sides): &FloorsThatMeet| format!("{gap} {}", sides.map(storey).join("-"));
-    let mut labels: Vec<String> = levels.iter().map(label).collect();
+    let label = |(gap, sides): FloorsThatMeet<'_>| format!("{gap} {}", sides.map(storey).join("-"));
+    let mut labels: Vec<String> = levels.map(label).collect();
     // Points of floors that turn in plan are levels of their own.
     labels.dedup();
     match labels.is_empty() {

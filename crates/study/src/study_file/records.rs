@@ -23,8 +23,7 @@ use toml::de::DeValue;
 use super::context::Context;
 use super::values::{Whole, all};
 use super::{RecordKind, RecordSource, Study, Target, Variable};
-use crate::case_text::KEPT;
-use crate::case_text::{Edit, Variant, with_motion};
+use crate::case_text::{Edit, KEPT, Variant, with_motion};
 use crate::gap_check::across_of_another;
 
 /// A record: the name of its file, or a table.

@@ -62,8 +62,8 @@ impl Driver<'_> {
     /// The first event inside a trial step that was cut at this one, or before any, if it is clearly
     /// over at the end. The interpolant of the whole step may have put events in another order, as
     /// where a law has a kink in it, and that of the cut one knows better; or this event hid another
-    /// one of its level. Its events are then those
-    /// of the finder.
+    /// one of its level, of which the finder keeps the first alone. The events of the finder are then
+    /// those of the cut step.
     pub(super) fn stepped_over(
         &mut self,
         segment: &Segment,

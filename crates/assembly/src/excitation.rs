@@ -7,7 +7,9 @@ use std::sync::{Mutex, PoisonError};
 use pounding_case::{
     BandSource, Case, CaseError, GivenFiles, GroundMotion, Located, SpectrumSource,
 };
-use pounding_ground_motion::processing::{BandTarget, ProcessingStep, Scale, process, rotate};
+use pounding_ground_motion::processing::{
+    BandTarget, ProcessingStep, Scale, distinct, process, rotate,
+};
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, Format, GroundMotionError, Quantity, ReadOptions,
@@ -96,7 +98,8 @@ fn read(
         };
         let other = files.read(case, &motion.file.value, &second)?;
         let span = rotation.second_component.span.clone();
-        record = rotate(&record, &other, rotation.angle)
+        record = distinct(&record, &other)
+            .and_then(|()| rotate(&record, &other, rotation.angle))
             .map_err(|e| case.error(span, e.to_string(), e.help()))?
             .first;
     }

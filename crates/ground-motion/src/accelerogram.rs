@@ -80,6 +80,8 @@ pub struct Accelerogram {
     samples: Arc<Vec<f64>>,
     time_step: f64,
     scale: f64,
+    /// Velocity (m/s) and displacement (m) at the first sample.
+    initial: Option<(f64, f64)>,
     origin: Option<Origin>,
     steps: Vec<StepRecord>,
 }
@@ -118,9 +120,22 @@ impl Accelerogram {
             samples: Arc::new(samples.into_iter().map(|a| a * factor).collect()),
             time_step,
             scale: 1.0,
+            initial: None,
             origin: None,
             steps: Vec::new(),
         })
+    }
+
+    /// Velocity (m/s) and displacement (m) at the first sample, where the file states them and the
+    /// record is still as it was read, but for its scale.
+    #[must_use]
+    pub fn initial(&self) -> Option<(f64, f64)> {
+        self.initial
+    }
+
+    pub(crate) fn with_initial(mut self, initial: Option<(f64, f64)>) -> Self {
+        self.initial = initial;
+        self
     }
 
     /// What is to be said of a time step that no accelerograph has: mostly one that is wrong by a
@@ -249,6 +264,7 @@ impl Accelerogram {
         }
         let mut scaled = self.clone();
         scaled.scale *= factor;
+        scaled.initial = self.initial.map(|(v, d)| (v * factor, d * factor));
         if factor != 1.0 {
             scaled.samples = Arc::new(self.samples.iter().map(|a| a * factor).collect());
         }

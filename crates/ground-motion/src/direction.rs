@@ -18,6 +18,8 @@ impl Direction {
     /// The direction that a component's name says; a letter before an azimuth is passed over, as
     /// in `L 50 deg`.
     pub(crate) fn parse(name: &str) -> Option<Self> {
+        // What stands in brackets explains it: `NS (north-south)`.
+        let name = name.split('(').next().unwrap_or(name);
         let upper = name.to_ascii_uppercase();
         let plain: String = upper
             .chars()
@@ -112,6 +114,7 @@ mod tests {
             ("L 50 deg", 50.0),
             ("T 140", 140.0),
             ("West", 270.0),
+            ("NS (north-south)", 0.0),
         ] {
             assert_eq!(
                 Direction::parse(name),

@@ -113,6 +113,8 @@ pub(crate) struct Draft {
     pub times: Times,
     pub samples: Vec<f64>,
     pub header_count: Option<usize>,
+    /// Numbers of the last row, where it is known: agencies fill it, and no surplus is longer.
+    pub last_row: Option<usize>,
     /// What the header counts, if not samples, in brackets after a blank.
     pub counted: String,
     /// Other counts that the header states, with their lines.
@@ -152,6 +154,7 @@ impl Draft {
             times: Times::Step(None),
             samples,
             header_count: None,
+            last_row: None,
             counted: String::new(),
             other_counts: Vec::new(),
             header_durations: Vec::new(),
@@ -274,7 +277,10 @@ impl Draft {
                 "header says {expected} samples, one more found and used"
             ));
         } else if found > expected {
-            if found - expected > ROW && !source.options.lenient {
+            let most = self
+                .last_row
+                .map_or(ROW, |row| row.saturating_sub(1).min(ROW));
+            if found - expected > most && !source.options.lenient {
                 return Err(source.error(
                     self.lines.1,
                     0,

@@ -30,6 +30,7 @@ mod quantity;
 mod recording;
 mod select;
 mod source;
+mod start_times;
 mod station_xml;
 mod step_record;
 mod text;

@@ -222,6 +222,64 @@ pub(crate) fn time_step(text: &str) -> Option<(f64, f64)> {
     })
 }
 
+/// What a number without a unit is, where a step or a rate is stated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Bare {
+    /// A step (s).
+    Step,
+    /// A rate (Hz).
+    Rate,
+}
+
+/// The time step (s) of a text in lower case that starts with it, or with a rate: in seconds, in
+/// milliseconds, or samples a second by the word behind the number; `None` where no number stands there.
+///
+/// # Errors
+/// Another word, or a decimal comma.
+pub(crate) fn step_or_rate(text: &str, bare: Bare) -> Result<Option<f64>, String> {
+    let text = text.trim_start();
+    let end = text.find([' ', ',', '\t', '(']).unwrap_or(text.len());
+    let (first, behind) = text.split_at(end);
+    let digit_follows = behind
+        .strip_prefix(',')
+        .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()));
+    if digit_follows && !first.is_empty() && first.bytes().all(|b| b.is_ascii_digit()) {
+        let number = &text[..end + 1 + behind[1..].find([' ', ',']).unwrap_or(behind.len() - 1)];
+        return Err(format!("the time step \"{number}\" has a decimal comma"));
+    }
+    // `100HZ`: the number ends where the word begins. An `e` alone is of the number.
+    let glued = first.len()
+        - first
+            .trim_start_matches(|c: char| !c.is_ascii_alphabetic() || "ed".contains(c))
+            .len();
+    let (number, word) = first.split_at(glued);
+    let word = match word {
+        "" => behind.trim_start_matches([' ', '\t']),
+        word => word,
+    };
+    let ends = |c: char| !(c.is_ascii_alphabetic() || c == '/');
+    let (word, after) = word.split_at(word.find(ends).unwrap_or(word.len()));
+    let Ok(value) = parse(number.as_bytes()) else {
+        return Ok(None);
+    };
+    let plain = match bare {
+        Bare::Step => value,
+        Bare::Rate => 1.0 / value,
+    };
+    Ok(Some(match word {
+        "hz" | "sps" | "samples/s" | "samples/sec" | "points/sec" => 1.0 / value,
+        "ms" | "msec" | "milliseconds" => 1.0e-3 * value,
+        "s" | "sec" | "secs" | "second" | "seconds" => value,
+        "" => plain,
+        // The next key.
+        _ if after.trim_start().starts_with('=') => plain,
+        _ => {
+            let word = word.to_ascii_uppercase();
+            return Err(format!("\"{word}\" is not a unit of a time step"));
+        }
+    }))
+}
+
 /// The time steps (s) of the sampling rates in a text, with one unit of their last printed
 /// digit: `200 samples/sec`, `100 pts/sec`, `200 sps`; in a text on sampling `200 Hz` and
 /// `200/sec` as well.

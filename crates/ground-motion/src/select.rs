@@ -190,7 +190,14 @@ fn ready(
         }
     };
     let mut origin = series.origin;
+    let mut initial = series.initial;
     if options.prepend_zero {
+        // The acceleration rises in a line from the zero to the first value.
+        initial = initial.map(|(velocity, displacement)| {
+            let before = velocity - 0.5 * time_step * samples[0];
+            let moved = time_step * (before + time_step * samples[0] / 6.0);
+            (before, displacement - moved)
+        });
         samples.insert(0, 0.0);
         origin
             .warnings
@@ -199,7 +206,7 @@ fn ready(
     let accelerogram =
         Accelerogram::new(samples, AccelerationUnit::MetrePerSecondSquared, time_step)
             .map_err(|e| GroundMotionError::Invalid(format!("{file}: {e}")))?;
-    Ok(accelerogram.with_origin(origin))
+    Ok(accelerogram.with_origin(origin).with_initial(initial))
 }
 
 /// The step that the user gives for an uneven series: not coarser than the

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
-use crate::number;
+use crate::number::{self, Bare};
 use crate::options::ReadOptions;
 use crate::text::{Line, Lines};
 
@@ -198,6 +198,23 @@ impl<'a> Source<'a> {
                 false => REMEDY_VALUE,
             };
             self.error(line.number, column, message, remedy)
+        })
+    }
+
+    /// The time step (s) of a text of a line that starts with it or with a rate.
+    pub(crate) fn step_or_rate(
+        &self,
+        line: Line<'_>,
+        text: &str,
+        bare: Bare,
+    ) -> Result<Option<f64>, GroundMotionError> {
+        number::step_or_rate(&text.to_ascii_lowercase(), bare).map_err(|message| {
+            self.error(
+                line.number,
+                0,
+                message,
+                "correct the header: the step is in seconds, as in `DT= .01000 SEC`, in milliseconds (MSEC), or a rate (HZ)",
+            )
         })
     }
 

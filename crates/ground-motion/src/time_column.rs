@@ -1,7 +1,9 @@
 //! Times printed beside the values.
 
 use crate::draft::Times;
+use crate::error::GroundMotionError;
 use crate::number;
+use crate::source::Source;
 
 /// A column of times as it is read.
 pub(crate) struct TimeColumn {
@@ -31,20 +33,54 @@ impl TimeColumn {
         self.printed.see(printed);
     }
 
+    /// Whether one step is between all of them, within their printed digits.
+    pub(crate) fn is_even(&self) -> bool {
+        even_step(&self.times, self.printed, self.unit).is_some()
+    }
+
     /// The even step, or the times themselves where they are not even within
-    /// their printed digits.
-    pub(crate) fn finish(self, warnings: &mut Vec<String>) -> Times {
+    /// their printed digits. `line` is that of the first one.
+    ///
+    /// # Errors
+    /// A zero that is to be put before a first value at time zero.
+    pub(crate) fn finish(
+        self,
+        source: &Source<'_>,
+        line: usize,
+        warnings: &mut Vec<String>,
+    ) -> Result<Times, GroundMotionError> {
+        let first = self.times.first().copied().unwrap_or(0.0);
+        let prepended = source.options.prepend_zero;
+        let mean = (self.times.last().map_or(0.0, |last| last - first)) / self.times.len() as f64;
+        if prepended && first.abs() <= 1.0e-3 * mean {
+            return Err(starts_at_zero(source, line));
+        }
         let Some(step) = even_step(&self.times, self.printed, self.unit) else {
-            return Times::Each(self.times);
+            return Ok(Times::Each(self.times));
         };
-        if self.times[0].abs() > 1.0e-3 * step {
+        let at_one_step = (first - step).abs() <= 0.1 * step;
+        if first.abs() > 1.0e-3 * step && !(prepended && at_one_step) {
+            let taken = match (prepended, at_one_step) {
+                (true, _) => format!("{step} s, after a zero"),
+                (false, true) => "0; `prepend_zero` keeps its time".to_owned(),
+                (false, false) => "0".to_owned(),
+            };
             warnings.push(format!(
-                "the first value is at {} s in the file and is taken at 0; `prepend_zero` keeps its time",
-                self.times[0]
+                "the first value is at {first} s in the file and is taken at {taken}"
             ));
         }
-        Times::Step(Some(step))
+        Ok(Times::Step(Some(step)))
     }
+}
+
+/// The error of a zero that would shift a record whose times start at zero.
+pub(crate) fn starts_at_zero(source: &Source<'_>, line: usize) -> GroundMotionError {
+    source.error(
+        line,
+        0,
+        "the first value is at 0 s in the file: a zero before it would shift the motion by a step",
+        "leave `prepend_zero` out (`--prepend-zero` with `pounding motion`): it is for files whose first value is at one time step",
+    )
 }
 
 /// The digits of a column: the most decimals and the most significant digits of any of its

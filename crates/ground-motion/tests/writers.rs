@@ -24,6 +24,7 @@ fn any_written() -> impl Strategy<Value = Written> {
         time_step: f64::from(step) * 1.0e-3,
         title,
         component: "N10E".to_owned(),
+        initial: None,
         processing: Processing::Unstated,
         remarks: vec!["Step: made up".to_owned()],
     })
@@ -123,6 +124,7 @@ fn what_cannot_be_written() {
         time_step: 0.01,
         title: String::new(),
         component: String::new(),
+        initial: None,
         processing: Processing::Unstated,
         remarks: Vec::new(),
     };

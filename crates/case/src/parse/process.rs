@@ -118,12 +118,12 @@ enum PhaseWord {
 enum BaselineTable {
     Acceleration {
         /// Degree, 0 to 5, of a polynomial that is fitted to the acceleration and taken off
-        acceleration: Count<0>,
+        acceleration: Count<0, 5>,
     },
     Velocity {
         /// Degree, 1 to 5, of a polynomial that is fitted to the velocity, whose derivative
         /// is taken off
-        velocity: Count<1>,
+        velocity: Count<1, 5>,
     },
     Start {
         /// Two segments: start t1 of the first (s)

@@ -82,6 +82,8 @@ struct Header {
     /// Samples (from 1) that have the peaks.
     peak_places: Entries,
     names: Entries,
+    /// Line and text of an orientation whose sense is minus.
+    reversed: Option<(usize, String)>,
     /// The columns' numbers and names just before the rows, with their line.
     column_numbers: Option<(Vec<String>, usize)>,
     column_names: Option<(Vec<String>, usize)>,
@@ -125,6 +127,14 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             0,
             format!("\"{text}\" is not a unit of acceleration"),
             "the lines UNIDADES DE LOS DATOS and ACEL. MAX. must name one, such as gal, or be blank: get the record again",
+        ));
+    }
+    if let Some((line, name)) = &header.reversed {
+        return Err(source.error(
+            *line,
+            0,
+            format!("the sense of \"{name}\" is minus: in which direction its positive values point is not known"),
+            "ask the agency whether the values must change their signs; change them if so, and write `;+`",
         ));
     }
     let names = header.names.texts();
@@ -471,7 +481,15 @@ impl Header {
                 }
                 &mut self.peaks
             }
-            k if k.starts_with("ORIENTACION C") => &mut self.names,
+            k if k.starts_with("ORIENTACION C") => {
+                let minus = |text: &&str| text.trim_end().ends_with(";-");
+                let reversed = value
+                    .split('/')
+                    .find(minus)
+                    .map(|t| (line.number, t.to_owned()));
+                self.reversed = self.reversed.take().or(reversed);
+                &mut self.names
+            }
             k => return self.take_single(line.number, k, value),
         };
         entries.take(line.number, first, value);

@@ -251,9 +251,9 @@ fn component(text: &[Line<'_>]) -> String {
         letter
     };
     let azimuth = text.iter().map(Line::text).find_map(|line| {
-        let (_, rest) = line.split_once("Azimuth")?;
-        let mut words = rest.split_whitespace();
-        words.find(|w| *w == letter)?;
+        let at = line.to_ascii_lowercase().find("azimuth")? + "azimuth".len();
+        let mut words = line.get(at..)?.split_whitespace();
+        words.find(|w| w.eq_ignore_ascii_case(&letter))?;
         let word = words.next()?;
         word.parse::<f64>().ok().map(|_| word.to_owned())
     });

@@ -110,7 +110,10 @@ fn channel(
     draft.start_time = text
         .iter()
         .map(Line::text)
-        .find_map(|l| Some(l.split_once("start time:")?.1.trim().to_owned()))
+        .find_map(|l| {
+            let at = l.to_ascii_lowercase().find("start time:")? + "start time:".len();
+            Some(l.get(at..)?.trim().to_owned())
+        })
         .unwrap_or_default();
     draft.peak = reals.get(64).map(|value| DraftPeak {
         value: (value, 5.0e-5 * value.abs()),
@@ -518,7 +521,7 @@ fn component(
     text: &[Line<'_>],
     integers: &HeaderNumbers,
 ) -> Result<String, GroundMotionError> {
-    let of_channel = |line: &&Line<'_>| line.bytes.starts_with(b"Sta Chan");
+    let of_channel = |line: &&Line<'_>| line.lower().starts_with("sta chan");
     let in_words = text.iter().find(of_channel).and_then(|line| {
         let text = line.columns(8, line.bytes.len());
         let name = text.split_once(':')?.1.split('(').next()?.trim().to_owned();

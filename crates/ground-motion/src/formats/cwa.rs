@@ -236,7 +236,7 @@ fn step(
     rate: Option<f64>,
     warnings: &mut Vec<String>,
 ) -> Result<f64, GroundMotionError> {
-    match times.finish(warnings) {
+    match times.finish(source, end + 1, warnings)? {
         Times::Step(Some(step)) => {
             if let Some(rate) = rate
                 && (step * rate - 1.0).abs() > 1.0e-3

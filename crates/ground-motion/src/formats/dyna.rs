@@ -20,6 +20,9 @@ struct Header {
     unit: Option<SeriesUnit>,
     quantity: Option<Quantity>,
     peak: Option<(f64, f64)>,
+    /// Unit in its key, and its line.
+    peak_unit: Option<SeriesUnit>,
+    peak_line: Option<usize>,
     peak_time: Option<(f64, f64)>,
     stream: String,
     station: String,
@@ -71,6 +74,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             "the header contradicts itself: get the record again",
         ));
     }
+    header.peak_agrees(source, &samples)?;
     let mut draft = Draft::new(samples, unit, (end, end + 1, lines.number()));
     draft.times = Times::Step(header.step);
     draft.header_count = header.count;
@@ -83,9 +87,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     draft.peak = header.peak.map(|value| DraftPeak {
         value,
         time: header.peak_time,
-        unit: None,
+        unit: header.peak_unit,
         shift: 0.0,
-        line: None,
+        line: header.peak_line,
         of_sign: false,
     });
     if header.late {
@@ -105,6 +109,30 @@ fn key_and_value(line: Line<'_>) -> Option<(String, String)> {
 }
 
 impl Header {
+    /// Refuses a peak that the samples have as they are printed, where its key has another unit
+    /// than they have: mg and cm/s2 differ by 2 %, which other peaks may.
+    fn peak_agrees(&self, source: &Source<'_>, samples: &[f64]) -> Result<(), GroundMotionError> {
+        let (Some((peak, digit)), Some(of_peak), Some(unit)) =
+            (self.peak, self.peak_unit, self.unit)
+        else {
+            return Ok(());
+        };
+        let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+        let as_printed = (largest - peak.abs()).abs() <= digit && peak != 0.0;
+        if !as_printed || of_peak == unit || of_peak.quantity != unit.quantity {
+            return Ok(());
+        }
+        Err(source.error(
+            self.peak_line.unwrap_or(1),
+            0,
+            format!(
+                "the samples have the peak of the header in {}, but UNITS is {}",
+                of_peak.symbol, unit.symbol
+            ),
+            "header lines contradict one another: get the record again",
+        ))
+    }
+
     fn take(
         &mut self,
         source: &Source<'_>,
@@ -162,7 +190,10 @@ impl Header {
             "LATE/NORMAL_TRIGGERED" => self.late = value.eq_ignore_ascii_case("LT"),
             "BASELINE_CORRECTION" | "FILTER_TYPE" => self.take_processing(value),
             k if k.starts_with("PGA_") || k.starts_with("PGV_") || k.starts_with("PGD_") => {
+                // `PGA_CM/S^2`, whatever the unit of the samples is.
                 self.peak = first;
+                self.peak_unit = SeriesUnit::parse(&k["PGA_".len()..]);
+                self.peak_line = Some(line.number);
             }
             k if k.starts_with("TIME_PG") => self.peak_time = first,
             _ => {}

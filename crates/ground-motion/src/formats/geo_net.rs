@@ -176,13 +176,9 @@ fn block(
     let step = header.reals.positive(26);
     draft.times = Times::Step(step);
     let component = header.text[12].text();
-    draft.component = component
-        .trim()
-        .trim_start_matches("Component")
-        .split_whitespace()
-        .next()
-        .unwrap_or_default()
-        .to_owned();
+    let mut words = component.split_whitespace().peekable();
+    words.next_if(|word| word.eq_ignore_ascii_case("component"));
+    draft.component = words.next().unwrap_or_default().to_owned();
     draft.title = format!(
         "{}; {}",
         header.text[1].columns(0, 14),

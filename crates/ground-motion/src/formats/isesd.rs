@@ -2,11 +2,11 @@
 //! `key: value`, comments, then blocks that start `->`.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftUnit, Times};
+use crate::draft::{Draft, DraftUnit, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
-use crate::number;
+use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::Source;
@@ -21,6 +21,8 @@ const LONGEST: usize = 260;
 #[derive(Default)]
 struct Header {
     step: Option<f64>,
+    /// Length of the record, with its line.
+    duration: Option<StatedDuration>,
     count: Option<usize>,
     units: Vec<SeriesUnit>,
     orientation: String,
@@ -49,7 +51,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut header = Header::default();
     while let Some(line) = lines.peek().filter(|l| !is_label(l)) {
-        header.take(line);
+        header.take(source, line)?;
         lines.next();
     }
     let mut series = Vec::new();
@@ -111,15 +113,25 @@ fn numbers<'a>(
 }
 
 impl Header {
-    fn take(&mut self, line: Line<'_>) {
+    fn take(&mut self, source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> {
         let text = line.text();
         let Some((key, value)) = text.split_once(':') else {
-            return;
+            return Ok(());
         };
         let value = value.trim();
         let first = number::first_in(value).map(|n| n.0);
         match key.trim().to_ascii_lowercase().as_str() {
-            "sampling period" => self.step = first.filter(|s| *s > 0.0),
+            "sampling period" => {
+                let step = source.step_or_rate(line, value, Bare::Step)?;
+                self.step = step.filter(|s| *s > 0.0);
+            }
+            "record length" => {
+                let seconds = first.filter(|s| *s > 0.0);
+                self.duration = seconds.map(|seconds| StatedDuration {
+                    seconds,
+                    line: Some(line.number),
+                });
+            }
             "number of samples" => {
                 self.count = first
                     .filter(|n| n.fract() == 0.0 && (1.0..1.0e9).contains(n))
@@ -136,6 +148,7 @@ impl Header {
             "time of first sample" => self.start = value.to_owned(),
             _ => {}
         }
+        Ok(())
     }
 
     fn draft(
@@ -164,6 +177,7 @@ impl Header {
             draft
         };
         draft.header_count = self.count;
+        draft.header_durations = self.duration.into_iter().collect();
         draft.component.clone_from(&self.orientation);
         draft.title.clone_from(&self.station);
         draft.start_time.clone_from(&self.start);

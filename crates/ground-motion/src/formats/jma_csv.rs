@@ -3,7 +3,7 @@
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
-use crate::number;
+use crate::number::Bare;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
@@ -23,7 +23,7 @@ fn matches(source: &Source<'_>) -> bool {
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
-    let (mut rate, mut unit) = (None, DraftUnit::Unstated);
+    let (mut step, mut unit) = (None, DraftUnit::Unstated);
     let (mut site, mut start) = (String::new(), String::new());
     let (header, names) = loop {
         let line = source.expect(&mut lines, "the line NS,EW,UD")?;
@@ -38,7 +38,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         };
         let (key, value) = (key.trim().to_ascii_lowercase(), value.trim());
         if key.starts_with("sampling") {
-            rate = number::first_in(value).map(|r| r.0).filter(|r| *r > 0.0);
+            let stated = source.step_or_rate(line, value, Bare::Rate)?;
+            step = stated.filter(|s| s.is_finite() && *s > 0.0);
         } else if key.starts_with("unit") {
             let word = value.split('(').next().unwrap_or_default();
             unit = SeriesUnit::parse(word).map_or(DraftUnit::Unstated, DraftUnit::Stated);
@@ -83,7 +84,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         let mut draft = Draft::new(samples, stated, ends);
         draft.component = name;
         draft.channel = series.len() + 1;
-        draft.times = Times::Step(rate.map(|r| 1.0 / r));
+        draft.times = Times::Step(step);
         draft.title.clone_from(&site);
         draft.start_time.clone_from(&start);
         series.push(draft.finish(source)?);

@@ -74,6 +74,6 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     let mut draft = Draft::new(samples, unit, (data, data + 1, lines.number()));
     draft.title = title;
-    draft.times = times.finish(&mut draft.warnings);
+    draft.times = times.finish(source, draft.lines.1, &mut draft.warnings)?;
     Ok(vec![draft.finish(source)?])
 }

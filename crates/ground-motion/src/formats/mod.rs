@@ -31,7 +31,7 @@ mod mini_seed_2;
 mod nsmn;
 mod peer_at2;
 mod plain_columns;
-mod pounding_csv;
+pub(crate) mod pounding_csv;
 mod sac;
 mod usgs_smc;
 

@@ -6,7 +6,7 @@ use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
-use crate::number;
+use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::Source;
@@ -59,6 +59,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let first = lines.number() + 1;
     // A value takes two bytes at least.
     let mut samples = Vec::with_capacity((lines.remaining() / 2 + 1).min(header.count + 1));
+    let mut last_row = 0;
     for line in lines.by_ref() {
         if line.is_text() {
             if line.lower().contains("end data") {
@@ -67,14 +68,18 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         } else if line.is_blank() {
             continue;
         }
+        let before = samples.len();
         for (column, field) in line.fields() {
             samples.push(source.number(line, column, field)?);
         }
+        last_row = samples.len() - before;
     }
     source.ends_whole()?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
     draft.times = Times::Step(header.step);
     draft.header_count = Some(header.count);
+    // One value a row has nothing to fill.
+    draft.last_row = Some(last_row).filter(|n| *n > 1);
     draft.processing = match header.text.first() {
         // Written by this program, which says so.
         Some(first) if first == RAW => Processing::Raw,
@@ -113,14 +118,7 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     {
         text.push(l.text().trim().to_owned());
     }
-    let (count, step) = counts(line).map_err(|word| {
-        source.error(
-            line.number,
-            0,
-            format!("\"{word}\" is not a unit of a time step"),
-            "correct the header: the step is in seconds, as in `DT= .01000 SEC`, in milliseconds (MSEC), or a rate (HZ)",
-        )
-    })?;
+    let (count, step) = counts(source, line)?;
     let Some(count) = count else {
         return Err(source.error(
             line.number,
@@ -149,45 +147,17 @@ fn quantities(text: &[String]) -> Vec<NamedQuantity> {
     text.iter().enumerate().filter_map(named).collect()
 }
 
-/// The step (s) behind `DT =`: in seconds, with or without the word, in milliseconds, or as a rate;
-/// another word is an error.
-fn step(lower: &str) -> Result<Option<f64>, String> {
-    let behind_key = || {
-        let at = lower.find("dt")? + "dt".len();
-        let rest = lower.get(at..)?.trim_start().strip_prefix('=')?;
-        Some(rest.trim_start())
-    };
-    let Some(rest) = behind_key() else {
-        return Ok(None);
-    };
-    let end = rest.find([' ', ',', '\t']).unwrap_or(rest.len());
-    let (first, behind) = rest.split_at(end);
-    // `100HZ`: the number ends where the word begins. An `e` alone is of the number.
-    let glued = first.len()
-        - first
-            .trim_start_matches(|c: char| !c.is_ascii_alphabetic() || "ed".contains(c))
-            .len();
-    let (number, word) = first.split_at(glued);
-    let word = match word {
-        "" => behind.trim_start_matches([' ', '\t']),
-        word => word,
-    };
-    let ends = |c: char| !(c.is_ascii_alphabetic() || c == '/');
-    let (word, after) = word.split_at(word.find(ends).unwrap_or(word.len()));
-    let Ok(value) = number::parse(number.as_bytes()) else {
-        return Ok(None);
-    };
-    Ok(Some(match word {
-        "hz" | "sps" | "samples/s" | "samples/sec" | "points/sec" => 1.0 / value,
-        "ms" | "msec" | "milliseconds" => 1.0e-3 * value,
-        "" | "s" | "sec" | "secs" | "second" | "seconds" => value,
-        // The next key.
-        _ if after.trim_start().starts_with('=') => value,
-        _ => return Err(word.to_ascii_uppercase()),
-    }))
+/// What stands behind `DT =`.
+fn behind_dt(lower: &str) -> Option<&str> {
+    let at = lower.find("dt")? + "dt".len();
+    let rest = lower.get(at..)?.trim_start().strip_prefix('=')?;
+    Some(rest.trim_start())
 }
 
-fn counts(line: Line<'_>) -> Result<(Option<usize>, Option<f64>), String> {
+fn counts(
+    source: &Source<'_>,
+    line: Line<'_>,
+) -> Result<(Option<usize>, Option<f64>), GroundMotionError> {
     let lower = line.lower();
     let after = |key: &str| {
         let at = lower.find(key)? + key.len();
@@ -195,7 +165,11 @@ fn counts(line: Line<'_>) -> Result<(Option<usize>, Option<f64>), String> {
         rest.trim_start().split([' ', ',', '\t']).next()
     };
     if let Some(count) = after("npts") {
-        return Ok((count.parse().ok(), step(&lower)?));
+        let step = match behind_dt(&lower) {
+            Some(text) => source.step_or_rate(line, text, Bare::Step)?,
+            None => None,
+        };
+        return Ok((count.parse().ok(), step));
     }
     let mut numbers = line.fields().filter_map(|(_, f)| number::parse(f).ok());
     let count = numbers
@@ -204,10 +178,12 @@ fn counts(line: Line<'_>) -> Result<(Option<usize>, Option<f64>), String> {
     Ok((count.map(|n| n as usize), numbers.next()))
 }
 
-/// Unit from the header's text: `IN UNITS OF G`, `The units are (g)`.
-fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionError> {
-    let all = header.text.join(" ").to_ascii_lowercase();
-    let stated = all.split("units").skip(1).find_map(|after| {
+/// Words of the line that says what the values are.
+const OF_VALUES: [&str; 2] = ["time series", "time history"];
+
+/// The unit that a text in lower case states: `in units of g`, `the units are (g)`.
+fn unit_in(lower: &str) -> Option<SeriesUnit> {
+    lower.split("units").skip(1).find_map(|after| {
         let after = after.trim_start();
         let word = after
             .strip_prefix("of")
@@ -216,8 +192,44 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
         let word = word.trim_start_matches([' ', '(', ':']);
         let end = word.find([' ', ',', ')', '\t', ';']).unwrap_or(word.len());
         SeriesUnit::parse(&word[..end])
-    });
-    if let Some(unit) = stated {
+    })
+}
+
+/// Unit from the header's text: that of the line that names the quantity of the values, such as
+/// `ACCELERATION TIME SERIES IN UNITS OF G`, before those of others.
+fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionError> {
+    let lower: Vec<String> = header.text.iter().map(|l| l.to_ascii_lowercase()).collect();
+    let all = lower.join(" ");
+    let stated = |of_values: bool| -> Vec<(usize, SeriesUnit)> {
+        let lines = lower.iter().enumerate();
+        lines
+            .filter(|(_, l)| !of_values || OF_VALUES.iter().any(|words| l.contains(words)))
+            .filter_map(|(i, l)| Some((i + 1, unit_in(l)?)))
+            .collect()
+    };
+    let mut units = stated(true);
+    if units.is_empty() {
+        units = stated(false);
+    }
+    if let [(first, unit), rest @ ..] = units.as_slice()
+        && let Some((line, other)) = rest.iter().find(|(_, other)| other != unit)
+    {
+        return Err(source.error(
+            *line,
+            0,
+            format!(
+                "the unit is {} here, but {} in line {first}",
+                other.symbol, unit.symbol
+            ),
+            "header lines contradict one another: a line such as `ACCELERATION TIME SERIES IN UNITS OF G` must say the unit of the values",
+        ));
+    }
+    // Words may go on in the next line.
+    let unit = units
+        .first()
+        .map(|(_, unit)| *unit)
+        .or_else(|| unit_in(&all));
+    if let Some(unit) = unit {
         return Ok(DraftUnit::Stated(unit));
     }
     let words = |q: Quantity| all.contains(&format!("{} time", q.name()));

@@ -5,15 +5,18 @@ use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
 use crate::number;
-use crate::quantity::SeriesUnit;
+use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
-use crate::time_column::TimeColumn;
+use crate::time_column::{TimeColumn, starts_at_zero};
 use crate::unit::AccelerationUnit;
 
 const REMEDY: &str = "the layout is in ground_motions/README.md; decimal commas need semicolons or tabs between the columns, also in the header";
 const START: &str = "time_s,acceleration_";
+/// Keys of velocity and displacement at the first sample.
+pub(crate) const INITIAL_VELOCITY: &str = "Initial velocity";
+pub(crate) const INITIAL_DISPLACEMENT: &str = "Initial displacement";
 
 /// `# Key: value` lines that mean something.
 #[derive(Default)]
@@ -26,6 +29,9 @@ pub(super) struct Keys {
     stage: Option<Processing>,
     /// Time step (s) and its line.
     step: Option<(usize, f64)>,
+    /// Velocity (m/s) and displacement (m) at the first sample.
+    initial_velocity: Option<f64>,
+    initial_displacement: Option<f64>,
 }
 
 pub(super) static FORMAT: Format = Format {
@@ -98,10 +104,18 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         (header.number, first, lines.number()),
     );
     draft.times = match step.or(source.options.time_step) {
+        // Each time was held against the step, from zero on.
+        Some(_) if source.options.prepend_zero => return Err(starts_at_zero(source, first)),
         Some(_) => Times::Step(step),
-        None => times.finish(&mut draft.warnings),
+        None => times.finish(source, first, &mut draft.warnings)?,
     };
     draft.component.clone_from(&keys.component);
+    if keys.initial_velocity.is_some() || keys.initial_displacement.is_some() {
+        draft.initial = Some((
+            keys.initial_velocity.unwrap_or(0.0),
+            keys.initial_displacement.unwrap_or(0.0),
+        ));
+    }
     let mut series = draft.finish(source)?;
     keys.report(&mut series.origin);
     Ok(vec![series])
@@ -209,10 +223,37 @@ impl Keys {
                 let number = value.strip_suffix('s').unwrap_or(value);
                 self.step = Some((line.number, source.number(line, 0, number.as_bytes())?));
             }
+            INITIAL_VELOCITY => {
+                self.initial_velocity = Some(initial(source, line, value, Quantity::Velocity)?);
+            }
+            INITIAL_DISPLACEMENT => {
+                let found = initial(source, line, value, Quantity::Displacement)?;
+                self.initial_displacement = Some(found);
+            }
             _ => {}
         }
         Ok(())
     }
+}
+
+/// A velocity (m/s) or a displacement (m) of a key line: a number and its unit.
+fn initial(
+    source: &Source<'_>,
+    line: Line<'_>,
+    value: &str,
+    quantity: Quantity,
+) -> Result<f64, GroundMotionError> {
+    let (number, unit) = value.split_once(' ').unwrap_or((value, ""));
+    let Some(unit) = SeriesUnit::parse(unit).filter(|unit| unit.quantity == quantity) else {
+        return Err(source.error(
+            line.number,
+            0,
+            format!("\"{value}\" is not a {quantity} with its unit"),
+            "write it as in `# Initial velocity: -0.0123 m/s` and `# Initial displacement: 0.002 m`",
+        ));
+    };
+    let gravity = AccelerationUnit::StandardGravity.in_si();
+    Ok(source.number(line, 0, number.as_bytes())? * unit.in_si(gravity))
 }
 
 fn unit_of_header(suffix: &str) -> Result<AccelerationUnit, GroundMotionError> {

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 
 use serde::Serialize;
 
-use crate::error::{GroundMotionError, positive, within};
+use crate::error::{GroundMotionError, bound, positive, within};
 
 /// An envelope.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -54,13 +54,24 @@ pub enum Envelope {
 }
 
 impl Envelope {
-    pub(crate) fn check(&self) -> Result<(), GroundMotionError> {
+    /// Refuses numbers out of range, for a motion of this duration (s).
+    pub(crate) fn check(&self, duration: f64) -> Result<(), GroundMotionError> {
         const STEP: &str = "envelope";
         match *self {
             Self::Constant | Self::HalfSine => {}
             Self::Ramped { rise, fall } => {
                 within(STEP, "rise", rise, 0.0, f64::MAX)?;
                 within(STEP, "fall", fall, 0.0, f64::MAX)?;
+                if rise + fall > duration * (1.0 + 1.0e-9) {
+                    return Err(GroundMotionError::NotPossible {
+                        step: STEP,
+                        reason: format!(
+                            "a rise of {rise} s and a fall of {fall} s do not fit into {} s: it would never reach one",
+                            bound(duration)
+                        ),
+                        remedy: "shorten rise and fall, or give the motion a longer duration",
+                    });
+                }
             }
             Self::Decay { rate } => {
                 positive(STEP, "rate", rate)?;

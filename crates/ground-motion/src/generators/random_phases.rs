@@ -46,7 +46,7 @@ impl<S: PowerSpectrum> StationaryMotion<S> {
     pub fn generate(&self, grid: TimeGrid, seed: u64) -> Result<Generated, GroundMotionError> {
         let count = grid.count()?;
         let step = self.spectrum.describe()?;
-        self.envelope.check()?;
+        self.envelope.check(grid.duration)?;
         let length = (2 * count).next_power_of_two();
         let apart = TAU / (length as f64 * grid.time_step);
         let mut noise = Noise::new(seed);

@@ -49,7 +49,7 @@ impl Sine {
             f64::MIN_POSITIVE,
             highest,
         )?;
-        self.envelope.check()?;
+        self.envelope.check(self.length)?;
         let samples = grid.sample_between((0.0, self.length), |t| {
             self.amplitude
                 * self.envelope.at(t, self.length)

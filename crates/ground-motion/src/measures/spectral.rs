@@ -1,5 +1,7 @@
 //! Measures taken from spectra.
 
+use std::f64::consts::TAU;
+
 use crate::accelerogram::Accelerogram;
 use crate::error::GroundMotionError;
 use crate::spectra::{Evaluation, fourier_spectrum, logarithmic_periods, response_spectrum};
@@ -37,9 +39,16 @@ pub(crate) fn measures(
         .map(short)
         .chain((1..=FURTHER_STEPS).map(long))
         .collect::<Vec<_>>();
-    let spectrum = response_spectrum(record, &periods, damping, evaluation)?;
     // Not shorter than the recurrence allows, for records with long steps.
-    let least = 0.01_f64.max(1.0e-3 * record.time_step());
+    let shortest = 1.0e-3 * record.time_step();
+    let least = 0.01_f64.max(shortest);
+    let rigid = periods.partition_point(|period| *period < shortest);
+    let spectrum = response_spectrum(record, &periods[rigid..], damping, evaluation)?;
+    // An oscillator of a shorter period moves with the ground.
+    let peak = record.peak().value;
+    let pseudo_acceleration = [vec![peak; rigid], spectrum.pseudo_acceleration].concat();
+    let of_rigid = periods[..rigid].iter().map(|period| peak * period / TAU);
+    let pseudo_velocity = [of_rigid.collect(), spectrum.pseudo_velocity].concat();
     let spread = logarithmic_periods(least, 10.0_f64.max(2.0 * least), 200)?;
     let wide = response_spectrum(record, &spread, damping, evaluation)?;
     let (mut predominant_period, mut most) = (0.0, 0.0);
@@ -49,10 +58,10 @@ pub(crate) fn measures(
         }
     }
     Ok(SpectralMeasures {
-        housner_intensity: trapezoid(&periods, &spectrum.pseudo_velocity),
+        housner_intensity: trapezoid(&periods, &pseudo_velocity),
         acceleration_spectrum_intensity: trapezoid(
             &periods[..=ACCELERATION_STEPS],
-            &spectrum.pseudo_acceleration,
+            &pseudo_acceleration[..=ACCELERATION_STEPS],
         ),
         mean_period: mean_period(record),
         predominant_period,

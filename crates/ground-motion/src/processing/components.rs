@@ -3,6 +3,7 @@
 use crate::accelerogram::Accelerogram;
 use crate::direction::Direction;
 use crate::error::{GroundMotionError, bound, within};
+use crate::start_times;
 use crate::step_record::StepRecord;
 
 const STEP: &str = "rotation";
@@ -23,7 +24,7 @@ pub struct RotatedPair {
     pub step: StepRecord,
 }
 
-/// Samples that both components have.
+/// Samples that both components have, which must start together.
 pub(crate) fn common_length(
     first: &Accelerogram,
     second: &Accelerogram,
@@ -36,7 +37,46 @@ pub(crate) fn common_length(
             "their time steps are {a} s and {b} s"
         )));
     }
+    starts_together(first, second)?;
     Ok(count)
+}
+
+/// Refuses components whose files state first samples at different times, as those of instruments
+/// that trigger on their own do. One that was cut or lengthened since starts elsewhere.
+fn starts_together(first: &Accelerogram, second: &Accelerogram) -> Result<(), GroundMotionError> {
+    let moved = |of: &Accelerogram| of.steps().iter().any(|s| matches!(s.step, "trim" | "pad"));
+    let (Some(a), Some(b)) = (first.origin(), second.origin()) else {
+        return Ok(());
+    };
+    match start_times::apart(&a.start_time, &b.start_time) {
+        Some(apart) if apart > 0.5 * first.time_step() && !(moved(first) || moved(second)) => {
+            Err(GroundMotionError::NotPossible {
+                step: STEP,
+                reason: format!(
+                    "the components do not start together: their first samples are at {} and {}",
+                    a.start_time, b.start_time
+                ),
+                remedy: "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, and use these files",
+            })
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Refuses a component beside itself, which has no second direction.
+///
+/// # Errors
+/// The same samples in both.
+pub fn distinct(first: &Accelerogram, second: &Accelerogram) -> Result<(), GroundMotionError> {
+    if first.samples() != second.samples() {
+        return Ok(());
+    }
+    let name = first.origin().map_or("", |o| o.component.as_str());
+    Err(GroundMotionError::NotPossible {
+        step: STEP,
+        reason: format!("both components are the same series, \"{name}\""),
+        remedy: "name two components of the record, `component` and `second_component`, or give the file of the other one",
+    })
 }
 
 /// The direction of a component, where its name says one and it was not turned since.
@@ -51,7 +91,7 @@ fn direction(of: &Accelerogram) -> Option<Direction> {
         return None;
     }
     // `H1` and `2` are numbers of components.
-    let name = origin.component.trim();
+    let name = origin.component.split('(').next()?.trim();
     let number = name.trim_start_matches(|c: char| c.is_ascii_alphabetic());
     if matches!(number.trim(), "1" | "2" | "3") {
         return None;

@@ -16,7 +16,7 @@ use crate::unit::AccelerationUnit;
 
 pub use baseline::{Baseline, SegmentWindow};
 pub use butterworth::{Butterworth, Phase};
-pub use components::{RotatedPair, fault_components, rotate};
+pub use components::{RotatedPair, distinct, fault_components, rotate};
 pub(crate) use components::{at_right_angles, common_length};
 pub use resampling::{Interpolation, to_even_steps};
 pub use scaling::{BandTarget, Scale, band_factor};
@@ -213,7 +213,10 @@ pub fn process(
 /// The record times a factor that is no scale: the samples were wrong before.
 fn times(record: &Accelerogram, factor: f64) -> Result<Accelerogram, GroundMotionError> {
     let samples = record.samples().iter().map(|a| a * factor).collect();
-    record.with_samples(samples, record.time_step())
+    let initial = record.initial().map(|(v, d)| (v * factor, d * factor));
+    Ok(record
+        .with_samples(samples, record.time_step())?
+        .with_initial(initial))
 }
 
 fn remove_offset(

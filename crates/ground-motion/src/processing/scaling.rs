@@ -32,7 +32,7 @@ pub enum Scale<T = BandTarget> {
     Factor(f64),
     /// To a peak ground acceleration (m/s2).
     PeakAcceleration(f64),
-    /// To a peak ground velocity (m/s) from zero initial velocity.
+    /// To a peak ground velocity (m/s), from the initial velocity of the file or from zero.
     PeakVelocity(f64),
     /// To a pseudo-acceleration at one period.
     SpectralAcceleration {
@@ -93,7 +93,8 @@ impl Scale {
             Self::Factor(factor) => Ok(*factor),
             Self::PeakAcceleration(target) => ratio(*target, record.peak().value),
             Self::PeakVelocity(target) => {
-                let motion = GroundMotion::of(record, 0.0, 0.0);
+                let (velocity, displacement) = record.initial().unwrap_or_default();
+                let motion = GroundMotion::of(record, velocity, displacement);
                 ratio(*target, motion.peak_velocity(linear).value)
             }
             Self::SpectralAcceleration {

@@ -28,6 +28,8 @@ pub struct Written {
     pub title: String,
     /// Component; empty if not known.
     pub component: String,
+    /// Velocity (m/s) and displacement (m) at the first sample of an acceleration, if known.
+    pub initial: Option<(f64, f64)>,
     /// What the agency did to it, if nothing was done to it since.
     pub processing: Processing,
     /// What else the header says: source, steps of processing.
@@ -54,6 +56,7 @@ impl Written {
             time_step: record.time_step(),
             title: origin.map_or(String::new(), |o| o.title.clone()),
             component: origin.map_or(String::new(), |o| o.component.clone()),
+            initial: record.initial(),
             processing: as_read.map_or(Processing::Unstated, |o| o.processing),
             remarks,
         }
@@ -81,6 +84,7 @@ impl Written {
             time_step,
             title: origin.title.clone(),
             component: series.component.clone(),
+            initial: series.initial,
             processing: origin.processing,
             remarks: origin
                 .history

@@ -33,7 +33,8 @@ pub fn write_peer_at2(series: &Written) -> String {
         Processing::Raw => writeln!(text, "{RAW}"),
         _ => writeln!(text, "{OTHER}"),
     };
-    let _ = writeln!(text, "{}, {}", line(&series.title), line(&series.component));
+    let title = format!("{}, {}", line(&series.title), line(&series.component));
+    let _ = writeln!(text, "{}", without_keys(&title));
     let _ = writeln!(text, "{words} TIME SERIES IN UNITS OF {unit}");
     let _ = writeln!(
         text,
@@ -48,6 +49,32 @@ pub fn write_peer_at2(series: &Written) -> String {
         text.push('\n');
     }
     text
+}
+
+/// Words of titles that readers of AT2 take for those of the header, and what says the same.
+const KEYS: [(&str, &str); 6] = [
+    ("npts", "count"),
+    ("points at equal spacing of", "points at even spacing of"),
+    ("units", "unit"),
+    ("time history", "time-history"),
+    ("time series", "time-series"),
+    ("=", ": "),
+];
+
+/// A title that says nothing of count, step, unit, quantity and peak, which stand in lines of
+/// their own.
+fn without_keys(title: &str) -> String {
+    KEYS.iter().fold(title.to_owned(), |text, (key, other)| {
+        let lower = text.to_ascii_lowercase();
+        let mut without = String::with_capacity(text.len());
+        let mut end = 0;
+        for (at, found) in lower.match_indices(key) {
+            without.push_str(&text[end..at]);
+            without.push_str(other);
+            end = at + found.len();
+        }
+        without + &text[end..]
+    })
 }
 
 /// Fortran's `1PE15.7`.

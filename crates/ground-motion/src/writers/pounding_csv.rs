@@ -4,6 +4,7 @@ use std::fmt::Write as _;
 
 use crate::accelerogram::Processing;
 use crate::error::GroundMotionError;
+use crate::formats::pounding_csv::{INITIAL_DISPLACEMENT, INITIAL_VELOCITY};
 use crate::writers::{Written, acceleration_only, line, number, time};
 
 /// The text of a file in our CSV layout: a comment header that says where the motion
@@ -25,6 +26,10 @@ pub fn write_pounding_csv(series: &Written) -> Result<String, GroundMotionError>
         Processing::Raw => text.push_str("# Stage: raw\n"),
         Processing::Corrected => text.push_str("# Stage: corrected\n"),
         Processing::Unstated => {}
+    }
+    if let Some((velocity, displacement)) = series.initial {
+        let _ = writeln!(text, "# {INITIAL_VELOCITY}: {} m/s", number(velocity));
+        let _ = writeln!(text, "# {INITIAL_DISPLACEMENT}: {} m", number(displacement));
     }
     for remark in &series.remarks {
         let _ = writeln!(text, "# {}", line(remark));

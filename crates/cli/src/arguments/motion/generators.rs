@@ -154,9 +154,9 @@ pub struct MakrisRoussosArguments {
     /// Type of the pulse
     #[arg(long = "type", value_enum, ignore_case = true)]
     pub pulse: PulseWord,
-    /// Cycles of type C
-    #[arg(long, default_value_t = 1)]
-    pub cycles: u32,
+    /// Cycles of type C [default: 1]
+    #[arg(long)]
+    pub cycles: Option<u32>,
     /// Amplitude of the velocity, such as "0.8 m/s"
     #[arg(long)]
     pub amplitude: String,
@@ -246,7 +246,12 @@ pub struct RezaeianDerKiureghianArguments {
     #[arg(long, requires = "magnitude")]
     pub shear_velocity: Option<String>,
     /// Mechanism
-    #[arg(long, value_enum, default_value = "strike_slip")]
+    #[arg(
+        long,
+        value_enum,
+        default_value = "strike_slip",
+        conflicts_with = "significant_duration"
+    )]
     pub mechanism: MechanismWord,
     /// Take the median parameters of the earthquake, not random ones of the seed
     #[arg(long, requires = "magnitude")]

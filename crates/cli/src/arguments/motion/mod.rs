@@ -135,24 +135,25 @@ pub struct SpectrumArguments {
     #[arg(long, conflicts_with = "fourier")]
     pub rotated: bool,
     /// The other component, for --rotated
-    #[arg(long, requires = "rotated")]
+    #[arg(long, requires = "rotated", conflicts_with = "code")]
     pub second_component: Option<String>,
     /// File of the other component [default: the same file]
-    #[arg(long, requires = "rotated")]
+    #[arg(long, requires = "rotated", conflicts_with = "code")]
     pub second_file: Option<InputPath>,
     /// Fourier amplitudes instead of responses
-    #[arg(long)]
+    #[arg(long, conflicts_with_all = ["damping", "at_samples"])]
     pub fourier: bool,
     /// Bandwidth coefficient b of Konno and Ohmachi (1998); smaller is smoother
     #[arg(
         long,
         requires = "fourier",
+        conflicts_with = "code",
         default_value = "40",
         allow_hyphen_values = true
     )]
     pub smoothing: String,
     /// Fourier amplitudes at every frequency of the transform, not smoothed
-    #[arg(long, requires = "fourier", conflicts_with_all = ["smoothing", "at", "from", "to", "count"])]
+    #[arg(long, requires = "fourier", conflicts_with_all = ["smoothing", "at", "from", "to", "count", "code"])]
     pub unsmoothed: bool,
     /// Periods (frequencies for --fourier), such as "0.2 s, 0.5 s, 1 s" [default: --from, --to, --count]
     #[arg(long, conflicts_with_all = ["from", "to", "count"], allow_hyphen_values = true)]

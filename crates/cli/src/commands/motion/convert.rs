@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use pounding_catalogue::numbers::six_digits;
 use pounding_catalogue::wording::counted;
 use pounding_ground_motion::writers::{
     Column, Written, write_peer_at2, write_plain_columns, write_pounding_csv,
@@ -80,6 +81,20 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
     if loses_stage {
         written.remarks.push(format!("Note: {RAW_IN_COLUMNS}"));
     }
+    let initial = written.initial.filter(|(v, d)| (*v, *d) != (0.0, 0.0));
+    let lost = initial.filter(|_| {
+        arguments.to != Layout::PoundingCsv && written.quantity == Quantity::Acceleration
+    });
+    let loses_initial = lost.map(|(velocity, displacement)| {
+        format!(
+            "velocity and displacement of the first sample, {} m/s and {} m, are not written, as the format has no place for them: integrals of the acceleration start at zero; pounding_csv holds them",
+            six_digits(velocity),
+            six_digits(displacement)
+        )
+    });
+    if let Some(warning) = &loses_initial {
+        written.remarks.push(format!("Note: {warning}"));
+    }
     plot::write(&arguments.output, &text)?;
     if arguments.json {
         return print(&pretty(&Converted {
@@ -104,6 +119,9 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
     }
     if loses_stage {
         text.push_str(&format!("warning: {RAW_IN_COLUMNS}\n"));
+    }
+    if let Some(warning) = &loses_initial {
+        text.push_str(&format!("warning: {warning}\n"));
     }
     text.push_str(&format!(
         "written to {} in {symbol}\n",

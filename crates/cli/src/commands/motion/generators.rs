@@ -92,11 +92,19 @@ pub fn velocity_pulse(a: &MavroeidisPapageorgiouArguments) -> Result<Generated, 
 
 /// A pulse of Makris and Roussos.
 pub fn trigonometric_pulse(a: &MakrisRoussosArguments) -> Result<Generated, Failure> {
+    if a.cycles.is_some() && a.pulse != PulseWord::C {
+        return Err(Failure::input(
+            "--cycles is of pulses of type C: those of types A and B have one",
+            Some("leave it out, or give --type c".to_owned()),
+        ));
+    }
     let motion = MakrisRoussos2000 {
         pulse: match a.pulse {
             PulseWord::A => PulseType::A,
             PulseWord::B => PulseType::B,
-            PulseWord::C => PulseType::C { cycles: a.cycles },
+            PulseWord::C => PulseType::C {
+                cycles: a.cycles.unwrap_or(1),
+            },
         },
         amplitude: value(&a.amplitude, "amplitude", Dimension::VELOCITY)?,
         period: time(&a.period, "period")?,

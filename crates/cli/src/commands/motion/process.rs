@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use pounding_assembly::read_target;
 use pounding_case::BandSource;
 use pounding_files::FileUse;
-use pounding_ground_motion::processing::{ProcessingStep, process as carry_out, rotate};
+use pounding_ground_motion::processing::{ProcessingStep, distinct, process as carry_out, rotate};
 
 use super::words::Words;
 use super::{reading, writing};
@@ -36,6 +36,7 @@ pub fn process(arguments: &ProcessArguments, mut files: FileUse) -> Result<(), F
         let mut read = arguments.read.clone();
         read.component = Some(second.clone());
         let other = reading::acceleration(&arguments.file, &read)?;
+        distinct(&record, &other)?;
         record = rotate(&record, &other, angle)?.first;
     }
     for (option, step) in steps {

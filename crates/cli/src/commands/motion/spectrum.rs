@@ -4,6 +4,7 @@ use std::path::Path;
 
 use pounding_case::Dimension;
 use pounding_ground_motion::GroundMotionError;
+use pounding_ground_motion::processing::distinct;
 use pounding_ground_motion::spectra::{
     Evaluation, ResponseSpectrum, RotatedSpectrum, fourier_spectrum, logarithmic_periods,
     response_spectra, rotated_spectrum,
@@ -87,10 +88,7 @@ pub(super) fn places(
         false => value(text, name, dimension),
     };
     if let Some(text) = &arguments.at {
-        return text
-            .split(',')
-            .map(|part| place(part.trim(), "at"))
-            .collect();
+        return words::list(text, "at", dimension);
     }
     let end = |text: &Option<String>, name, default| match text {
         Some(text) => place(text, name),
@@ -194,6 +192,7 @@ fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure
     read.component.clone_from(&arguments.second_component);
     let second = arguments.second_file.as_deref().unwrap_or(file);
     let second = reading::acceleration(second, &read)?;
+    distinct(&first, &second)?;
     let spectra = dampings
         .iter()
         .map(|d| rotated_spectrum(&first, &second, &periods, *d, evaluation(arguments)))

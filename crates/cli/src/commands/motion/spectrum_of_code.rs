@@ -70,8 +70,37 @@ pub fn beside(
     spectra.collect()
 }
 
+/// An option that means nothing without a record.
+fn of_records(arguments: &SpectrumArguments) -> Option<&'static str> {
+    let read = &arguments.read;
+    [
+        ("at-samples", arguments.at_samples),
+        ("format", read.format.is_some()),
+        ("time-step", read.time_step.is_some()),
+        ("unit", read.unit.is_some()),
+        ("layout", read.layout.is_some()),
+        ("component", read.component.is_some()),
+        ("skip-lines", read.skip_lines != 0),
+        ("skip-columns", read.skip_columns != 0),
+        ("prepend-zero", read.prepend_zero),
+        ("lenient", read.lenient),
+        ("sensitivity", read.sensitivity.is_some()),
+        ("response", read.response.is_some()),
+        ("gravity", read.gravity.is_some()),
+        ("offset", read.offset.is_some()),
+    ]
+    .into_iter()
+    .find_map(|(option, is_given)| is_given.then_some(option))
+}
+
 /// Spectra of a code without a record.
 pub fn alone(arguments: &SpectrumArguments) -> Result<(), Failure> {
+    if let Some(option) = of_records(arguments) {
+        return Err(Failure::input(
+            format!("--{option} is of a record, and none is given beside --code"),
+            Some("leave it out, or name the file of a record".to_owned()),
+        ));
+    }
     let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
     let (shown, written) = periods(arguments, &dampings)?;
     let spectra = beside(arguments, &shown, &dampings)?;

@@ -3,7 +3,7 @@
 use pounding_case::Dimension;
 use pounding_catalogue::numbers::six_digits;
 
-use crate::arguments::value;
+use crate::arguments::{frequency, value};
 use crate::failure::Failure;
 
 /// A word and pairs behind it, of one option.
@@ -135,9 +135,13 @@ pub fn ascending(
     ))
 }
 
-/// SI values divided by commas.
+/// SI values divided by commas; frequencies in Hz.
 pub fn list(text: &str, name: &str, dimension: Dimension) -> Result<Vec<f64>, Failure> {
+    let of_dimension = |part: &str| match dimension == Dimension::FREQUENCY {
+        true => frequency(part, name),
+        false => value(part, name, dimension),
+    };
     text.split(',')
-        .map(|part| value(part.trim(), name, dimension))
+        .map(|part| of_dimension(part.trim()))
         .collect()
 }

@@ -20,7 +20,9 @@ use crate::tables::G;
 pub fn write(path: &Path, motion: &Accelerogram, title: &str) -> Result<(), Failure> {
     let mut written = Written::of(motion);
     if written.title.is_empty() {
-        title.clone_into(&mut written.title);
+        // The folder is that of one machine.
+        let of_file = title.rsplit(['/', '\\']).next().unwrap_or(title);
+        of_file.clone_into(&mut written.title);
     }
     plot::write(path, &write_pounding_csv(&written)?)
 }

@@ -151,6 +151,16 @@ fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionE
             ));
         }
     }
+    // Gaps too short to be refused may add up, as those of a clock or of a rate that is wrong do.
+    let mut counted = 0;
+    let mut latest = (0.0_f64, first);
+    for record in channel {
+        let late = (record.start - first.start) as f64 * 1.0e-6 - counted as f64 / first.rate;
+        if late.abs() > latest.0.abs() {
+            latest = (late, record);
+        }
+        counted += record.count;
+    }
     let total = channel.iter().map(|r| r.count).sum();
     let mut samples = Vec::with_capacity(total);
     for record in channel {
@@ -163,5 +173,15 @@ fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionE
     draft.times = Times::Step(Some(1.0 / first.rate));
     draft.header_count = Some(total);
     draft.processing = Processing::Raw;
+    let (late, record) = latest;
+    if late.abs() > 0.5 / first.rate {
+        draft.warnings.push(format!(
+            "the record at byte {} starts {:.4} s {} than the samples before it say, {:.1} samples: gaps or overlaps of less than half a sample add up; the samples are taken one after another",
+            record.at,
+            late.abs(),
+            if late > 0.0 { "later" } else { "earlier" },
+            late.abs() * first.rate
+        ));
+    }
     Ok(draft)
 }

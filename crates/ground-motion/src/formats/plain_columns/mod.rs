@@ -454,7 +454,7 @@ fn columns(
     let mut warnings = Vec::new();
     let has_times = names.iter().any(|n| n == "t");
     let times = if has_times {
-        times.finish(&mut warnings)
+        times.finish(source, survey.first, &mut warnings)?
     } else {
         Times::Step(None)
     };

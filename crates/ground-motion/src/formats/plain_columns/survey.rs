@@ -1,7 +1,6 @@
 //! A first look at all rows: how many numbers, and how they are arranged.
 
 use super::{header, rows};
-use crate::draft::Times;
 use crate::error::GroundMotionError;
 use crate::number;
 use crate::source::Source;
@@ -202,8 +201,7 @@ impl Survey {
             count += 1;
             times.push(time, field);
         }
-        let even = || matches!(times.finish(&mut Vec::new()), Times::Step(Some(_)));
-        Ok(count >= INCREASING_ROWS || count >= EVEN_ROWS && even())
+        Ok(count >= INCREASING_ROWS || count >= EVEN_ROWS && times.is_even())
     }
 
     /// A first row of count and step, if the other rows bear it out.

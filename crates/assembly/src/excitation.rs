@@ -98,8 +98,8 @@ fn read(
         };
         let other = files.read(case, &motion.file.value, &second)?;
         let span = rotation.second_component.span.clone();
-        record = distinct(&record, &other)
-            .and_then(|()| rotate(&record, &other, rotation.angle))
+        record = rotate(&record, &other, rotation.angle)
+            .and_then(|pair| distinct(&record, &other).map(|()| pair))
             .map_err(|e| case.error(span, e.to_string(), e.help()))?
             .first;
     }

@@ -116,6 +116,10 @@ fn components_in_any_case() {
         "{text}"
     );
     assert_ne!(plain.series[0].component, "");
+    let plain = read("bhrc", "Azimuth L", "Azimuth L").unwrap();
+    let capitals = read("bhrc", "Azimuth L", "AZIMUTH L").unwrap();
+    assert_eq!(plain.series[0].component, capitals.series[0].component);
+    assert!(plain.series[0].component.ends_with("deg"));
 }
 
 fn at2(title: &str, unit: &str, counts: &str) -> String {
@@ -185,5 +189,22 @@ fn titles_of_at2_say_nothing_of_the_values() {
             !origin.warnings.iter().any(|w| w.contains("header")) && origin.low_corner.is_none(),
             "{title}"
         );
+    }
+}
+
+/// Only what fills the last row is surplus: a row that stands twice is an error.
+#[test]
+fn rows_of_at2_that_stand_twice() {
+    let row = "  0.1  0.2 -0.3  0.4  0.5 -0.1  0.3 -0.2\n";
+    let file = |rows: usize, last: &str| {
+        let counts = "NPTS= 27, DT= .01 SEC";
+        let head = format!("R\nA, B\nACCELERATION TIME SERIES IN UNITS OF G\n{counts}\n");
+        head + &row.repeat(rows) + last
+    };
+    let read = |text: String| read_bytes("f", text.as_bytes(), &ReadOptions::default());
+    for last in ["  0.1  0.2 -0.3\n", "  0.1  0.2 -0.3  0  0  0  0  0\n"] {
+        assert_eq!(read(file(3, last)).unwrap().samples().len(), 27);
+        let error = read(file(4, last)).unwrap_err().to_string();
+        assert!(error.contains("the header says 27 samples"), "{error}");
     }
 }

@@ -130,3 +130,16 @@ fn the_step_of_an_at2_header_has_a_unit() {
         assert!((found / step - 1.0).abs() < 1e-12, "{written}: {found}");
     }
 }
+
+/// Steps of minutes have measures too: oscillators of periods too short for the recurrence move
+/// with the ground.
+#[test]
+fn measures_of_steps_above_100_s() {
+    for step in [100.0, 101.0, 1000.0] {
+        let record = motion(50, step);
+        let measures = IntensityMeasures::of(&record, MeasureOptions::default()).unwrap();
+        let rigid = 0.4 * record.peak().value;
+        let found = measures.acceleration_spectrum_intensity;
+        assert!((found / rigid - 1.0).abs() < 0.01, "{step}: {found} {rigid}");
+    }
+}

@@ -213,3 +213,194 @@ fn the_rate_of_a_frequency_takes_its_unit() {
         &["--frequency-rate must be"],
     );
 }
+
+/// An option that would do nothing is an error.
+#[test]
+fn options_without_effect_are_refused() {
+    let file = el_centro();
+    let folder = Folder::new();
+    let out = folder.name("o.csv");
+    let no_use = |arguments: &[&str], wanted: &[&str]| refused(2, arguments, wanted);
+    for more in [&["--damping", "2 %"][..], &["--at-samples"]] {
+        let arguments = [&["spectrum", &file, "--fourier"], more].concat();
+        no_use(&arguments, &["--fourier", more[0]]);
+    }
+    let unsmoothed = ["spectrum", &file, "--fourier", "--unsmoothed"];
+    no_use(&[&unsmoothed[..], &["--at", "1 Hz"]].concat(), &["--at"]);
+    let code = "eurocode_8_2004, ag=0.25 g, ground_type=B";
+    for more in [
+        &["--unit", "g"][..],
+        &["--component", "90"],
+        &["--time-step", "0.01 s"],
+        &["--lenient"],
+        &["--gravity", "9.81"],
+        &["--at-samples"],
+        &["--second-component", "90"],
+        &["--smoothing", "20"],
+    ] {
+        let arguments = [&["spectrum", "--code", code], more].concat();
+        no_use(&arguments, &[more[0]]);
+    }
+    let process = ["process", &file, "-o", &out];
+    let causal = [
+        "--filter",
+        "high_pass=0.1 Hz, phase=causal, keep_pads=false",
+    ];
+    no_use(
+        &[&process[..], &causal].concat(),
+        &["keep_pads is of the phase zero"],
+    );
+    let pulse = [
+        "synth",
+        "makris_roussos_2000",
+        "--type",
+        "a",
+        "--cycles",
+        "3",
+        "--amplitude",
+        "1 m/s",
+        "--period",
+        "1 s",
+        "--duration",
+        "3 s",
+        "-o",
+        &out,
+    ];
+    no_use(&pulse, &["--cycles is of pulses of type C"]);
+    let noise = [
+        "synth",
+        "rezaeian_der_kiureghian_2010",
+        "--significant-duration",
+        "10 s",
+        "--middle-time",
+        "8 s",
+        "--middle-frequency",
+        "4 Hz",
+        "--mechanism",
+        "reverse",
+        "--duration",
+        "30 s",
+        "--seed",
+        "1",
+        "-o",
+        &out,
+    ];
+    no_use(&noise, &["--mechanism", "--significant-duration"]);
+    let ramps = [
+        "synth",
+        "sine",
+        "--amplitude",
+        "0.1 g",
+        "--frequency",
+        "1 Hz",
+        "--duration",
+        "60 s",
+        "--envelope",
+        "ramped, rise=40 s, fall=40 s",
+        "-o",
+        &out,
+    ];
+    no_use(&ramps, &["do not fit into 60 s", "shorten"]);
+    no_use(
+        &["process", &file, "-o", &out, "--baseline", "velocity=0"],
+        &["a whole number from 1 to 5"],
+    );
+    assert!(folder.files().is_empty());
+}
+
+/// Angles per second are circular frequencies, wherever a frequency is given.
+#[test]
+fn circular_frequencies_of_fourier_amplitudes() {
+    let file = el_centro();
+    let amplitudes = |more: &[&str]| {
+        let answer = json(&[&["spectrum", &file, "--fourier"], more].concat());
+        let frequencies = answer["frequencies"].as_array().unwrap();
+        frequencies.iter().map(number).collect::<Vec<_>>()
+    };
+    for (circular, hertz) in [
+        (
+            &["--at", "12.566370614359172 rad/s"][..],
+            &["--at", "2 Hz"][..],
+        ),
+        (
+            &[
+                "--from",
+                "6.283185307179586 rad/s",
+                "--to",
+                "62.83185307179586 rad/s",
+                "--count",
+                "3",
+            ],
+            &["--from", "1 Hz", "--to", "10 Hz", "--count", "3"],
+        ),
+    ] {
+        for (found, expected) in amplitudes(circular).iter().zip(amplitudes(hertz)) {
+            close(*found, expected, 1e-12);
+        }
+    }
+}
+
+/// Conversions say what a format cannot hold; a file that is made names no folder.
+#[test]
+fn initial_velocities_that_are_lost_are_named() {
+    let folder = Folder::new();
+    let from = folder.name("from.csv");
+    let text = "# Initial velocity: 0.5 m/s\n# dt: 0.1 s\ntime_s,acceleration_m_s2\n0,-3\n0.1,-3\n0.2,-2\n";
+    std::fs::write(&from, text).unwrap();
+    let peak_velocity = |file: &str| {
+        let answer = json(&["info", file]);
+        answer.to_string()
+    };
+    for (to, name, lost) in [
+        ("pounding_csv", "o.csv", false),
+        ("peer_at2", "o.at2", true),
+        ("plain_columns", "o.txt", true),
+    ] {
+        let out = folder.name(name);
+        let said = super::text(&["convert", &from, "--to", to, "-o", &out]);
+        assert_eq!(
+            said.contains("velocity and displacement of the first sample, 0.5 m/s"),
+            lost,
+            "{said}"
+        );
+    }
+    assert!(
+        folder
+            .content("o.csv")
+            .contains("# Initial velocity: 0.5 m/s\n")
+    );
+    assert!(peak_velocity(&folder.name("o.csv")).contains("\"initial_velocity\":0.5"));
+    let out = folder.name("scaled.csv");
+    super::text(&["process", &from, "--scale", "pgv=1 m/s", "-o", &out]);
+    let content = folder.content("scaled.csv");
+    assert!(content.contains("# Initial velocity: 1 m/s\n"), "{content}");
+    assert!(
+        content.starts_with("# Event: from.csv, processed\n"),
+        "{content}"
+    );
+}
+
+/// The one component of a file has no second one beside it.
+#[test]
+fn a_component_is_not_turned_against_itself() {
+    let file = el_centro();
+    let folder = Folder::new();
+    let out = folder.name("o.csv");
+    for arguments in [
+        &["spectrum", &file, "--rotated", "--second-component", "1"][..],
+        &[
+            "process",
+            &file,
+            "-o",
+            &out,
+            "--rotate",
+            "30",
+            "--second-component",
+            "1",
+            "--sign",
+            "reversed",
+        ],
+    ] {
+        refused(2, arguments, &["rotation: "]);
+    }
+}

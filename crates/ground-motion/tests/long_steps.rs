@@ -140,6 +140,9 @@ fn measures_of_steps_above_100_s() {
         let measures = IntensityMeasures::of(&record, MeasureOptions::default()).unwrap();
         let rigid = 0.4 * record.peak().value;
         let found = measures.acceleration_spectrum_intensity;
-        assert!((found / rigid - 1.0).abs() < 0.01, "{step}: {found} {rigid}");
+        assert!(
+            (found / rigid - 1.0).abs() < 0.01,
+            "{step}: {found} {rigid}"
+        );
     }
 }

@@ -97,11 +97,17 @@ fn response_spectrum_of_el_centro() {
 #[test]
 fn all_directions_of_equal_components() {
     let file = el_centro();
+    let folder = Folder::new();
+    // The same motion across the first.
+    let second = folder.name("ew.csv");
+    let north = std::fs::read_to_string(&file).unwrap();
+    assert!(north.contains("NS (north-south)"));
+    std::fs::write(&second, north.replace("NS (north-south)", "EW (east-west)")).unwrap();
     let at = ["--at", "0.3 s, 1 s"];
     let one = json(&[&["spectrum", &file], &at[..]].concat());
     let told = json(
         &[
-            &["spectrum", &file, "--rotated", "--second-file", &file],
+            &["spectrum", &file, "--rotated", "--second-file", &second],
             &at[..],
         ]
         .concat(),

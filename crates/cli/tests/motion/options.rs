@@ -248,7 +248,7 @@ fn options_without_effect_are_refused() {
     ];
     no_use(
         &[&process[..], &causal].concat(),
-        &["keep_pads is of the phase zero"],
+        &["`keep_pads` has no meaning beside phase"],
     );
     let pulse = [
         "synth",

@@ -280,12 +280,14 @@ const UNITS: &[Unit] = &[
     unit("km", 1000.0, 1.0, Dimension::LENGTH),
     unit("cm", 1.0, 100.0, Dimension::LENGTH),
     unit("mm", 1.0, 1e3, Dimension::LENGTH),
+    unit("um", 1.0, 1e6, Dimension::LENGTH),
     unit("in", 254.0, 1e4, Dimension::LENGTH),
     unit("ft", 3048.0, 1e4, Dimension::LENGTH),
     unit("s", 1.0, 1.0, Dimension::TIME),
     unit("sec", 1.0, 1.0, Dimension::TIME),
     unit("ms", 1.0, 1e3, Dimension::TIME),
     unit("us", 1.0, 1e6, Dimension::TIME),
+    unit("min", 60.0, 1.0, Dimension::TIME),
     unit("Hz", 1.0, 1.0, Dimension::FREQUENCY),
     unit("g", 980_665.0, 1e5, Dimension::ACCELERATION),
     unit("gal", 1.0, 100.0, Dimension::ACCELERATION),
@@ -294,12 +296,16 @@ const UNITS: &[Unit] = &[
     unit("kN", 1e3, 1.0, Dimension::FORCE),
     unit("MN", 1e6, 1.0, Dimension::FORCE),
     unit("GN", 1e9, 1.0, Dimension::FORCE),
+    unit("kgf", 980_665.0, 1e5, Dimension::FORCE),
+    unit("tf", 980_665.0, 100.0, Dimension::FORCE),
     unit("lbf", 44_482_216_152_605.0, 1e13, Dimension::FORCE),
     unit("kip", 44_482_216_152_605.0, 1e10, Dimension::FORCE),
     unit("Pa", 1.0, 1.0, Dimension::PRESSURE),
     unit("kPa", 1e3, 1.0, Dimension::PRESSURE),
     unit("MPa", 1e6, 1.0, Dimension::PRESSURE),
     unit("GPa", 1e9, 1.0, Dimension::PRESSURE),
+    unit("psi", 44_482_216_152_605.0, 6_451_600_000.0, Dimension::PRESSURE),
+    unit("ksi", 44_482_216_152_605.0, 6_451_600.0, Dimension::PRESSURE),
 ];
 
 /// The units that give a dimension, or all where it takes several.
@@ -515,9 +521,12 @@ fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitEr
     Ok((up, down, dimension))
 }
 
-/// A unit with powers and products in plain signs.
+/// A unit with powers, products and the prefix micro in plain signs.
 fn normal(unit: &str) -> String {
-    unit.replace('²', "^2").replace('³', "^3").replace('·', "*")
+    unit.replace('²', "^2")
+        .replace('³', "^3")
+        .replace('·', "*")
+        .replace(['µ', 'μ'], "u")
 }
 
 /// `m^1.5` and `s2` into symbol and power; `None` for a power that is none.

@@ -248,6 +248,13 @@ fn numbers_in_all_forms() {
     // 1 in = 0.0254 m, 1 kip = 4448.2216152605 N (1959 pound, standard gravity).
     for (text, value) in [
         ("1 kip", 4_448.221_615_260_5),
+        ("2 kgf", 19.6133),
+        ("25 tf/m2", 245_166.25),
+        ("1 ksi", 6_894_757.293_168_361),
+        ("1000 psi", 6_894_757.293_168_361),
+        ("3 \u{b5}m", 3.0e-6),
+        ("3 \u{3bc}m", 3.0e-6),
+        ("1.5 min", 90.0),
         ("25000 kip/in^1.5", 2.747_108_735e10),
         ("25000 kip/in", 4.378_170_881e9),
         ("35 cm", 0.35),
@@ -384,7 +391,7 @@ fn units_are_suggested_by_the_dimension_that_is_wanted() {
     let help = |text: &str, wanted| parse_quantity(text).unwrap_err().help_for(wanted);
     assert_eq!(
         help("20 mn", Some(Dimension::LENGTH)),
-        "did you mean \"mm\"? units of a length (m): m, km, cm, mm, in, ft"
+        "did you mean \"mm\"? units of a length (m): m, km, cm, mm, um, in, ft"
     );
     // Without a dimension every unit may be meant.
     assert!(help("20 mn", None).starts_with("did you mean \"MN\"? known units: %, rad, "));

@@ -223,6 +223,43 @@ fn a_run_that_ends_before_the_peak_of_its_record() {
 }
 
 #[test]
+fn keys_of_another_method() {
+    let with =
+        |keys: &str| CASE.replace("duration = \"2 s\"", &format!("duration = \"2 s\"\n{keys}"));
+    let both = with("step = \"1 ms\"\nbeta = 0.25");
+    one(
+        &said(&both),
+        &[
+            "`step` (of newmark, hht_alpha, runge_kutta_4, moreau_jean), `beta` (of newmark) do nothing with method event_driven",
+            "give a `method` that takes it",
+        ],
+    );
+    let taken = with("step = \"1 ms\"\nbeta = 0.25\nmethod = \"newmark\"");
+    assert_eq!(said(&taken).check, [""; 0]);
+    let tolerance = with("step = \"1 ms\"\nrelative_tolerance = 1e-9\nmethod = \"newmark\"");
+    one(
+        &said(&tolerance),
+        &["`relative_tolerance` (of adaptive, event_driven) does nothing with method newmark"],
+    );
+
+    // A study of methods gives the keys of all of them.
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    std::fs::write(path.join("case.toml"), &both).unwrap();
+    std::fs::write(path.join("record.csv"), record()).unwrap();
+    for (varied, values, count) in [
+        ("analysis.method", "[\"event_driven\", \"newmark\"]", 0),
+        ("analysis.step", "[1e-3, 2e-3]", 1),
+    ] {
+        let study =
+            format!("case = \"case.toml\"\n[[variable]]\npath = \"{varied}\"\nvalues = {values}\n");
+        std::fs::write(path.join("study.toml"), study).unwrap();
+        let told = pounding(path, &["sweep", "study.toml", "-o", &format!("{count}.h5")]);
+        assert_eq!(told.matches("nothing with method").count(), count, "{told}");
+    }
+}
+
+#[test]
 fn a_case_in_which_nothing_moves() {
     let still = CASE.replace("record.csv", "zeros.csv");
     one(&said(&still), &["nothing moves", "[[building.force]]"]);

@@ -245,7 +245,7 @@ impl TimeHistoryError {
                 "try another method, another separation rule for that gap, or a small gap in place of none for that link, and report the case"
             }
             Self::EnergyResidual { .. } => {
-                "use a smaller `step` or `relative_tolerance`; a method that damps numerically (HHT-alpha, gamma > 1/2) needs a larger `energy_tolerance`"
+                "use a smaller `relative_tolerance` (event_driven, adaptive) or `step` (methods of a fixed step); a method that damps numerically (HHT-alpha, gamma > 1/2) needs a larger `energy_tolerance`"
             }
             _ => return None,
         };

@@ -5,9 +5,8 @@ use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{RunOptions, System};
 
-use super::column::never_hit;
 use super::motions::on_their_ground;
-use super::{Assembly, Parts, models, options, with_gaps};
+use super::{Assembly, Parts, models, options, unused, with_gaps};
 use crate::error::AssemblyError;
 
 /// Builds the system of a case under this motion, which is taken as it is: neither the
@@ -33,7 +32,7 @@ pub fn assemble_with_record(
         options,
         output_step: case.analysis.output_step,
         accelerogram: accelerogram.clone(),
-        unused: never_hit(case),
+        unused: unused(case),
     })
 }
 

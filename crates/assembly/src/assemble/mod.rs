@@ -6,6 +6,7 @@ mod forces;
 mod foundation;
 mod lateral;
 mod laws;
+mod method;
 mod motions;
 mod plan;
 
@@ -15,21 +16,20 @@ use std::sync::Arc;
 
 use pounding_case::{Building, Case, CaseError, Errors, Facing, Gap, Located, Side};
 use pounding_catalogue::STANDARD_GRAVITY;
-use pounding_catalogue::suggestion;
 use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
 use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{ContactLine, ShearBuilding, ShearBuildingError};
 use pounding_time_history::{
-    DEFAULT_RELATIVE_TOLERANCE, Floor, LevelMotion, MethodChoice, RunOptions, System,
-    TimeHistoryError, Warning, more_pairs,
+    Floor, LevelMotion, RunOptions, System, TimeHistoryError, Warning, more_pairs,
 };
 
 use self::column::Hits;
 use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
 use crate::excitation::{RecordFiles, accelerogram};
+use method::options;
 use motions::on_their_ground;
 
 /// All that a run needs, made from a case.
@@ -114,8 +114,15 @@ pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, As
         options,
         output_step: case.analysis.output_step,
         accelerogram,
-        unused: column::never_hit(case),
+        unused: unused(case),
     })
+}
+
+/// What a case gives and nothing uses, in words.
+fn unused(case: &Case) -> Vec<String> {
+    let mut told = column::never_hit(case);
+    told.extend(method::without_effect(case));
+    told
 }
 
 type Models = Vec<Arc<dyn ImpactModel>>;
@@ -435,68 +442,4 @@ fn separation_rule(
                 Some(format!("it offers {}", offered.join(", "))),
             )
         })
-}
-
-/// Names of the methods.
-const METHODS: [&str; 6] = [
-    "adaptive",
-    "event_driven",
-    "newmark",
-    "hht_alpha",
-    "runge_kutta_4",
-    "moreau_jean",
-];
-
-fn options(case: &Case) -> Result<RunOptions, CaseError> {
-    let analysis = &case.analysis;
-    let step = || {
-        analysis.step.ok_or_else(|| {
-            case.error(
-                analysis.method.span.clone(),
-                format!("method \"{}\" needs a step", analysis.method.value),
-                Some("add `step = \"0.1 ms\"` to [analysis]; halve it until peaks stay".to_owned()),
-            )
-        })
-    };
-    let method = match analysis.method.value.as_str() {
-        "adaptive" => MethodChoice::Adaptive {
-            relative_tolerance: analysis
-                .relative_tolerance
-                .unwrap_or(DEFAULT_RELATIVE_TOLERANCE),
-        },
-        "event_driven" => MethodChoice::EventDriven {
-            relative_tolerance: analysis
-                .relative_tolerance
-                .unwrap_or(DEFAULT_RELATIVE_TOLERANCE),
-        },
-        "newmark" => MethodChoice::Newmark {
-            step: step()?,
-            beta: analysis.beta.unwrap_or(0.25),
-            gamma: analysis.gamma.unwrap_or(0.5),
-        },
-        "hht_alpha" => MethodChoice::HhtAlpha {
-            step: step()?,
-            alpha: analysis.alpha.unwrap_or(-0.05),
-        },
-        "runge_kutta_4" => MethodChoice::RungeKutta4 { step: step()? },
-        "moreau_jean" => MethodChoice::MoreauJean {
-            step: step()?,
-            theta: analysis.theta.unwrap_or(0.5),
-        },
-        other => {
-            return Err(case.error(
-                analysis.method.span.clone(),
-                format!("unknown method \"{other}\""),
-                Some(match suggestion::misspelt(other, METHODS) {
-                    Some(name) => format!("did you mean \"{name}\"?"),
-                    None => format!("methods are {}", METHODS.join(", ")),
-                }),
-            ));
-        }
-    };
-    Ok(RunOptions {
-        method,
-        duration: analysis.duration,
-        energy_tolerance: analysis.energy_tolerance,
-    })
 }

@@ -139,7 +139,7 @@ fn dimension_help(wanted: Dimension, found: Dimension) -> String {
     } else if found == Dimension::ACCELERATION && wanted == Dimension::MASS {
         "\"g\" is the acceleration of gravity; write the mass in kg or t".to_owned()
     } else if wanted == Dimension::FORCE && found == Dimension::MASS {
-        "a mass is no force: write N, kN, MN, lbf or kip".to_owned()
+        "a mass is no force: write N, kN, MN, kgf, tf, lbf or kip".to_owned()
     } else {
         "correct the unit; plain numbers are SI".to_owned()
     }

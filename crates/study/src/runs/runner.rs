@@ -71,7 +71,12 @@ impl<'s> Runner<'s> {
         let motions = Motions::read(study, keep_failures, folder)?;
         let unit = pounding_ground_motion::AccelerationUnit::MetrePerSecondSquared;
         let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
-        let assembly = assemble_with_record(&study.base, &rest)?;
+        let mut base = study.base.clone();
+        if varies(study, "analysis.method") {
+            // Keys that one method does not take are for others.
+            base.analysis.places.clear();
+        }
+        let assembly = assemble_with_record(&base, &rest)?;
         let averaged = assembly.warnings_of_buildings();
         let system = assembly.system;
         let mut layout = Layout::of(&system, study.isolated_demand);
@@ -346,13 +351,17 @@ impl<'s> Runner<'s> {
 
 /// Duration (s) of the runs that the case gives; `None` where it is the record's, or varies.
 fn duration_of_case(study: &Study) -> Option<f64> {
-    let varied = study.variables.iter().any(|v| match &v.target {
-        Target::Entry { path, .. } => {
-            case_text::Path::parse("analysis.duration").is_ok_and(|p| p == *path)
-        }
-        _ => false,
-    });
+    let varied = varies(study, "analysis.duration");
     study.base.analysis.duration.filter(|_| !varied)
+}
+
+/// Whether a study varies the entry of its case at a path.
+fn varies(study: &Study, at: &str) -> bool {
+    let at = case_text::Path::parse(at);
+    study.variables.iter().any(|v| match &v.target {
+        Target::Entry { path, .. } => at.as_ref().is_ok_and(|at| at == path),
+        _ => false,
+    })
 }
 
 /// Hashes of the files that a study names beside its records, each file once.

@@ -304,8 +304,18 @@ const UNITS: &[Unit] = &[
     unit("kPa", 1e3, 1.0, Dimension::PRESSURE),
     unit("MPa", 1e6, 1.0, Dimension::PRESSURE),
     unit("GPa", 1e9, 1.0, Dimension::PRESSURE),
-    unit("psi", 44_482_216_152_605.0, 6_451_600_000.0, Dimension::PRESSURE),
-    unit("ksi", 44_482_216_152_605.0, 6_451_600.0, Dimension::PRESSURE),
+    unit(
+        "psi",
+        44_482_216_152_605.0,
+        6_451_600_000.0,
+        Dimension::PRESSURE,
+    ),
+    unit(
+        "ksi",
+        44_482_216_152_605.0,
+        6_451_600.0,
+        Dimension::PRESSURE,
+    ),
 ];
 
 /// The units that give a dimension, or all where it takes several.

@@ -178,6 +178,69 @@ fn a_ground_acceleration_that_no_record_has() {
     one(&said, &["peak ground acceleration is 3.5 g"]);
 }
 
+/// Commands that take many records say of the case what `run` says, and of the records what was said
+/// when they were read: once for each kind. A study whose variables change entries of the case says
+/// nothing of values that may be in no run.
+#[test]
+fn commands_of_many_records_say_what_run_says() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let bare = CASE
+        .replacen("\"25 t\"", "[25, 20]", 1)
+        .replace("20 mm", "2.9 m");
+    std::fs::write(path.join("case.toml"), &bare).unwrap();
+    std::fs::write(path.join("record.csv"), record()).unwrap();
+    // Accelerations in cm/s2 that are called g, the second a tenth larger.
+    for (name, peak) in [("first.csv", 98.1), ("second.csv", 107.9)] {
+        let rows = (0..120).map(|i| {
+            let t = f64::from(i) * 0.02;
+            format!("{t:.2},{}\n", if i == 60 { peak } else { 0.0 })
+        });
+        let header = "# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n";
+        std::fs::write(
+            path.join(name),
+            header.to_owned() + &rows.collect::<String>(),
+        )
+        .unwrap();
+    }
+    let mass = "a: no storey has a mass of more than 25 kg";
+    let unit = "first: peak acceleration 962.032 m/s2 is larger than any recorded; check the unit; one more of the records is like it";
+    let records = ["--records", "record.csv", "first.csv", "second.csv"];
+    let gap = [&["gap", "case.toml", "--points", "0"][..], &records].concat();
+    let compare = [
+        &[
+            "compare",
+            "case.toml",
+            "--models",
+            "linear_elastic",
+            "--approach-velocity",
+            "0.5 m/s",
+        ][..],
+        &records,
+    ]
+    .concat();
+    let study = |variable: &str| {
+        format!(
+            "case = \"case.toml\"\n[[variable]]\nrecords = [\"record.csv\", \"first.csv\", \"second.csv\"]\n{variable}"
+        )
+    };
+    std::fs::write(path.join("study.toml"), study("")).unwrap();
+    let widths = "[[variable]]\npath = \"gap.0.width\"\nvalues = [2.8]\n";
+    std::fs::write(path.join("widths.toml"), study(widths)).unwrap();
+    let sweep = ["sweep", "study.toml", "-o", "out.h5"];
+    let varied = ["sweep", "widths.toml", "-o", "widths.h5"];
+    for (arguments, of_case) in [(&gap[..], 1), (&compare, 1), (&sweep, 1), (&varied, 0)] {
+        let told = pounding(path, arguments);
+        assert_eq!(told.matches(mass).count(), of_case, "{arguments:?}: {told}");
+        assert_eq!(told.matches(unit).count(), 1, "{arguments:?}: {told}");
+        assert_eq!(
+            told.matches("larger than any").count(),
+            1,
+            "{arguments:?}: {told}"
+        );
+    }
+}
+
 /// A zero-phase filter puts 3.375 s of zeros before the record, which a `duration` chosen for the record
 /// takes for the shaking.
 #[test]

@@ -404,10 +404,62 @@ impl Warning {
         warnings
     }
 
-    /// What can be said of ground motions, forces and initial state: that they leave all at
-    /// rest, or that the run ends before the ground shakes most.
+    /// What can be said of buildings and gaps, whatever moves them.
     #[must_use]
-    pub fn of_excitation(system: &System, options: &RunOptions) -> Option<Self> {
+    pub fn of_structure(system: &System) -> Vec<Self> {
+        let mut warnings = Vec::new();
+        for building in system.buildings() {
+            let period = building.modes().period[0];
+            if !(PERIODS.0..=PERIODS.1).contains(&period) {
+                warnings.push(Self::FundamentalPeriod {
+                    building: building.name().to_owned(),
+                    period,
+                });
+            } else {
+                warnings.extend(small_mass(building, period));
+            }
+        }
+        warnings.extend(system.buildings().iter().filter_map(|b| stiff_soil(b)));
+        warnings.extend(system.buildings().iter().filter_map(|b| braked_isolator(b)));
+        for gap in system.gaps() {
+            let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
+            let wide = levels.iter().filter_map(|level| {
+                let height = lower_storey(system, level)?;
+                (level.width > height).then_some((level.width, height))
+            });
+            if let Some((width, height)) = wide.max_by(|a, b| a.0.total_cmp(&b.0)) {
+                warnings.push(Self::WideGap {
+                    gap: gap.name.clone(),
+                    width,
+                    height,
+                });
+            }
+        }
+        warnings.extend(system.unequal_floor_warnings());
+        warnings
+    }
+
+    /// What can be said of ground motions, forces and initial state: that the ground shakes as no
+    /// record does or stays apart, that all is left at rest, or that the run ends before the
+    /// ground shakes most.
+    #[must_use]
+    pub fn of_excitation(system: &System, options: &RunOptions) -> Vec<Self> {
+        let mut warnings: Vec<_> = ground_offsets(system).into_iter().collect();
+        let further = system.ground_motions().iter().map(|m| &m.acceleration);
+        let samples = [system.ground()]
+            .into_iter()
+            .chain(further)
+            .flat_map(|g| g.samples.iter());
+        let peak = samples.fold(0.0_f64, |m, a| m.max(a.abs()));
+        if peak > GROUND_ACCELERATION * STANDARD_GRAVITY {
+            warnings.push(Self::GroundAcceleration { peak });
+        }
+        warnings.extend(Self::of_rest(system, options));
+        warnings
+    }
+
+    /// That nothing moves, or that the run ends before the peak ground acceleration.
+    fn of_rest(system: &System, options: &RunOptions) -> Option<Self> {
         let mut in_use = system.motions_in_use();
         in_use.retain(|(_, motion, _)| motion.samples.iter().any(|a| *a != 0.0));
         let pushed = system.forces().iter().any(|f| f.history.peak().value > 0.0);
@@ -486,45 +538,7 @@ impl Warning {
 
 /// What does not depend on the response.
 fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
-    let mut warnings = Vec::new();
-    for building in system.buildings() {
-        let period = building.modes().period[0];
-        if !(PERIODS.0..=PERIODS.1).contains(&period) {
-            warnings.push(Warning::FundamentalPeriod {
-                building: building.name().to_owned(),
-                period,
-            });
-        } else {
-            warnings.extend(small_mass(building, period));
-        }
-    }
-    warnings.extend(system.buildings().iter().filter_map(|b| stiff_soil(b)));
-    warnings.extend(system.buildings().iter().filter_map(|b| braked_isolator(b)));
-    for gap in system.gaps() {
-        let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
-        let wide = levels.iter().filter_map(|level| {
-            let height = lower_storey(system, level)?;
-            (level.width > height).then_some((level.width, height))
-        });
-        if let Some((width, height)) = wide.max_by(|a, b| a.0.total_cmp(&b.0)) {
-            warnings.push(Warning::WideGap {
-                gap: gap.name.clone(),
-                width,
-                height,
-            });
-        }
-    }
-    warnings.extend(ground_offsets(system));
-    warnings.extend(system.unequal_floor_warnings());
-    let further = system.ground_motions().iter().map(|m| &m.acceleration);
-    let samples = [system.ground()]
-        .into_iter()
-        .chain(further)
-        .flat_map(|g| g.samples.iter());
-    let peak = samples.fold(0.0_f64, |m, a| m.max(a.abs()));
-    if peak > GROUND_ACCELERATION * STANDARD_GRAVITY {
-        warnings.push(Warning::GroundAcceleration { peak });
-    }
+    let mut warnings = Warning::of_structure(system);
     warnings.extend(Warning::of_excitation(system, options));
     let duration = options.duration.unwrap_or_else(|| system.record_duration());
     let StepEstimate { steps, limit } = StepEstimate::new(system, &options.method, duration);

@@ -23,8 +23,8 @@ use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
     Amplification, CaseUnderRecord, CheckError, CollapsedRecord, GapLevel, Progress, RecordDemand,
-    Repeated, amplification, beside_that_across, collapsed_building, excitation_warnings,
-    in_parallel, levels, rebuilt, stand_or_collapse, step_warnings, without_collapsed,
+    Repeated, amplification, collapsed_building, in_parallel, levels, rebuilt, stand_or_collapse,
+    warnings, without_collapsed,
 };
 
 /// What is asked for.
@@ -240,15 +240,11 @@ pub fn compare_dealt(
     }
     let isolated = own.iter().map(|r| isolated(&quantities, &r.isolated));
     let gaps = system.gaps().iter();
-    let warnings = system.unequal_floor_warnings();
-    let warnings = warnings.iter().map(ToString::to_string);
     let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
     let copies = Repeated::among(records).warnings(&names);
-    let warnings = warnings.chain(undamped(system, &references));
-    let warnings = warnings.chain(copies).chain(step_warnings(records));
-    let warnings = warnings.chain(excitation_warnings(records));
-    let warnings = warnings.chain(beside_that_across(case, records));
-    let warnings = warnings.collect();
+    let mut warnings = warnings(case, records);
+    warnings.extend(undamped(system, &references));
+    warnings.extend(copies);
     let mut comparison = Comparison {
         options: options.clone(),
         references,

@@ -41,7 +41,7 @@ pub(crate) use demand::levels;
 pub(crate) use parallel::in_parallel;
 #[cfg(feature = "results")]
 pub(crate) use records::across_of_another;
-pub(crate) use records::{beside_that_across, excitation_warnings, of_each_record, step_warnings};
+pub(crate) use records::{of_each_record, of_reading, warnings};
 pub use systems::rebuilt;
 
 use pounding_case::{Case, Separation};
@@ -348,16 +348,9 @@ pub fn gap_check_dealt(
         collapsed,
         gaps,
         sweep: sweep.transpose()?,
-        warnings: first
-            .assembly
-            .system
-            .unequal_floor_warnings()
-            .iter()
-            .map(ToString::to_string)
+        warnings: warnings(case, records)
+            .into_iter()
             .chain(repeated.warnings(&names))
-            .chain(step_warnings(records))
-            .chain(excitation_warnings(records))
-            .chain(beside_that_across(case, records))
             .collect(),
         repeated,
     })

@@ -1,12 +1,13 @@
 //! One case under many records.
 
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::mem::discriminant;
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};
 use pounding_case::{Case, GroundMotion, Located};
-use pounding_ground_motion::Offset;
+use pounding_ground_motion::{Accelerogram, Offset};
 use pounding_time_history::Warning;
 
 use super::error::CheckError;
@@ -22,22 +23,61 @@ pub struct CaseUnderRecord {
     pub assembly: Assembly,
 }
 
-/// What the user should know of the time steps of records.
-pub(crate) fn step_warnings(records: &[CaseUnderRecord]) -> impl Iterator<Item = String> {
-    records.iter().filter_map(|record| {
-        let text = record.assembly.accelerogram.unusual_time_step()?;
-        Some(format!("{}: {text}", record.name))
-    })
+/// What the user should know of a case under records: of its buildings and gaps, then of the
+/// records, one by one.
+pub(crate) fn warnings(case: &Case, records: &[CaseUnderRecord]) -> Vec<String> {
+    let Some(first) = records.first() else {
+        return Vec::new();
+    };
+    let structure = Warning::of_structure(&first.assembly.system);
+    let read = records
+        .iter()
+        .map(|record| (record.name.as_str(), &record.assembly.accelerogram));
+    let excitation = records.iter().flat_map(|record| {
+        let assembly = &record.assembly;
+        let found = Warning::of_excitation(&assembly.system, &assembly.options);
+        found.into_iter().map(|w| (record.name.as_str(), w))
+    });
+    let mut told = first.assembly.warnings_of_buildings();
+    told.extend(structure.iter().map(ToString::to_string));
+    told.extend(of_reading(read));
+    told.extend(of_each_record(excitation));
+    told.extend(beside_that_across(case, records));
+    told
 }
 
-/// What the user should know of records in which nothing moves, or whose peak comes after the
-/// end of the run.
-pub(crate) fn excitation_warnings(records: &[CaseUnderRecord]) -> Vec<String> {
-    of_each_record(records.iter().filter_map(|record| {
-        let assembly = &record.assembly;
-        let warning = Warning::of_excitation(&assembly.system, &assembly.options)?;
-        Some((record.name.as_str(), warning))
-    }))
+/// What was said when records were read, by their names: the first of each kind, with how many
+/// are like it.
+pub(crate) fn of_reading<'r>(
+    records: impl Iterator<Item = (&'r str, &'r Accelerogram)>,
+) -> Vec<String> {
+    let mut kinds: Vec<(String, String, BTreeSet<&str>)> = Vec::new();
+    for (name, record) in records {
+        // A motion that comes from no file was held against nothing.
+        let said = match record.origin() {
+            Some(origin) => origin.warnings.clone(),
+            None => record.unusual_time_step().into_iter().collect(),
+        };
+        for text in said {
+            let kind = text.replace(|c: char| c.is_ascii_digit() || "+-.".contains(c), "");
+            match kinds.iter_mut().find(|known| known.0 == kind) {
+                Some((_, _, others)) => drop(others.insert(name)),
+                None => kinds.push((kind, format!("{name}: {text}"), BTreeSet::from([name]))),
+            }
+        }
+    }
+    let told = kinds.into_iter();
+    told.map(|(_, text, of)| and_more(text, of.len() - 1))
+        .collect()
+}
+
+/// A text on one record, and how many more it is true of.
+fn and_more(text: String, more: usize) -> String {
+    match more {
+        0 => text,
+        1 => format!("{text}; one more of the records is like it"),
+        _ => format!("{text}; {more} more of the records are like it"),
+    }
 }
 
 /// Warnings of one kind about records by their names: the first record of each kind, with how many are like it.
@@ -50,16 +90,14 @@ pub(crate) fn of_each_record<'r>(found: impl Iterator<Item = (&'r str, Warning)>
             None => kinds.push((name, warning, 0)),
         }
     }
-    let told = kinds.into_iter().map(|(name, warning, more)| match more {
-        0 => format!("{name}: {warning}"),
-        _ => format!("{name}: {warning}; {more} more of the records are like it"),
-    });
-    told.collect()
+    let told = kinds.into_iter();
+    told.map(|(name, warning, more)| and_more(format!("{name}: {warning}"), more))
+        .collect()
 }
 
 /// What the user should know of records that stand beside the record across the row that the case
 /// names, which its own record alone belongs to.
-pub(crate) fn beside_that_across(case: &Case, records: &[CaseUnderRecord]) -> Option<String> {
+fn beside_that_across(case: &Case, records: &[CaseUnderRecord]) -> Option<String> {
     let across = &case.ground_motion.across.as_ref()?.value.file.value;
     let own = case.resolve(&case.ground_motion.file.value);
     let named: Vec<&str> = (records.iter().filter(|r| r.file != own))

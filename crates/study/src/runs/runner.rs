@@ -20,8 +20,10 @@ use super::varied::leave_out_varied;
 use super::{Ending, ID, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
 use crate::error::StudyError;
-use crate::gap_check::{Repeated, of_each_record};
-use crate::study_file::{IntensityMeasure, RecordKind, Study, Target, Value, beside_that_across};
+use crate::gap_check::{Repeated, of_each_record, of_reading};
+use crate::study_file::{
+    IntensityMeasure, RecordKind, Study, Target, Value, Variable, beside_that_across,
+};
 use pounding_files::checksum::hexadecimal;
 
 /// Buildings and motions kept for runs to come.
@@ -79,6 +81,8 @@ impl<'s> Runner<'s> {
         let assembly = assemble_with_record(&base, &rest)?;
         let averaged = assembly.warnings_of_buildings();
         let system = assembly.system;
+        let entries = |v: &Variable| matches!(v.target, Target::Entry { .. });
+        let as_given = !study.variables.iter().any(entries);
         let mut layout = Layout::of(&system, study.isolated_demand);
         let levels = floors_that_meet(&system).map(|(gap, sides)| (gap.to_owned(), sides));
         let levels = levels.collect();
@@ -93,8 +97,12 @@ impl<'s> Runner<'s> {
             layout.keep(&kept);
         }
         let varied = leave_out_varied(&mut layout, study, &system);
-        let mut warnings: Vec<String> = system
-            .unequal_floor_warnings()
+        // What varies may be anything in the case.
+        let of_case = match as_given {
+            true => Warning::of_structure(&system),
+            false => system.unequal_floor_warnings(),
+        };
+        let mut warnings: Vec<String> = of_case
             .iter()
             .map(ToString::to_string)
             .chain(averaged)
@@ -107,8 +115,14 @@ impl<'s> Runner<'s> {
             )
         }));
         warnings.extend(beside_that_across(study));
-        let told = motions.all.iter().zip(&study.records);
-        warnings.extend(of_each_record(told.filter_map(|(motion, source)| {
+        let told = || motions.all.iter().zip(&study.records);
+        warnings.extend(of_reading(told().filter_map(|(motion, source)| {
+            Some((
+                source.name.as_str(),
+                motion.as_ref().ok()?.record.as_deref()?,
+            ))
+        })));
+        warnings.extend(of_each_record(told().filter_map(|(motion, source)| {
             let (duration, peak) = (duration_of_case(study)?, motion.as_ref().ok()?.peak_time);
             let warning = Warning::ends_before_peak("", duration, peak)?;
             Some((source.name.as_str(), warning))

@@ -79,6 +79,7 @@ pub(crate) fn band_of_case(
         spectrum,
         from,
         to,
+        times: band.times,
         reason: format!("{} by {clause}, {periods}", said.join(" ")),
     })
 }
@@ -94,6 +95,7 @@ pub(crate) fn band_without_case(band: &BandSource, spectrum: TargetSpectrum) -> 
         spectrum,
         from: band.from.unwrap_or(from),
         to: band.to.unwrap_or(to),
+        times: band.times,
         reason,
     }
 }

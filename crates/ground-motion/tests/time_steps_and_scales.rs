@@ -160,11 +160,20 @@ fn scales() {
             spectrum: target.clone(),
             from,
             to: 3.0,
+            times: 1.0,
             reason: String::new(),
         })
     };
     let band = scaled(over(0.1));
     assert!((band.scale() - 2.5).abs() < 1e-12);
+    let Scale::Band(raised) = over(0.1) else {
+        unreachable!()
+    };
+    let raised = BandTarget {
+        times: 1.2,
+        ..raised
+    };
+    assert!((scaled(Scale::Band(raised)).scale() - 3.0).abs() < 1e-12);
     // Two records, one three times the other: the mean of the logarithms is in the middle.
     let set = [ground.clone(), ground.scaled_by(3.0).unwrap()];
     let factor = band_factor(&set, &target, 0.1, 3.0).unwrap();

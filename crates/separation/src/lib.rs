@@ -44,7 +44,7 @@ pub use own::{OwnRule, RuleName, arithmetic, rule_names};
 pub use provision::Provision;
 pub use registry::{descriptors, find, unavailable};
 pub use status::{Reading, Status};
-pub use suite_rule::{Statistic, SuiteRule};
+pub use suite_rule::{SpectrumCondition, Statistic, SuiteRule};
 pub use worked_example::worked_example;
 pub use working::{Factor, ReadingWidth, Requirement};
 

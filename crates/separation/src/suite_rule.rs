@@ -31,8 +31,24 @@ impl Statistic {
     }
 }
 
+/// What a code asks of the mean spectrum of many records, for a damping ratio of 5 %.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SpectrumCondition {
+    /// Name of the spectrum, as cases give it to `scale`.
+    pub spectrum: &'static str,
+    /// The least part of the spectrum that the mean may be (-).
+    pub at_least: f64,
+    /// What the first and the last period are of the smallest and the greatest fundamental period
+    /// (-).
+    pub band: (f64, f64),
+    /// Whether the mean peak ground acceleration must reach the spectrum at zero period.
+    pub zero_period: bool,
+    /// Clause.
+    pub clause: &'static str,
+}
+
 /// What a code takes of the responses under many records.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SuiteRule {
     /// From this number of records on the mean counts; `None` if it never does.
     pub mean_from: Option<usize>,
@@ -42,6 +58,8 @@ pub struct SuiteRule {
     pub clause: &'static str,
     /// How far it has been checked.
     pub status: Verification,
+    /// What the code asks of their mean spectrum, where its spectrum is known here.
+    pub spectrum: Option<SpectrumCondition>,
 }
 
 impl SuiteRule {
@@ -79,6 +97,7 @@ const fn three_and_seven(clause: &'static str) -> SuiteRule {
         least: 3,
         clause,
         status: RECALLED,
+        spectrum: None,
     }
 }
 
@@ -89,11 +108,31 @@ const fn eleven(clause: &'static str) -> SuiteRule {
         least: 11,
         clause,
         status: RECALLED,
+        spectrum: None,
     }
 }
 
-pub(crate) const EUROCODE_8: SuiteRule = three_and_seven("3.2.3.1.2(4) and 4.3.3.4.3(3)");
-pub(crate) const ASCE_7_2010: SuiteRule = three_and_seven("16.1.3 and 16.1.4");
+pub(crate) const EUROCODE_8: SuiteRule = SuiteRule {
+    spectrum: Some(SpectrumCondition {
+        spectrum: "eurocode_8_2004",
+        at_least: 0.9,
+        band: (0.2, 2.0),
+        zero_period: true,
+        clause: "3.2.3.1.2(4)b and c",
+    }),
+    ..three_and_seven("3.2.3.1.2(4) and 4.3.3.4.3(3)")
+};
+/// Its design spectrum, 11.4.5, has the formulas of that of ASCE 7-16.
+pub(crate) const ASCE_7_2010: SuiteRule = SuiteRule {
+    spectrum: Some(SpectrumCondition {
+        spectrum: "asce_7_2016",
+        at_least: 1.0,
+        band: (0.2, 1.5),
+        zero_period: false,
+        clause: "16.1.3.1",
+    }),
+    ..three_and_seven("16.1.3 and 16.1.4")
+};
 pub(crate) const ASCE_7_2016: SuiteRule = eleven("16.2.2 and 16.4");
 pub(crate) const ASCE_7_2022: SuiteRule = eleven("16.2.2 and 16.4");
 pub(crate) const ASCE_41: SuiteRule = eleven("2.4.3 and 7.2.2");
@@ -109,6 +148,7 @@ pub(crate) const NZS_1170_5: SuiteRule = SuiteRule {
     least: 3,
     clause: "6.4",
     status: RECALLED,
+    spectrum: None,
 };
 
 /// What a rule of the user takes.
@@ -123,6 +163,7 @@ pub(crate) const NOT_KNOWN: SuiteRule = SuiteRule {
     least: 1,
     clause: "",
     status: Verification::Unverified("what the code takes of many records"),
+    spectrum: None,
 };
 
 #[cfg(test)]

@@ -55,6 +55,9 @@ pub(super) enum ScaleTable {
         to: Positive<Time>,
         /// Damping ratio, by default 0.05
         damping: Option<Ratio>,
+        /// A further factor (-), such as one that brings the mean of a suite to what a code asks
+        /// for; by default 1
+        times: Option<Positive<Number>>,
     },
     Code {
         /// Code to whose spectrum the record comes near: eurocode_8_2004 with ag and
@@ -80,6 +83,9 @@ pub(super) enum ScaleTable {
         to: Option<Positive<Time>>,
         /// Damping ratio, by default 0.05, the only one of ASCE 7
         damping: Option<Ratio>,
+        /// A further factor (-), such as one that brings the mean of a suite to what the code asks
+        /// for; by default 1
+        times: Option<Positive<Number>>,
     },
 }
 
@@ -154,6 +160,7 @@ pub(super) fn scale_of(
         TableOr::Table(Kinds(table)) => table,
     };
     let or_default = |damping: Option<Ratio>| damping.map_or(DAMPING, f64::from);
+    let or_one = |times: Option<Positive<Number>>| times.map_or(1.0, f64::from);
     Some(match table {
         ScaleTable::Factor { factor } => Scale::Factor(factor.into()),
         ScaleTable::Pga { pga } => Scale::PeakAcceleration(pga.into()),
@@ -172,6 +179,7 @@ pub(super) fn scale_of(
             from,
             to,
             damping,
+            times,
         } => Scale::Band(BandSource {
             spectrum: SpectrumSource::File(SpectrumFile {
                 file: target.into(),
@@ -179,6 +187,7 @@ pub(super) fn scale_of(
             }),
             from: Some(from.into()),
             to: Some(to.into()),
+            times: or_one(times),
         }),
         ScaleTable::Code {
             code,
@@ -191,6 +200,7 @@ pub(super) fn scale_of(
             from,
             to,
             damping,
+            times,
         } => {
             let keys = Keys {
                 reader,
@@ -244,6 +254,7 @@ pub(super) fn scale_of(
                 }),
                 from: from.map(f64::from),
                 to: to.map(f64::from),
+                times: or_one(times),
             })
         }
     })

@@ -487,6 +487,8 @@ pub struct BandSource {
     pub from: Option<f64>,
     /// Last period (s), likewise.
     pub to: Option<f64>,
+    /// A further factor (-).
+    pub times: f64,
 }
 
 /// A spectrum to which a record is scaled.

@@ -19,7 +19,7 @@ pub use butterworth::{Butterworth, Phase};
 pub use components::{RotatedPair, distinct, fault_components, rotate};
 pub(crate) use components::{at_right_angles, common_length};
 pub use resampling::{Interpolation, to_even_steps};
-pub use scaling::{BandTarget, Scale, band_factor};
+pub use scaling::{BAND_PERIODS, BandTarget, Scale, band_factor};
 pub use window::Trim;
 
 /// What is taken off all samples.

@@ -10,7 +10,7 @@ use crate::step_record::StepRecord;
 
 const STEP: &str = "scale";
 /// Periods of a band, evenly spaced in their logarithm.
-const BAND_PERIODS: usize = 100;
+pub const BAND_PERIODS: usize = 100;
 
 /// A spectrum to which a record comes near over a band of periods.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -21,6 +21,8 @@ pub struct BandTarget {
     pub from: f64,
     /// Last period (s).
     pub to: f64,
+    /// A further factor (-).
+    pub times: f64,
     /// Why these periods, for the user; empty where the user chose them.
     pub reason: String,
 }
@@ -106,8 +108,10 @@ impl Scale {
                 ratio(*target, spectrum.pseudo_acceleration[0])
             }
             Self::Band(band) => {
+                positive(STEP, "times", band.times)?;
                 let record = std::slice::from_ref(record);
-                band_factor(record, &band.spectrum, band.from, band.to)
+                let nearest = band_factor(record, &band.spectrum, band.from, band.to)?;
+                Ok(band.times * nearest)
             }
         }
     }
@@ -135,7 +139,7 @@ impl Scale {
                 .number("last period", band.to, "s")
                 .number("damping ratio", band.spectrum.damping(), "-")
                 .remark(format!(
-                    "to {}: least squares of the logarithm at {BAND_PERIODS} periods{}",
+                    "to {}: least squares of the logarithm at {BAND_PERIODS} periods{}{}",
                     match band.spectrum.name() {
                         "" => "a spectrum",
                         name => name,
@@ -143,6 +147,10 @@ impl Scale {
                     match band.reason.as_str() {
                         "" => String::new(),
                         reason => format!("; {reason}"),
+                    },
+                    match band.times {
+                        1.0 => String::new(),
+                        times => format!("; times {times}"),
                     }
                 )),
         };

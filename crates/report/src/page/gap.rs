@@ -265,7 +265,17 @@ fn statistic(answer: Answer<'_>, code: &str) -> String {
         }
         _ => "",
     };
-    format!("{rule}{few}")
+    let least = format!("{code}/spectrum/least_ratio");
+    let below = match answer.at(&format!("{code}/spectrum/is_reached")).as_bool() {
+        Some(false) => format!(
+            " The mean spectrum of the records falls to {} of that of the code, which asks for {}, or their mean peak acceleration is below that of the code ({}): the widths are no answer by the code.",
+            answer.say(&least, 1.0),
+            answer.say(&format!("{code}/spectrum/at_least"), 1.0),
+            answer.quote(&format!("{code}/spectrum/clause")),
+        ),
+        _ => String::new(),
+    };
+    format!("{rule}{few}{below}")
 }
 
 /// What a rule takes for granted, in a sentence.

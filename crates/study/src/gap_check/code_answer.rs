@@ -7,6 +7,7 @@ use pounding_separation::{
 use super::SAME;
 use super::codes::{GapPlace, Inputs};
 use super::demand::RecordDemand;
+use super::suite_spectrum::SuiteSpectrum;
 
 /// What one code says of a gap under a suite of records.
 #[derive(Debug, Clone)]
@@ -19,6 +20,8 @@ pub struct CodeAnswer {
     pub statistic: Statistic,
     /// Whether there are as many records as it asks for.
     pub enough_records: bool,
+    /// Their mean spectrum beside that of the code.
+    pub spectrum: SuiteSpectrum,
     /// Records under which a building collapses without contact: no statistic holds their
     /// displacements, and the code gives no answer.
     pub collapsed: usize,
@@ -111,11 +114,12 @@ impl CodeAnswer {
     }
 
     /// Whether the gap is wide enough by the code; `None` if it gives no answer, as where there
-    /// are fewer records than it asks for, or buildings collapse without contact. Where the case does not say who owns the ground, it
+    /// are fewer records than it asks for, their mean spectrum is below what it asks for, or buildings
+    /// collapse without contact. Where the case does not say who owns the ground, it
     /// must be for both.
     #[must_use]
     pub fn satisfied(&self) -> Option<bool> {
-        if !self.enough_records || self.collapsed > 0 {
+        if !self.enough_records || self.spectrum.is_below() || self.collapsed > 0 {
             return None;
         }
         let answers: Option<Vec<bool>> = self.deciding().map(OwnershipAnswer::satisfied).collect();
@@ -131,7 +135,7 @@ pub(super) fn code_answer(
     place: &GapPlace<'_>,
     inputs: &Inputs<'_>,
     (records, distinct, collapsed): (&[RecordDemand], usize, usize),
-    demand: &[f64],
+    (demand, spectrum): (&[f64], SuiteSpectrum),
 ) -> CodeAnswer {
     let statistic = code.suite.statistic(distinct);
     let levels = place.levels();
@@ -162,6 +166,7 @@ pub(super) fn code_answer(
     CodeAnswer {
         statistic,
         enough_records: distinct >= code.suite.least,
+        spectrum,
         collapsed,
         demand: statistic.of(demand),
         ownership: inputs.ownership(),

@@ -13,6 +13,7 @@ mod required;
 mod spectra;
 mod statistics;
 mod suite;
+mod suite_spectrum;
 mod sweep;
 mod systems;
 
@@ -33,6 +34,7 @@ pub use required::{LognormalFit, RequiredGap};
 pub use spectra::{SuiteSpectra, SuiteTarget};
 pub use statistics::binomial_bounds;
 pub use suite::SuiteStatistics;
+pub use suite_spectrum::{MeanSpectrum, SuiteSpectrum};
 pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_widths, widest};
 
 #[cfg(feature = "results")]
@@ -313,6 +315,8 @@ pub fn gap_check_dealt(
     let total = records.len() + runs(standing.len());
     let repeated = Repeated::among(records);
     let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
+    let condition = chosen.code.as_ref().and_then(|code| code.suite.spectrum);
+    let spectrum = SuiteSpectrum::of(case, records, condition, options.threads)?;
     let mut gaps = Vec::new();
     for index in 0..first.assembly.system.gaps().len() {
         let place = codes::GapPlace {
@@ -326,7 +330,8 @@ pub fn gap_check_dealt(
         report.code = chosen.code.clone().map(|code| {
             let code = (code, chosen.date);
             let records = (&demands[..], repeated.distinct, collapsed.len());
-            code_answer::code_answer(code, &place, &inputs, records, &report.demand)
+            let demand = &report.demand[..];
+            code_answer::code_answer(code, &place, &inputs, records, (demand, spectrum.clone()))
         });
         gaps.push(report);
     }

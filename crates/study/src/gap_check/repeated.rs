@@ -1,13 +1,15 @@
 //! Records that are one motion under several names.
 
 use pounding_catalogue::wording::counted;
+use pounding_ground_motion::Accelerogram;
 
 use super::records::CaseUnderRecord;
 
-/// Which records are copies of others, by their samples as they are used.
+/// Which records are copies of others: the same samples as they are used, but for a factor, its
+/// sign, what is cut off at the ends, and digits.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Repeated {
-    /// Records with the same samples, by their numbers from zero: two or more together.
+    /// Records of one motion, by their numbers from zero: two or more together.
     pub groups: Vec<Vec<usize>>,
     /// Records without the copies.
     pub distinct: usize,
@@ -16,10 +18,8 @@ pub struct Repeated {
 impl Repeated {
     /// Copies among the records of a case.
     pub(crate) fn among(records: &[CaseUnderRecord]) -> Self {
-        let same = |a: usize, b: usize| {
-            let [a, b] = [a, b].map(|r| &records[r].assembly.accelerogram);
-            a.time_step() == b.time_step() && a.samples() == b.samples()
-        };
+        let of = |r: usize| &records[r].assembly.accelerogram;
+        let same = |a: usize, b: usize| are_one_motion(of(a), of(b));
         Self::by(records.len(), same)
     }
 
@@ -43,11 +43,100 @@ impl Repeated {
             let names: Vec<&str> = group.iter().map(|r| names[*r]).collect();
             let (last, others) = names.split_last().unwrap_or((&"", &[]));
             format!(
-                "{} and {last} have the same samples: they are one record, of {} in all, and weigh in every statistic as several; name each record once",
+                "{} and {last} are the same motion, at most scaled, reversed or cut: they are one record, of {} in all, and weigh in every statistic as several; name each record once",
                 others.join(", "),
                 counted(self.distinct, "record"),
             )
         };
         self.groups.iter().map(warning).collect()
+    }
+}
+
+/// Part of the shorter record that must lie in the other one too, their peaks one upon the other.
+const OVERLAP: f64 = 0.9;
+/// What two records of one motion may differ by, over their root mean square: more than the digits
+/// of any format leave out, far less than any two components do.
+const DIFFERENCE: f64 = 1.0e-3;
+
+/// Whether a record is the other one times a factor, cut at other times or in other digits.
+fn are_one_motion(a: &Accelerogram, b: &Accelerogram) -> bool {
+    if (a.time_step() - b.time_step()).abs() > 1.0e-9 * a.time_step() {
+        return false;
+    }
+    let [first, second] = [a, b].map(Accelerogram::samples);
+    let (Some(i), Some(j)) = (place_of_peak(first), place_of_peak(second)) else {
+        // Both are zero throughout, or one of them.
+        return place_of_peak(first) == place_of_peak(second);
+    };
+    let before = i.min(j);
+    let after = (first.len() - i).min(second.len() - j);
+    let shorter = first.len().min(second.len());
+    if ((before + after) as f64) < OVERLAP * shorter as f64 {
+        return false;
+    }
+    let factor = second[j] / first[i];
+    let (mut difference, mut whole) = (0.0, 0.0);
+    let common = first[i - before..i + after].iter();
+    for (x, y) in common.zip(&second[j - before..j + after]) {
+        difference += (factor * x - y) * (factor * x - y);
+        whole += y * y;
+    }
+    difference <= DIFFERENCE * DIFFERENCE * whole
+}
+
+/// The first of the largest absolute values, if any is not zero.
+fn place_of_peak(samples: &[f64]) -> Option<usize> {
+    let mut peak = (0.0, None);
+    for (i, x) in samples.iter().enumerate() {
+        if x.abs() > peak.0 {
+            peak = (x.abs(), Some(i));
+        }
+    }
+    peak.1
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use pounding_ground_motion::AccelerationUnit;
+
+    use super::*;
+
+    fn record(samples: Vec<f64>) -> Accelerogram {
+        let unit = AccelerationUnit::MetrePerSecondSquared;
+        Accelerogram::new(samples, unit, 0.01).unwrap()
+    }
+
+    /// Two motions of many sines, with their peaks inside.
+    fn motion(seed: f64) -> Vec<f64> {
+        let at = |i: usize| {
+            let t = 0.01 * i as f64;
+            let sines = (1..20).map(|k| {
+                let k = f64::from(k);
+                (k * (3.0 + seed) * t + k * k * seed).sin() / k
+            });
+            sines.sum::<f64>() * (-(t - 5.0) * (t - 5.0) / 8.0).exp()
+        };
+        (0..1000).map(at).collect()
+    }
+
+    #[test]
+    fn one_motion_in_other_forms() {
+        let all = motion(0.3);
+        let whole = record(all.clone());
+        let scaled = record(all.iter().map(|x| -1.7 * x).collect());
+        let cut = record(all[37..960].to_vec());
+        let digits = record(all.iter().map(|x| (x * 1e5).round() * 1e-5).collect());
+        for other in [&scaled, &cut, &digits] {
+            assert!(are_one_motion(&whole, other) && are_one_motion(other, &whole));
+        }
+        let other = record(motion(0.31));
+        assert!(!are_one_motion(&whole, &other));
+        // The same samples at another time step are another motion.
+        let unit = AccelerationUnit::MetrePerSecondSquared;
+        let slow = Accelerogram::new(all, unit, 0.02).unwrap();
+        assert!(!are_one_motion(&whole, &slow));
+        let zeros = record(vec![0.0; 10]);
+        assert!(are_one_motion(&zeros, &record(vec![0.0; 12])) && !are_one_motion(&zeros, &whole));
     }
 }

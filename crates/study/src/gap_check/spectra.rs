@@ -2,7 +2,8 @@
 
 use pounding_assembly::scale_target;
 use pounding_case::Case;
-use pounding_ground_motion::processing::BandTarget;
+use pounding_ground_motion::GroundMotionError;
+use pounding_ground_motion::processing::{BAND_PERIODS, BandTarget};
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 
 use super::error::CheckError;
@@ -42,6 +43,8 @@ pub struct SuiteTarget {
     pub band: (f64, f64),
     /// Why these periods; empty where the case gives them.
     pub band_reason: String,
+    /// The further factor of the scale (-).
+    pub times: f64,
     /// Pseudo-accelerations at the periods of the spectra (m/s2); `None` beyond its range.
     pub values: Vec<Option<f64>>,
     /// Least ratio of the mean to the target within the band, with its period (s).
@@ -58,57 +61,82 @@ pub(super) fn spectra(
 ) -> Result<SuiteSpectra, CheckError> {
     let target = scale_target(case)?;
     let damping = target.as_ref().map_or(DAMPING, |t| t.spectrum.damping());
-    let wrong = |record: &CaseUnderRecord| {
-        let record = record.name.clone();
-        move |source: pounding_ground_motion::GroundMotionError| CheckError::Record {
-            record,
-            source: Box::new(source.into()),
-        }
-    };
     let Some(first) = records.first() else {
         return Err(CheckError::NoGap);
     };
     let periods = logarithmic_periods(RANGE.0, RANGE.1, PERIODS).map_err(wrong(first))?;
+    let spectra = of_records(records, &periods, damping, threads)?;
+    let mean = mean(&spectra, periods.len());
+    let compared = |band: BandTarget| -> Result<SuiteTarget, CheckError> {
+        let within = periods_of_band(&band).map_err(wrong(first))?;
+        let of_band = of_records(records, &within, damping, threads)?;
+        let of_band = self::mean(&of_band, within.len());
+        let ratios = within.iter().zip(&of_band);
+        let ratios = ratios.filter_map(|(t, mean)| Some((mean / band.spectrum.at(*t).ok()?, *t)));
+        let (least, greatest) = extremes(ratios);
+        Ok(SuiteTarget {
+            name: band.spectrum.name().to_owned(),
+            band: (band.from, band.to),
+            band_reason: band.reason,
+            times: band.times,
+            least,
+            greatest,
+            values: periods.iter().map(|t| band.spectrum.at(*t).ok()).collect(),
+        })
+    };
+    Ok(SuiteSpectra {
+        target: target.map(compared).transpose()?,
+        damping,
+        names: records.iter().map(|r| r.name.clone()).collect(),
+        periods,
+        records: spectra,
+        mean,
+    })
+}
+
+/// The error of a record whose spectrum cannot be computed.
+pub(super) fn wrong(record: &CaseUnderRecord) -> impl FnOnce(GroundMotionError) -> CheckError {
+    let record = record.name.clone();
+    move |source| CheckError::Record {
+        record,
+        source: Box::new(source.into()),
+    }
+}
+
+/// Pseudo-accelerations (m/s2) of each record at these periods (s).
+pub(super) fn of_records(
+    records: &[CaseUnderRecord],
+    periods: &[f64],
+    damping: f64,
+    threads: usize,
+) -> Result<Vec<Vec<f64>>, CheckError> {
     let spectra = in_parallel(records.len(), threads, &|_, _| {}, |r| {
         let record = &records[r];
         let linear = Evaluation::PiecewiseLinear;
-        let found = response_spectrum(&record.assembly.accelerogram, &periods, damping, linear);
+        let found = response_spectrum(&record.assembly.accelerogram, periods, damping, linear);
         found.map(|s| s.pseudo_acceleration).map_err(wrong(record))
     });
-    let spectra: Vec<Vec<f64>> = spectra.into_iter().collect::<Result<_, _>>()?;
+    spectra.into_iter().collect()
+}
+
+/// The mean of spectra at so many periods.
+pub(super) fn mean(spectra: &[Vec<f64>], periods: usize) -> Vec<f64> {
     let mean_at = |i: usize| spectra.iter().map(|s| s[i]).sum::<f64>() / spectra.len() as f64;
-    let mean: Vec<f64> = (0..periods.len()).map(mean_at).collect();
-    let target = target.map(
-        |BandTarget {
-             spectrum: target,
-             from,
-             to,
-             reason,
-         }| {
-            let band = (from, to);
-            let values: Vec<Option<f64>> = periods.iter().map(|t| target.at(*t).ok()).collect();
-            let within = periods.iter().zip(&values).zip(&mean);
-            let within = within.filter(|((t, _), _)| (band.0..=band.1).contains(*t));
-            let ratios = within.filter_map(|((t, value), mean)| Some((mean / (*value)?, *t)));
-            let ratios: Vec<(f64, f64)> = ratios.collect();
-            let by_ratio = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
-            let none = (f64::NAN, f64::NAN);
-            SuiteTarget {
-                name: target.name().to_owned(),
-                band,
-                band_reason: reason,
-                least: ratios.iter().min_by(by_ratio).copied().unwrap_or(none),
-                greatest: ratios.iter().max_by(by_ratio).copied().unwrap_or(none),
-                values,
-            }
-        },
-    );
-    Ok(SuiteSpectra {
-        damping,
-        periods,
-        names: records.iter().map(|r| r.name.clone()).collect(),
-        records: spectra,
-        mean,
-        target,
-    })
+    (0..periods).map(mean_at).collect()
+}
+
+/// The periods (s) at which a mean is held against its target, both ends among them.
+fn periods_of_band(band: &BandTarget) -> Result<Vec<f64>, GroundMotionError> {
+    logarithmic_periods(band.from, band.to, BAND_PERIODS)
+}
+
+/// The least and the greatest of ratios, each with its period (s).
+pub(super) fn extremes(ratios: impl Iterator<Item = (f64, f64)>) -> ((f64, f64), (f64, f64)) {
+    let ratios: Vec<(f64, f64)> = ratios.collect();
+    let by_ratio = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
+    let none = (f64::NAN, f64::NAN);
+    (
+        ratios.iter().min_by(by_ratio).copied().unwrap_or(none),
+        ratios.iter().max_by(by_ratio).copied().unwrap_or(none),
+    )
 }

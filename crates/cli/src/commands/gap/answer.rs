@@ -2,7 +2,9 @@
 
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_separation::Requirement;
-use pounding_study::gap_check::{CodeAnswer, GapCheck, GapReport, LevelAnswer, OwnershipAnswer};
+use pounding_study::gap_check::{
+    CodeAnswer, GapCheck, GapReport, LevelAnswer, OwnershipAnswer, SuiteSpectrum,
+};
 
 use super::rules::widest;
 use crate::tables::new_table;
@@ -149,7 +151,9 @@ fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
         verdict(answer.satisfied()),
         edition(answer)
     );
-    text.push_str(&statistic(answer, gap.records(), check.repeated.distinct));
+    let records = (gap.records(), check.repeated.distinct);
+    let times = check.spectra.target.as_ref().map_or(1.0, |t| t.times);
+    text.push_str(&statistic(answer, records, times));
     text.push_str(&cases(gap, answer));
     for case in &answer.cases {
         text.push_str(&explained(case));
@@ -197,7 +201,7 @@ fn edition(answer: &CodeAnswer) -> String {
 }
 
 /// What decides: which number of the responses, and whether there are records enough.
-fn statistic(answer: &CodeAnswer, records: usize, distinct: usize) -> String {
+fn statistic(answer: &CodeAnswer, (records, distinct): (usize, usize), times: f64) -> String {
     let suite = &answer.code.suite;
     let clause = match suite.clause {
         "" => String::new(),
@@ -219,10 +223,51 @@ fn statistic(answer: &CodeAnswer, records: usize, distinct: usize) -> String {
         ),
     };
     format!(
-        "  decided by the {} of the displacements under {}: {}{clause}\n{few}{collapsed}",
+        "  decided by the {} of the displacements under {}: {}{clause}\n{few}{}{collapsed}",
         answer.statistic.name(),
         records_of(records, distinct),
         suite.explanation(),
+        spectrum(&answer.spectrum, times),
+    )
+}
+
+/// How the mean spectrum of the records stands to what the code asks of it; `times` is the further
+/// factor that their scale has.
+fn spectrum(found: &SuiteSpectrum, times: f64) -> String {
+    let mean = match found {
+        SuiteSpectrum::NotKnown => return String::new(),
+        SuiteSpectrum::NotCompared {
+            condition,
+            scaled_to,
+        } => {
+            let to = scaled_to.map_or_else(String::new, |other| {
+                format!(", as they are scaled to that of {other}")
+            });
+            return format!(
+                "  warning: the code asks for records whose mean spectrum is nowhere below {} of its own ({}), and they are not compared with it{to}: `scale = {{ code = \"{}\", ... }}` does\n",
+                condition.at_least, condition.clause, condition.spectrum
+            );
+        }
+        SuiteSpectrum::Compared(mean) => mean,
+    };
+    let condition = &mean.condition;
+    let (ratio, period) = mean.least;
+    let at_zero = mean.zero_period.map_or_else(String::new, |ratio| {
+        format!(
+            "; their mean peak acceleration is {ratio:.3} of that of the code, which asks for 1"
+        )
+    });
+    let stands = format!(
+        "from {:.3} to {:.3} s the mean spectrum of the records is nowhere below {ratio:.3} (at {period:.3} s) of that of the code, which asks for {}{at_zero} ({})",
+        mean.band.0, mean.band.1, condition.at_least, condition.clause
+    );
+    if mean.is_reached() {
+        return format!("  {stands}\n");
+    }
+    // Up, so that it is enough.
+    let raised = (1.0e4 * times * mean.factor()).ceil() * 1.0e-4;
+    format!(
+        "  warning: {stands}: that is no answer by the code; `times = {raised:.4}` beside `code` in `scale` brings all records to it\n"
     )
 }
 

@@ -2,7 +2,8 @@
 
 use pounding_separation::Requirement;
 use pounding_study::gap_check::{
-    self, CodeGap, CombinationGap, GapCheck, GapReport, GapSweep, RecordDemand,
+    self, CodeGap, CombinationGap, GapCheck, GapReport, GapSweep, MeanSpectrum, RecordDemand,
+    SuiteSpectrum,
 };
 use pounding_time_history::{BuildingOutcome, LevelPlace, NamedPeak};
 use serde::Serialize;
@@ -339,12 +340,49 @@ struct Code<'c> {
     statistic_clause: &'static str,
     statistic_status: &'static str,
     enough_records: bool,
+    /// `null` where nothing is known of what the code asks of the mean spectrum.
+    spectrum: Option<CodeSpectrum>,
     /// Statistic of the demand.
     demand: f64,
     /// Ownership that the case states.
     ownership: Option<&'static str>,
     satisfied: Option<bool>,
     cases: Vec<CodeCase<'c>>,
+}
+
+/// What the code asks of the mean spectrum of the records, and how that compares.
+#[derive(Serialize)]
+struct CodeSpectrum {
+    at_least: f64,
+    clause: &'static str,
+    /// `null` where the records are not scaled to the spectrum of the code.
+    is_reached: Option<bool>,
+    band: Option<(f64, f64)>,
+    least_ratio: Option<f64>,
+    period_of_least_ratio: Option<f64>,
+    ratio_of_peaks: Option<f64>,
+    /// The least factor on all records with which they are what the code asks for.
+    factor: Option<f64>,
+}
+
+impl CodeSpectrum {
+    fn of(found: &SuiteSpectrum) -> Option<Self> {
+        let (condition, mean) = match found {
+            SuiteSpectrum::NotKnown => return None,
+            SuiteSpectrum::NotCompared { condition, .. } => (condition, None),
+            SuiteSpectrum::Compared(mean) => (&mean.condition, Some(mean)),
+        };
+        Some(Self {
+            at_least: condition.at_least,
+            clause: condition.clause,
+            is_reached: mean.map(MeanSpectrum::is_reached),
+            band: mean.map(|m| m.band),
+            least_ratio: mean.map(|m| m.least.0),
+            period_of_least_ratio: mean.map(|m| m.least.1),
+            ratio_of_peaks: mean.and_then(|m| m.zero_period),
+            factor: mean.map(MeanSpectrum::factor),
+        })
+    }
 }
 
 /// A width of a provision, unless texts on it differ.
@@ -417,6 +455,7 @@ impl<'c> Code<'c> {
             statistic_clause: suite.clause,
             statistic_status: suite.status.name(),
             enough_records: answer.enough_records,
+            spectrum: CodeSpectrum::of(&answer.spectrum),
             demand: answer.demand,
             ownership: answer.ownership.map(|o| o.name()),
             satisfied: answer.satisfied(),

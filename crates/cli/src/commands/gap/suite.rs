@@ -20,8 +20,12 @@ pub fn target(check: &GapCheck) -> String {
         "" => String::new(),
         reason => format!(" ({reason})"),
     };
+    let times = match target.times {
+        1.0 => String::new(),
+        times => format!(" and times {}", six_digits(times)),
+    };
     format!(
-        "  records are scaled to {} from {} to {} s{reason}, by least squares of the logarithm: their mean spectrum is {ratio:.2} (at {period:.2} s) to {most:.2} (at {at:.2} s) of it\n",
+        "  records are scaled to {} from {} to {} s{reason}, by least squares of the logarithm{times}: their mean spectrum is {ratio:.2} (at {period:.2} s) to {most:.2} (at {at:.2} s) of it\n",
         target.name,
         six_digits(target.band.0),
         six_digits(target.band.1)

@@ -4,7 +4,7 @@
 
 use std::sync::Arc;
 
-use pounding_time_history::{MethodChoice, Outcome, RunOptions, System, run};
+use pounding_time_history::{GridRecorder, MethodChoice, Outcome, RunOptions, System, run};
 use verification::{
     constant_ground, free_bodies, reference_cases, reference_system, reference_system_with, rigid,
     synthetic_motion,
@@ -127,6 +127,66 @@ fn converges_to_the_located_impacts_in_first_order() {
     let order = (errors[0] / errors[2]).ln() / 16.0_f64.ln();
     println!("order {order}, errors {errors:?}");
     assert!((order - 1.0).abs() < 0.25, "{order}: {errors:?}");
+}
+
+/// Floors that stay together where no restitution parts them: forces that hold them, recorded ones
+/// too, converge to those of located contacts, and are zero where the gap is open.
+#[test]
+fn floors_that_stay_together() {
+    let cases = reference_cases().unwrap();
+    let law = rigid(0.0);
+    let ground = synthetic_motion().unwrap();
+    for name in ["C1", "C2"] {
+        let case = &cases.cases[name];
+        let system =
+            reference_system_with(case, &|_| Ok(Arc::clone(&law)), ground.clone(), 1.0).unwrap();
+        let recorded = |method: MethodChoice| {
+            let options = RunOptions {
+                method,
+                duration: Some(12.0),
+                energy_tolerance: None,
+            };
+            let mut recorder = GridRecorder::new(0.01).unwrap();
+            let outcome = run(&system, &options, &mut [&mut recorder], &mut |_| {}).unwrap();
+            (outcome, recorder)
+        };
+        let (located, exact) = recorded(MethodChoice::EventDriven {
+            relative_tolerance: 1e-11,
+        });
+        let exact = exact.responses;
+        let sticks = |o: &Outcome| o.gaps[0].levels.iter().map(|l| l.sticks).sum::<usize>();
+        assert!(sticks(&located) > 5, "{name}: {}", sticks(&located));
+        let errors = [5.0e-5, 5.0e-6].map(|step| {
+            let (outcome, rows) = recorded(MethodChoice::MoreauJean { step, theta: 0.5 });
+            let rows = rows.responses;
+            let apart = |a: &[f64], b: &[f64]| {
+                let pairs = a.iter().zip(b);
+                let largest = b.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                pairs.fold(0.0_f64, |m, (a, b)| m.max((a - b).abs())) / largest
+            };
+            // A force of a gap that is open would be one that pulls or holds floors apart.
+            let pulls = rows.force.iter().fold(0.0_f64, |m, force| m.min(*force));
+            let held = rows.force.iter().zip(&rows.penetration);
+            let open = held.filter(|(_, gap)| **gap < -1.0e-4);
+            let across = open.fold(0.0_f64, |m, (force, _)| m.max(force.abs()));
+            let largest = exact.force.iter().fold(0.0_f64, |m, x| m.max(*x));
+            assert!(
+                across == 0.0 && pulls >= -1e-2 * largest,
+                "{name}: {across} {pulls}"
+            );
+            let error = apart(&rows.displacement, &exact.displacement);
+            println!(
+                "{name} {step}: {error:e}, {} times together, {}",
+                sticks(&outcome),
+                sticks(&located)
+            );
+            error
+        });
+        assert!(
+            errors[1] < 1e-3 && errors[1] < 0.3 * errors[0],
+            "{name}: {errors:?}"
+        );
+    }
 }
 
 #[test]

@@ -284,7 +284,9 @@ impl<'a> Driver<'a> {
             slope: 0.0,
             interval: 0,
         };
-        self.settle_held(&segment, 0.0)?;
+        if self.locates_impacts() {
+            self.settle_held(&segment, 0.0)?;
+        }
         let mut context = Context {
             dynamics: &mut self.dynamics,
             contacts: &self.contacts,
@@ -315,10 +317,12 @@ impl<'a> Driver<'a> {
             if let Some(exact) = &mut self.exact {
                 exact.interrupt();
             }
-            self.bring_to_rest();
-            self.held.leaving.clear();
-            self.settle_held(segment, from)?;
-            self.settle_stuck(segment, from);
+            if self.locates_impacts() {
+                self.bring_to_rest();
+                self.held.leaving.clear();
+                self.settle_held(segment, from)?;
+                self.settle_stuck(segment, from);
+            }
         }
         self.last_ground = Some(segment.ground(segment.length));
         let mut tau = from;
@@ -466,6 +470,12 @@ impl<'a> Driver<'a> {
             && (elements.turned[event.level] || elements.changes[event.level] >= CHANGES_ON_THE_WAY)
     }
 
+    /// Whether contacts close, hold and open by events; else steps have impulses, and which floors
+    /// are held together follows from these.
+    fn locates_impacts(&self) -> bool {
+        self.method.step_impulses().is_none()
+    }
+
     /// The earliest event of the trial step, and the first of every level, but for one that is known
     /// and may hide others of its level.
     fn find(
@@ -475,7 +485,7 @@ impl<'a> Driver<'a> {
         step: f64,
         known: Option<Candidate>,
     ) -> Option<Candidate> {
-        if self.method.step_impulses().is_some() {
+        if !self.locates_impacts() {
             return None;
         }
         let mut context = Context {

@@ -1,13 +1,14 @@
 //! Impacts of a method that does not locate them: told from the impulses of its steps.
 
 use super::Driver;
+use super::rigid_impacts::lasting;
 use crate::dynamics::Segment;
 use crate::outcome::Peak;
 
 impl Driver<'_> {
     /// Logs what an accepted step did at every level. An impact is a run of steps with
-    /// impulses; its times are ends of steps. `self.new_state` holds the state before
-    /// the step.
+    /// impulses; its times are ends of steps. From the second of them on the floors are held
+    /// together. `self.new_state` holds the state before the step.
     pub(super) fn stepped_impacts(&mut self, segment: &Segment, tau: f64, step: f64) {
         let Some(impulses) = self.method.step_impulses() else {
             return;
@@ -35,12 +36,21 @@ impl Driver<'_> {
                     self.peaks.force[l] = Peak { value: 0.0, time };
                 }
                 self.peaks.force[l].raise(impulse / step, time);
+                if self.contacts.contact(l).is_none() {
+                    // For what is recorded of the next step, to which the method gives its own
+                    // impulse.
+                    let collision = level.model.begin(0.0, level.effective_mass);
+                    self.contacts.close(l, lasting(collision));
+                }
             } else if running {
                 let separation = -level.relative(&self.new_state[n..2 * n]);
                 let end = Some((segment.start + tau, separation));
                 let layout = self.dynamics.layout;
                 self.log
                     .open(l, end, &self.peaks, layout, &self.new_state, 0.0);
+            }
+            if *impulse <= 0.0 && self.contacts.contact(l).is_some() {
+                self.contacts.open(l);
             }
             if *impulse > 0.0 {
                 self.peaks.penetration[l].raise(overlap, time);

@@ -483,6 +483,11 @@ fn a_link_between_foundations_is_a_spring_of_each() {
 fn a_link_between_rotations_has_units_of_its_own() {
     let link = "[[link]]\nname = \"soil\"\nbetween = [\"A\", \"B\"]\nfoundations = \"rocking\"\nmodel = \"bilinear\"\nstiffness = \"5 GN m/rad\"\nyield_force = \"1 MN m\"\n";
     let case = by_soil().replace("\"25 s\"", "\"6 s\"");
+    let delayed = format!("{case}{link}").replacen(
+        "name = \"B\"",
+        "name = \"B\"\nground = { delay = \"0.13 s\" }",
+        1,
+    );
     let bench = Bench::with(&format!("{case}{link}"));
     let understood = bench.text("check case.toml");
     for words in [
@@ -524,14 +529,21 @@ fn a_link_between_rotations_has_units_of_its_own() {
         let units: hdf5::types::VarLenUnicode = units.read_scalar().unwrap();
         assert_eq!(units.as_str(), unit, "{name}");
     }
-    // The rotation of the right foundation less that of the left.
-    let history = |name: &str| file.dataset(name).unwrap().read_1d::<f64>().unwrap();
-    let [left, right] =
-        ["A", "B"].map(|b| history(&format!("building/{b}/response/foundation_rotation")));
-    let deformation = file.dataset("link/soil/deformation").unwrap();
-    let deformation = deformation.read_2d::<f64>().unwrap();
-    for ((l, r), d) in left.iter().zip(&right).zip(deformation.column(0)) {
-        assert!((r - l - d).abs() < 1e-15);
+    // The rotation of the right foundation less that of the left: also where the ground moves
+    // otherwise under one of them, which turns nothing.
+    bench.write("delayed.toml", &delayed);
+    bench.text("run delayed.toml -o delayed.h5");
+    for name in ["case.h5", "delayed.h5"] {
+        let file = hdf5::File::open(bench.folder().join(name)).unwrap();
+        let history = |name: &str| file.dataset(name).unwrap().read_1d::<f64>().unwrap();
+        let [left, right] =
+            ["A", "B"].map(|b| history(&format!("building/{b}/response/foundation_rotation")));
+        let deformation = file.dataset("link/soil/deformation").unwrap();
+        let deformation = deformation.read_2d::<f64>().unwrap();
+        for ((l, r), d) in left.iter().zip(&right).zip(deformation.column(0)) {
+            assert!((r - l - d).abs() < 1e-15, "{name}: {r} - {l} is not {d}");
+        }
+        assert!(left.iter().any(|l| l.abs() > 1e-5), "{name}");
     }
 }
 

@@ -1,5 +1,7 @@
 //! Where contacts and links act, and the relative displacement between two such places.
 
+use pounding_shear_building::Excitation;
+
 use super::{LevelPlace, System, Terms};
 
 /// A place in a contact level or a link, for its definition.
@@ -43,6 +45,8 @@ struct Side {
     weights: Vec<(usize, f64)>,
     place: Option<(usize, f64)>,
     building: Option<usize>,
+    /// What a unit shift of the ground along the row moves it by: nothing for a rotation.
+    carried: f64,
     /// Position across the row (m), where it matters.
     across: Option<f64>,
 }
@@ -125,10 +129,10 @@ impl System {
         if !moves {
             return;
         }
-        for (motion, sign) in motions.into_iter().zip([1.0, -1.0]) {
-            if let Some(motion) = motion {
+        for ((motion, sign), side) in motions.into_iter().zip([1.0, -1.0]).zip(sides) {
+            if let Some(motion) = motion.filter(|_| side.carried != 0.0) {
                 let dof = self.displacement_of_ground(motion);
-                terms.ground.push((dof, sign));
+                terms.ground.push((dof, sign * side.carried));
             }
         }
     }
@@ -144,12 +148,14 @@ impl System {
                 weights: Vec::new(),
                 place: None,
                 building: None,
+                carried: 0.0,
                 across: None,
             }),
             Floor::Storey(b, s) => Ok(Side {
                 weights: vec![(self.offsets[b.min(self.buildings.len())] + s, 1.0)],
                 place: Some((s + 1, found(b, s)?.elevations()[s])),
                 building: Some(b),
+                carried: 1.0,
                 across: None,
             }),
             Floor::Point(number) => {
@@ -169,6 +175,12 @@ impl System {
                     let name = building.name();
                     return Err(format!("{name} has no coordinate {i} with a finite weight"));
                 }
+                let further = building.further_coordinates();
+                let along = |i: usize| match i.checked_sub(building.storeys()) {
+                    None => true,
+                    Some(k) => further[k].excitation == Excitation::Along,
+                };
+                let carried: f64 = all.clone().filter(|(i, _)| along(*i)).map(|(_, w)| w).sum();
                 let weights: Vec<_> = all.map(|(i, w)| (dof(*i), *w)).collect();
                 if weights.iter().all(|(_, w)| *w == 0.0) {
                     return Err(format!("a point of {} that nothing moves", building.name()));
@@ -177,6 +189,11 @@ impl System {
                     weights,
                     place: Some((point.storey + 1, point.elevation)),
                     building: Some(b),
+                    // Shares of a point between floors add up to one, but for round-off.
+                    carried: match (carried - 1.0).abs() < 1.0e-12 {
+                        true => 1.0,
+                        false => carried,
+                    },
                     across: *across,
                 })
             }

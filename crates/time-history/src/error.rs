@@ -60,8 +60,10 @@ pub enum TimeHistoryError {
         /// What is wrong.
         reason: String,
     },
-    /// A method that cannot integrate storeys or links with memory.
-    #[error("method {method} knows linear storeys only; {place} has a law with memory")]
+    /// A method that cannot integrate links, or storeys that follow a law.
+    #[error(
+        "method {method} takes linear storeys without a law, and no links: it cannot integrate {place}"
+    )]
     NotLinear {
         /// Name of the method.
         method: &'static str,

@@ -144,7 +144,7 @@ impl ProvisionDescriptor {
             }
         };
         let alignment = if self.inputs.contains(&Input::FloorsAligned) {
-            "asks whether all floors of the lower building face floors"
+            "asks whether all floors up to the lower roof face floors"
         } else {
             "does not ask whether floors face floors"
         };

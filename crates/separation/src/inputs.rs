@@ -251,7 +251,7 @@ pub struct Structure {
 /// What both structures share.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Site {
-    /// Whether all floors of the lower structure face floors of the other.
+    /// Whether all floors up to the lower roof face floors, of both structures.
     pub floors_aligned: Option<bool>,
     /// Whether both structures belong to one owner, with no property line between.
     pub same_owner: Option<bool>,

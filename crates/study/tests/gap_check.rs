@@ -187,6 +187,43 @@ fn the_sweep_of_one_gap_in_a_row_covers_its_width() {
     assert_eq!(all.sweep.unwrap().widths[20], 1.05 * maximum);
 }
 
+/// Two buildings of so many storeys of so many metres, in this order.
+fn of_storeys(left: (usize, f64), right: (usize, f64), more: &str) -> Case {
+    let building = |name: &str, (storeys, height): (usize, f64)| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nstoreys = {storeys}\nmass = \"100 t\"\nstiffness = \"300 MN/m\"\nheight = {height}\ndamping = {{ ratio = 0.05, modes = [1, 2] }}\n"
+        )
+    };
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    let text = building("A", left)
+        + &building("B", right)
+        + "[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"200 mm\"\nlevels = \"matching\"\nmodel = \"anagnostopoulos_2004\"\nstiffness = \"93.5 MN/m\"\nrestitution = 0.65\n"
+        + &format!("[ground_motion]\nfile = '{}'\n[analysis]\nduration = \"2 s\"\n{more}", record.display());
+    Case::parse(&text, &root().join("case.toml")).unwrap()
+}
+
+/// EN 1998-1, 4.4.2.7(3): 0.7 where floors face floors, of both buildings up to the lower roof and
+/// whichever stands on the left.
+#[test]
+fn floors_are_aligned_where_those_of_both_buildings_face_one_another() {
+    for (one, other, reduction) in [
+        ((3, 3.0), (6, 1.5), 1.0),
+        ((3, 3.0), (8, 1.5), 1.0),
+        ((3, 3.0), (6, 3.0), 0.7),
+        ((3, 3.0), (3, 3.0), 0.7),
+    ] {
+        for (left, right) in [(one, other), (other, one)] {
+            let case = of_storeys(left, right, "[separation]\nsame_owner = true\n");
+            let check = check(&case, &[], &options());
+            let mut codes = check.gaps[0].codes.iter();
+            let rule = codes.find(|c| c.provision.name() == "en_1998_1_2004_between");
+            let found = rule.unwrap().records[0][0].as_ref().unwrap();
+            let factor = found.factors.iter().find(|f| f.name == "reduction");
+            assert_eq!(factor.unwrap().value, reduction, "{left:?} {right:?}");
+        }
+    }
+}
+
 /// Every provision either computes or says what is missing; with all inputs only those
 /// that do not apply are left.
 #[test]

@@ -145,7 +145,7 @@ impl OwnRule {
             ),
             alignment: says(
                 needs(Input::FloorsAligned),
-                "asks whether all floors of the lower building face floors",
+                "asks whether all floors up to the lower roof face floors",
                 "does not ask whether floors face floors",
             ),
             others: self.text.assumptions.clone(),

@@ -203,21 +203,25 @@ impl GapPlace<'_> {
         self.system.levels_of(self.gap())[level].width
     }
 
-    /// Whether every floor of the lower building faces a floor of the other.
+    /// Whether all floors face floors: every floor of either building, up to the lower of the two
+    /// roofs, one of the other.
     fn floors_aligned(&self) -> bool {
         let levels = self.levels();
         let Some([Some((left, _)), Some((right, _))]) = levels.first() else {
             return false;
         };
         let buildings = self.system.buildings();
-        let (a, b) = (
-            buildings[*left].elevations(),
-            buildings[*right].elevations(),
-        );
-        let (low, high) = if a.last() <= b.last() { (a, b) } else { (b, a) };
+        let [a, b] = [left, right].map(|i| buildings[*i].elevations());
         let tolerance = self.gap().elevation_tolerance;
-        low.iter()
-            .all(|z| high.iter().any(|other| are_level(*z, *other, tolerance)))
+        let roof = [a, b].map(|floors| floors.last().copied().unwrap_or(0.0));
+        let lower_roof = roof[0].min(roof[1]);
+        let faced = |own: &[f64], other: &[f64]| {
+            let mut facing = own
+                .iter()
+                .filter(|z| **z <= lower_roof || are_level(**z, lower_roof, tolerance));
+            facing.all(|z| other.iter().any(|o| are_level(*z, *o, tolerance)))
+        };
+        faced(a, b) && faced(b, a)
     }
 }
 

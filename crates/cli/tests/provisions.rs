@@ -309,6 +309,42 @@ fn an_entry_is_set_once() {
     assert!(text.contains("importance is given twice"), "{text}");
 }
 
+/// Standard 2800 by height across a property line for ordinary buildings, with what is to be known of
+/// it; by analysis for important ones.
+#[test]
+fn a_code_says_what_is_to_be_known_of_its_rule() {
+    for (importance, rule, remark) in [
+        (
+            "1.0",
+            "iran_2800_boundary_by_height",
+            "this width holds for others only",
+        ),
+        (
+            "1.4",
+            "iran_2800_boundary_by_analysis",
+            "Above 8 storeys, and for buildings of high or very high importance",
+        ),
+    ] {
+        let set = format!("importance={importance}");
+        let arguments = ["--set", &set, "--code", "iran_2800"];
+        let shown = plain(&text(&gap(&arguments).stdout));
+        assert!(shown.contains(remark), "{shown}");
+        let answer = json(&gap(&[&arguments[..], &["--json"]].concat()));
+        let cases = answer["gaps"][0]["code"]["cases"].as_array().unwrap();
+        let across = cases
+            .iter()
+            .find(|c| c["ownership"] == "different properties");
+        let across = across.unwrap();
+        assert_eq!(
+            across["levels"][2]["provision"]["name"], rule,
+            "{importance}"
+        );
+        let remarks = across["remarks"].as_array().unwrap();
+        let said = remarks.iter().any(|r| r.as_str().unwrap().contains(remark));
+        assert!(said, "{remarks:?}");
+    }
+}
+
 /// A disputed rule shows both widths, judges no gap and gives no verdict: by hand, of the sum of
 /// peaks with I = 1, a third and two thirds.
 #[test]

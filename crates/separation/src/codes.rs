@@ -767,6 +767,12 @@ mod tests {
         (tall.left.storeys, tall.right.storeys) = (9, 9);
         let found = widths("iran_2800", &Sides::Between(tall));
         assert!((found[1].1 - 0.14).abs() < 1e-12);
+        let Sides::Between(mut important) = between(true) else {
+            unreachable!()
+        };
+        important.left.importance = Some(1.4);
+        let found = widths("iran_2800", &Sides::Between(important));
+        assert!((found[1].1 - 0.14).abs() < 1e-12);
     }
 
     #[test]

@@ -154,6 +154,16 @@ impl Provision {
         }
     }
 
+    /// What else a user should know of it; what a rule of the user takes for granted is theirs to
+    /// say.
+    #[must_use]
+    pub fn remarks(&self) -> &'static [&'static str] {
+        match self {
+            Self::BuiltIn(p) => p.remarks,
+            Self::Own(_) => &[],
+        }
+    }
+
     /// Whether its widths are held against a gap: not those of seats.
     #[must_use]
     pub fn judges(&self) -> bool {

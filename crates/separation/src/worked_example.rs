@@ -18,7 +18,7 @@ pub fn worked_example() -> Situation {
         displacement: Some(0.08),
         response_modification: Some(8.0),
         displacement_amplification: Some(4.0),
-        importance: Some(1.25),
+        importance: Some(1.1),
         yield_amplification: Some(1.0),
         system: Some(StructuralSystem::Frame),
         isolation_period: Some(3.0),

@@ -198,7 +198,10 @@ fn of_storeys(left: (usize, f64), right: (usize, f64), more: &str) -> Case {
     let text = building("A", left)
         + &building("B", right)
         + "[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"200 mm\"\nlevels = \"matching\"\nmodel = \"anagnostopoulos_2004\"\nstiffness = \"93.5 MN/m\"\nrestitution = 0.65\n"
-        + &format!("[ground_motion]\nfile = '{}'\n[analysis]\nduration = \"2 s\"\n{more}", record.display());
+        + &format!(
+            "[ground_motion]\nfile = '{}'\n[analysis]\nduration = \"2 s\"\n{more}",
+            record.display()
+        );
     Case::parse(&text, &root().join("case.toml")).unwrap()
 }
 

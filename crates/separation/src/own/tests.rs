@@ -47,7 +47,7 @@ fn twenty_right_ones() {
         ("2 / 3 * (u_left + u_right)", NONE, 280.0 / 3.0),
         ("floors_aligned ? 0.25 * u_left : 0.5 * u_left", NONE, 40.0),
         ("same_owner && !floors_aligned ? u_left : 0", NONE, 80.0),
-        ("importance * (u_left / R_left * Cd_left)", NONE, 50.0),
+        ("importance * (u_left / R_left * Cd_left)", NONE, 44.0),
         ("height * design_ground_acceleration / g / 100", NONE, 45.0),
         ("storeys_left <= 3 ? 0 : 0.02 * height", NONE, 360.0),
         // Begun steps of 3 m above 6 m: four.

@@ -8,6 +8,9 @@ use crate::inputs::{Input, Site, Situation, Structure};
 use crate::status::Status;
 use crate::working::{Working, root};
 
+/// Importance factor from which a building is of high importance.
+const HIGH_IMPORTANCE: f64 = 1.2;
+
 fn by_height(
     working: &mut Working,
     structure: &Structure,
@@ -16,6 +19,12 @@ fn by_height(
 ) -> Result<f64, SeparationError> {
     if structure.storeys > 8 {
         let reason = "above 8 storeys it asks for an analysis: see iran_2800_boundary_by_analysis";
+        return Err(working.not_applicable(reason));
+    }
+    if let Some(factor) = structure.importance.filter(|i| *i >= HIGH_IMPORTANCE) {
+        let reason = format!(
+            "a building of high or very high importance (I = {factor}, from {HIGH_IMPORTANCE} on) needs an analysis: see iran_2800_boundary_by_analysis"
+        );
         return Err(working.not_applicable(reason));
     }
     Ok(0.005 * working.elevation(elevation))
@@ -70,9 +79,11 @@ pub(crate) static BOUNDARY_BY_HEIGHT: ProvisionDescriptor = ProvisionDescriptor 
     formula: "0.005 h",
     inputs: &[],
     status: Status::SeenInText(
-        "an excerpt of the sentence for up to 8 storeys; 1/100 of the height between two buildings",
+        "an excerpt of the sentences for up to 8 storeys and for high importance; 1/100 of the height between two buildings",
     ),
-    remarks: &["Buildings of high or very high importance need the analysis."],
+    remarks: &[
+        "Buildings of high or very high importance need the analysis: this width holds for others only, which `importance` below 1.2 says.",
+    ],
     worked: "0.005 * 18000",
     rule: Rule::Boundary(by_height),
 };
@@ -85,7 +96,10 @@ pub(crate) static BOUNDARY_BY_ANALYSIS: ProvisionDescriptor = ProvisionDescripto
     status: Status::Unverified(
         "that the displacement is that of one side: the excerpt seen speaks of the distance between buildings",
     ),
-    remarks: &["Nonlinear displacement with P-delta, which u has to include."],
+    remarks: &[
+        "Above 8 storeys, and for buildings of high or very high importance (1.2 and more).",
+        "Nonlinear displacement with P-delta, which u has to include.",
+    ],
     rule: Rule::Boundary(by_analysis),
     worked: "80",
     height: HeightDatum::NotUsed,
@@ -158,6 +172,11 @@ mod tests {
             matches!(c.between(s), Err(SeparationError::NotApplicable { .. }))
         };
         assert!(refused(&BOUNDARY_BY_HEIGHT, &situation(9, 27.0)));
+        for (importance, analysis) in [(1.0, false), (1.2, true), (1.4, true)] {
+            let mut important = situation(6, 18.0);
+            important.right.importance = Some(importance);
+            assert_eq!(refused(&BOUNDARY_BY_HEIGHT, &important), analysis);
+        }
         assert!(refused(&TEHRAN, &situation(4, 12.0)));
         assert!(!refused(&TEHRAN, &situation(5, 12.0)));
     }

@@ -43,7 +43,7 @@ pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
         "the half where floors are aligned; R times the drifts was seen in an excerpt of 7.11",
     ),
     remarks: &[],
-    worked: "1 * (1.25 * 80 + 1.25 * 60)",
+    worked: "1 * (1.1 * 80 + 1.1 * 60)",
     rule: Rule::Between(sum),
 };
 

@@ -67,19 +67,19 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
             Reading {
                 text: RECALLED,
                 formula: "(R* / 3) d (R* d = I u)",
-                worked: "1.25 * 80 / 3",
+                worked: "1.1 * 80 / 3",
                 rule: Rule::Boundary(boundary::<1>),
             },
             Reading {
                 text: TEXTS,
                 formula: "(2 R* / 3) d (R* d = I u)",
-                worked: "2 * 1.25 * 80 / 3",
+                worked: "2 * 1.1 * 80 / 3",
                 rule: Rule::Boundary(boundary::<2>),
             },
         ],
     },
     remarks: &[],
-    worked: "1.25 * 80 / 3",
+    worked: "1.1 * 80 / 3",
     rule: Rule::Boundary(boundary::<1>),
 };
 
@@ -107,18 +107,18 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
             Reading {
                 text: RECALLED,
                 formula: "sum over both buildings of (R* / 3) d (R* d = I u)",
-                worked: "(1.25 * 80 + 1.25 * 60) / 3",
+                worked: "(1.1 * 80 + 1.1 * 60) / 3",
                 rule: Rule::Between(between::<1>),
             },
             Reading {
                 text: TEXTS,
                 formula: "sum over both buildings of (2 R* / 3) d (R* d = I u)",
-                worked: "2 * (1.25 * 80 + 1.25 * 60) / 3",
+                worked: "2 * (1.1 * 80 + 1.1 * 60) / 3",
                 rule: Rule::Between(between::<2>),
             },
         ],
     },
-    worked: "(1.25 * 80 + 1.25 * 60) / 3",
+    worked: "(1.1 * 80 + 1.1 * 60) / 3",
     rule: Rule::Between(between::<1>),
     ..BOUNDARY
 };

@@ -51,7 +51,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     ],
     status: Status::Unverified("the factors; Ra stands under response_modification"),
     remarks: &[],
-    worked: "0.6 * 1.4 * 1 * 1.25 * 80",
+    worked: "0.6 * 1.4 * 1 * 1.1 * 80",
     rule: Rule::Boundary(boundary),
 };
 
@@ -60,7 +60,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     formula: "sum over both buildings of 0.6 * 1.4 alpha_y Ra d (Ra d = I u)",
     status: Status::Unverified("the factors; the sum across the property line was seen"),
     rule: Rule::Between(between),
-    worked: "0.6 * 1.4 * 1 * (1.25 * 80 + 1.25 * 60)",
+    worked: "0.6 * 1.4 * 1 * (1.1 * 80 + 1.1 * 60)",
     ..BOUNDARY
 };
 

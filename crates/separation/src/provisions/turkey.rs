@@ -121,7 +121,7 @@ pub(crate) static TDY_2007: ProvisionDescriptor = ProvisionDescriptor {
     status: Status::Unverified("the clause; the sum is the safe reading of it"),
     remarks: &["Each building's own R goes with its displacement."],
     rule: Rule::Between(tdy_2007),
-    worked: "0.5 * (1.25 * 80 + 1.25 * 60)",
+    worked: "0.5 * (1.1 * 80 + 1.1 * 60)",
     ..TBDY_2018
 };
 

@@ -57,7 +57,7 @@ pub(crate) static UBC_BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     inputs: &[Input::Displacement, Input::Importance],
     status: FACTOR,
     remarks: &[],
-    worked: "0.7 * 1.25 * 80",
+    worked: "0.7 * 1.1 * 80",
     rule: Rule::Boundary(boundary),
 };
 
@@ -66,7 +66,7 @@ pub(crate) static UBC_BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     formula: "sqrt(deltaM1^2 + deltaM2^2), deltaM = 0.7 R d (R d = I u)",
     remarks: &["For buildings on one property."],
     rule: Rule::Between(between),
-    worked: "0.7 * sqrt(pow(1.25 * 80, 2) + pow(1.25 * 60, 2))",
+    worked: "0.7 * sqrt(pow(1.1 * 80, 2) + pow(1.1 * 60, 2))",
     ground: Ground::OneProperty,
     ..UBC_BOUNDARY
 };

@@ -351,6 +351,9 @@ fn explained(case: &OwnershipAnswer) -> String {
     for (what, said) in provision.assumptions().list() {
         add(what, said);
     }
+    for remark in provision.remarks() {
+        add("to know", remark);
+    }
     if let Some(undecided) = requirement.undecided() {
         add("no verdict", &undecided);
     }

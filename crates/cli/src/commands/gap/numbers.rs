@@ -418,6 +418,8 @@ struct CodeCase<'c> {
     required: Option<f64>,
     provided: Option<f64>,
     refusal: Option<String>,
+    /// What else is to be known of the provision that governs.
+    remarks: &'static [&'static str],
     levels: Vec<CodeLevel<'c>>,
 }
 
@@ -489,6 +491,7 @@ impl<'c> CodeCase<'c> {
             required: governing.and_then(|(_, l)| decided(&l.width.requirement)),
             provided: governing.map(|(_, l)| l.provided),
             refusal: case.refusal().map(ToString::to_string),
+            remarks: governing.map_or(&[], |(_, l)| l.width.provision.remarks()),
             levels: case.levels.iter().map(level).collect(),
         }
     }

@@ -6,7 +6,7 @@ use crate::assumptions::{Ground, HeightDatum};
 use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
 use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
-use crate::inputs::{Input, Situation};
+use crate::inputs::{Input, Situation, Structure};
 use crate::status::Status;
 use crate::working::Working;
 
@@ -52,7 +52,7 @@ pub(crate) static SUM: ProvisionDescriptor = ProvisionDescriptor {
     rule: Rule::Between(sum),
 };
 
-/// `h / 100 a_g S / g` for either building.
+/// `H / 100 a_g S / g` for either building, with its own height `H`.
 fn without_calculation(
     working: &mut Working,
     situation: &Situation,
@@ -60,20 +60,27 @@ fn without_calculation(
     let given = situation.site.design_ground_acceleration;
     let acceleration = working.need(given, Input::DesignGroundAcceleration, "")?;
     let acceleration = working.note("a_g S", acceleration, "m/s2");
-    let one = 0.01 * working.elevation(situation.elevation) * acceleration / STANDARD_GRAVITY;
-    let one = working.note("u of either building", one, "m");
-    Ok(one + one)
+    let mut of = |structure: &Structure| {
+        let height = working.note(format!("H({})", structure.name), structure.height, "m");
+        let moved = 0.01 * height * acceleration / STANDARD_GRAVITY;
+        working.note(format!("u({})", structure.name), moved, "m")
+    };
+    Ok(of(&situation.left) + of(&situation.right))
 }
 
 pub(crate) static WITHOUT_CALCULATION: ProvisionDescriptor = ProvisionDescriptor {
     name: "ntc_2018_without_calculation",
     basis: Basis::Prescriptive,
     height: HeightDatum::Foundation,
-    formula: "u1 + u2, u = h / 100 * a_g S / g",
+    formula: "u1 + u2, u = H / 100 * a_g S / g with the height H of each building",
     inputs: &[Input::DesignGroundAcceleration],
-    status: Status::SeenInText("an excerpt of NTC 2018, 7.2.1"),
-    remarks: &["In place of the sum of displacements, where those of a building are not computed."],
-    worked: "2 * 18000 / 100 * 0.25",
+    status: Status::SeenInText(
+        "an excerpt of NTC 2018, 7.2.1; that H is the height of the building in a quotation of NTC 2008, 7.2.2, which divides by 0.5 g",
+    ),
+    remarks: &[
+        "In place of the sum of displacements, where those of a building are not computed; not for one on isolators.",
+    ],
+    worked: "21000 / 100 * 0.25 + 18000 / 100 * 0.25",
     rule: Rule::Between(without_calculation),
     ..SUM
 };
@@ -96,19 +103,20 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
-    use crate::inputs::{Site, Structure};
+    use crate::inputs::Site;
 
     /// 80 and 60 mm: 140 mm. At 9 m with a_g S = 0.25 g: 90 mm * 0.5 = 45 mm; with
     /// 0.6 g: 90 mm.
     #[test]
     fn by_hand() {
-        let structure = |u| Structure {
+        let structure = |u, height| Structure {
             displacement: Some(u),
+            height,
             ..Structure::default()
         };
         let situation = |acceleration: f64| Situation {
-            left: structure(0.08),
-            right: structure(0.06),
+            left: structure(0.08, 9.0),
+            right: structure(0.06, 15.0),
             elevation: 9.0,
             site: Site {
                 design_ground_acceleration: Some(acceleration * STANDARD_GRAVITY),
@@ -120,7 +128,7 @@ mod tests {
         assert!((width(&SUM, 0.25) - 0.14).abs() < 1.0e-12);
         assert!((width(&MINIMUM, 0.25) - 0.045).abs() < 1.0e-12);
         assert!((width(&MINIMUM, 0.6) - 0.09).abs() < 1.0e-12);
-        // 9 m / 100 * 0.25 is 22.5 mm a building.
-        assert!((width(&WITHOUT_CALCULATION, 0.25) - 0.045).abs() < 1.0e-12);
+        // 9 m / 100 * 0.25 is 22.5 mm, 15 m / 100 * 0.25 is 37.5 mm.
+        assert!((width(&WITHOUT_CALCULATION, 0.25) - 0.06).abs() < 1.0e-12);
     }
 }

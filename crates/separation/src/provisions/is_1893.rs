@@ -8,11 +8,27 @@ use crate::inputs::{Input, Situation};
 use crate::status::Status;
 use crate::working::Working;
 
-/// `R1 d1 + R2 d2`, half of it where floors are aligned.
-fn sum(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+/// `R1 d1 + R2 d2`, half of it where floors are aligned, and whether they are.
+fn halved(working: &mut Working, situation: &Situation) -> Result<(f64, bool), SeparationError> {
     let sum = working.restored(&situation.left)? + working.restored(&situation.right)?;
     let aligned = working.floors_aligned(&situation.site)?;
-    Ok(sum * working.note("factor", if aligned { 0.5 } else { 1.0 }, "-"))
+    let factor = working.note("factor", if aligned { 0.5 } else { 1.0 }, "-");
+    Ok((sum * factor, aligned))
+}
+
+fn of_2016(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    Ok(halved(working, situation)?.0)
+}
+
+/// What the edition of 2002 adds where it halves `R` (m).
+const ADDED: f64 = 0.025;
+
+fn of_2002(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    let (sum, aligned) = halved(working, situation)?;
+    Ok(match aligned {
+        true => sum + working.note("added", ADDED, "m"),
+        false => sum,
+    })
 }
 
 static IS_1893_2016: Edition = Edition {
@@ -44,14 +60,18 @@ pub(crate) static EDITION_2016: ProvisionDescriptor = ProvisionDescriptor {
     ),
     remarks: &[],
     worked: "1 * (1.1 * 80 + 1.1 * 60)",
-    rule: Rule::Between(sum),
+    rule: Rule::Between(of_2016),
 };
 
 pub(crate) static EDITION_2002: ProvisionDescriptor = ProvisionDescriptor {
     name: "is_1893_2002_between",
     edition: &IS_1893_2002,
-    status: Status::Unverified("the formula"),
-    remarks: &["R is halved where floors are aligned."],
+    formula: "R1 d1 + R2 d2; where floors are aligned half of it and 25 mm (R d = I u)",
+    status: Status::Unverified(
+        "the formula, and R/2 with 25 mm added for units whose floors lie at the same elevations, as recalled",
+    ),
+    remarks: &["R is halved, and 25 mm are added, where floors are aligned."],
+    rule: Rule::Between(of_2002),
     ..EDITION_2016
 };
 
@@ -63,7 +83,7 @@ mod tests {
     use crate::inputs::{Site, Structure};
 
     /// d = 16 mm with R = 5 and u = 60 mm with I = 1: 80 + 60 = 140 mm; 70 mm with
-    /// aligned floors.
+    /// aligned floors, and 25 mm more by the edition of 2002.
     #[test]
     fn by_hand() {
         let structure = |u| Structure {
@@ -72,7 +92,7 @@ mod tests {
             response_modification: Some(5.0),
             ..Structure::default()
         };
-        for (aligned, width) in [(false, 0.14), (true, 0.07)] {
+        for (aligned, widths) in [(false, [0.14, 0.14]), (true, [0.07, 0.095])] {
             let mut situation = Situation {
                 left: structure(0.2),
                 right: structure(0.06),
@@ -83,7 +103,7 @@ mod tests {
                 },
             };
             situation.left.elastic_displacement = Some(0.016);
-            for descriptor in [&EDITION_2016, &EDITION_2002] {
+            for (descriptor, width) in [&EDITION_2016, &EDITION_2002].into_iter().zip(widths) {
                 let found = descriptor.between(&situation).unwrap().width;
                 assert!((found - width).abs() < 1.0e-12);
             }

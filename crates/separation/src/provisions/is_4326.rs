@@ -17,8 +17,8 @@ const LEAST: f64 = 0.025;
 fn for_a_storey(working: &Working, structure: &Structure) -> Result<f64, SeparationError> {
     let system = working.need(structure.system, Input::StructuralSystem, &structure.name)?;
     Ok(match system {
-        StructuralSystem::BoxWall | StructuralSystem::Wall => 0.015,
-        StructuralSystem::Frame | StructuralSystem::FrameWall => 0.020,
+        StructuralSystem::BoxWall | StructuralSystem::Wall | StructuralSystem::FrameWall => 0.015,
+        StructuralSystem::Frame => 0.020,
         StructuralSystem::SteelFrame => 0.030,
     })
 }
@@ -50,12 +50,14 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     height: HeightDatum::NotUsed,
     ground: Ground::NotAsked,
     elastic_displacement_factor: None,
-    formula: "storeys * (15 mm walls, 20 mm frame, 30 mm steel) * alpha_h / 0.12, at least 25 mm",
+    formula: "storeys * (15 mm walls or frame with walls, 20 mm frame, 30 mm steel) * alpha_h / 0.12, at least 25 mm",
     inputs: &[Input::StructuralSystem, Input::SeismicCoefficient],
-    status: Status::Unverified("the table"),
+    status: Status::Unverified(
+        "the table, also that frames with shear walls stand beside the box of walls, as recalled",
+    ),
     remarks: &[
         "Of two kinds of structure the wider width is taken.",
-        "The table's kinds are box of walls, frame of reinforced concrete and steel; walls and frames with walls are counted to the nearest of them.",
+        "The table's kinds are box system or frames with shear walls, moment-resistant frames of reinforced concrete, and of steel; walls without frame are counted as the first.",
     ],
     worked: "max(6 * 20 * 0.12 / 0.12, 25)",
     rule: Rule::Between(between),
@@ -68,14 +70,16 @@ mod tests {
     use super::*;
     use crate::inputs::Site;
 
-    /// Four storeys beside nine: at 0.12 frames need 80 mm, boxes 60 mm, steel beside a
+    /// Four storeys beside nine: at 0.12 frames need 80 mm, boxes and frames with walls 60 mm, steel beside a
     /// box 120 mm; at 0.03 boxes need the least, 25 mm.
     #[test]
     fn by_hand() {
-        use StructuralSystem::{BoxWall, Frame, SteelFrame};
+        use StructuralSystem::{BoxWall, Frame, FrameWall, SteelFrame};
         for (left, right, coefficient, width) in [
             (Frame, Frame, 0.12, 0.08),
             (BoxWall, BoxWall, 0.12, 0.06),
+            (FrameWall, FrameWall, 0.12, 0.06),
+            (FrameWall, Frame, 0.12, 0.08),
             (BoxWall, SteelFrame, 0.12, 0.12),
             (Frame, Frame, 0.06, 0.04),
             (BoxWall, BoxWall, 0.03, 0.025),

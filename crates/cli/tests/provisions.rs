@@ -345,6 +345,27 @@ fn a_code_says_what_is_to_be_known_of_its_rule() {
     }
 }
 
+/// Where a code has no rule for a gap the answer says what there is beside it.
+#[test]
+fn a_code_without_a_rule_for_the_gap_says_what_else_there_is() {
+    let low = gap(&["--code", "as_1170_4"]);
+    let wall = ["gap", "examples/rigid_wall/case.toml", "--points", "0"];
+    let wall = pounding(&[&wall[..], &["--code", "nbcc_2015"]].concat());
+    for (output, says) in [
+        (
+            low,
+            "the code has no other rule: --all shows the combination rules absolute_sum",
+        ),
+        (wall, "the code has no rule for one building beside a wall"),
+    ] {
+        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+        let said = plain(&text(&output.stdout));
+        assert!(said.contains(says), "{said}");
+        assert!(said.contains("[[separation.rule]]"), "{said}");
+        assert!(!said.contains("choose the rule"), "{said}");
+    }
+}
+
 /// A disputed rule shows both widths, judges no gap and gives no verdict: by hand, of the sum of
 /// peaks with I = 1, a third and two thirds.
 #[test]

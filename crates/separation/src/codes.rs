@@ -13,6 +13,7 @@ use crate::provisions::{
     japan, mexico_city, nbcc, nch_433, nec_se_ds, nsr_10, ntc_2018, nzs_1170_5, rpa_2024,
     taiwan_2011, turkey, ubc_1997, ufc_3_310_03a,
 };
+use crate::remedy;
 use crate::suite_rule::{self, SuiteRule};
 use crate::working::Requirement;
 
@@ -153,6 +154,25 @@ impl Rules {
         self.either.iter().chain(&self.minimum)
     }
 
+    /// The error of the first rule that does not apply, with what can be done where none does.
+    fn with_remedy(&self, error: SeparationError, sides: &Sides) -> SeparationError {
+        match error {
+            SeparationError::NotApplicable {
+                provision, reason, ..
+            } => {
+                let beside_wall = matches!(sides, Sides::Wall { .. });
+                let tried: Vec<&str> = self.either.iter().map(Provision::name).collect();
+                let remedy = remedy::where_it_does_not_apply(&provision, beside_wall, &tried);
+                SeparationError::NotApplicable {
+                    provision,
+                    reason,
+                    remedy,
+                }
+            }
+            other => other,
+        }
+    }
+
     /// Width between two buildings, or of one beside a wall: of the rules the first that
     /// applies, and no less than the minimum. A minimum stands beside a disputed rule where it
     /// is no less than any of its readings.
@@ -177,6 +197,7 @@ impl Rules {
         let mut first = Err(SeparationError::NotApplicable {
             provision: "the code".to_owned(),
             reason: "it has no rule for this situation".to_owned(),
+            remedy: String::new(),
         });
         for provision in &self.either {
             match of(provision) {
@@ -189,7 +210,7 @@ impl Rules {
                 }
             }
         }
-        let first = first?;
+        let first = first.map_err(|e| self.with_remedy(e, sides))?;
         match self.minimum.as_ref().map(of) {
             // A minimum between buildings says nothing beside a wall.
             None | Some(Err(SeparationError::NotApplicable { .. })) => Ok(first),
@@ -773,6 +794,49 @@ mod tests {
         important.left.importance = Some(1.4);
         let found = widths("iran_2800", &Sides::Between(important));
         assert!((found[1].1 - 0.14).abs() < 1e-12);
+    }
+
+    /// What to do where no rule of a code applies: other rules of it, if it has any that were not
+    /// tried, else what there is beside it.
+    #[test]
+    fn remedies_name_rules_that_there_are() {
+        let wall = || Sides::Wall {
+            structure: Box::new(structure(0.08)),
+            elevation: 9.0,
+            site: Site::default(),
+        };
+        for (code, sides, says) in [
+            (
+                "nbcc_2015",
+                wall(),
+                "no rule for one building beside a wall",
+            ),
+            ("ntc_2018", wall(), "no rule for one building beside a wall"),
+            ("as_1170_4", wall(), "the code has no other rule"),
+            ("as_1170_4", between(true), "the code has no other rule"),
+            ("tehran", between(true), "the code has no other rule"),
+        ] {
+            let code_rules = find_code(code).unwrap().code();
+            let rules = match sides {
+                Sides::Wall { .. } => code_rules.beside_a_wall().unwrap(),
+                Sides::Between(_) => &code_rules.rules[0].1,
+            };
+            let help = rules.width(&sides).unwrap_err().help().unwrap();
+            assert!(help.contains(says), "{code}: {help}");
+            assert!(!help.contains("choose the rule"), "{code}: {help}");
+        }
+        let Sides::Between(across) = between(true).owned(Some(Ownership::DifferentProperties))
+        else {
+            unreachable!()
+        };
+        let help = eurocode_8::FIRST_BETWEEN
+            .between(&across)
+            .unwrap_err()
+            .help();
+        assert_eq!(
+            help.unwrap(),
+            "choose the rule of the code that covers this situation, with --provisions: en_1998_1_2004_boundary"
+        );
     }
 
     #[test]

@@ -57,6 +57,12 @@ impl Basis {
 pub(crate) enum Rule {
     /// One building, height of the level (m).
     Boundary(fn(&mut Working, &Structure, f64, &Site) -> Result<f64, SeparationError>),
+    /// One building, as before; `None` of a building that the rule does not speak of, which beside
+    /// one that it speaks of adds nothing, and in words what it speaks of.
+    BoundaryOfSome(
+        fn(&mut Working, &Structure) -> Result<Option<f64>, SeparationError>,
+        &'static str,
+    ),
     /// Two buildings.
     Between(fn(&mut Working, &Situation) -> Result<f64, SeparationError>),
     /// The seat of a bridge between two buildings.
@@ -125,7 +131,7 @@ impl ProvisionDescriptor {
     #[must_use]
     pub fn place(&self) -> Place {
         match self.rule {
-            Rule::Boundary(_) => Place::Boundary,
+            Rule::Boundary(_) | Rule::BoundaryOfSome(..) => Place::Boundary,
             Rule::Between(_) => Place::Between,
             Rule::Seat(_) => Place::Seat,
         }
@@ -170,10 +176,12 @@ impl ProvisionDescriptor {
     ) -> Result<Requirement, SeparationError> {
         let width = |rule, formula: &str| {
             let mut working = Working::new(self.name);
-            let Rule::Boundary(rule) = rule else {
-                return Err(working.not_applicable("it needs a building on either side"));
+            let width = match rule {
+                Rule::Boundary(rule) => rule(&mut working, structure, elevation, site)?,
+                Rule::BoundaryOfSome(rule, speaks_of) => rule(&mut working, structure)?
+                    .ok_or_else(|| working.not_applicable(speaks_of))?,
+                Rule::Between(_) | Rule::Seat(_) => return Err(working.needs_a_neighbour()),
             };
-            let width = rule(&mut working, structure, elevation, site)?;
             working.finish(formula, (width, site), self.caution(&[structure]))
         };
         self.required(width)
@@ -192,6 +200,16 @@ impl ProvisionDescriptor {
                 Rule::Between(rule) | Rule::Seat(rule) => {
                     let width = rule(&mut working, situation)?;
                     working.finish(formula, (width, &situation.site), caution)
+                }
+                Rule::BoundaryOfSome(rule, speaks_of) => {
+                    let left = rule(&mut working, &situation.left)?;
+                    let right = rule(&mut working, &situation.right)?;
+                    if left.or(right).is_none() {
+                        return Err(working.not_applicable(speaks_of));
+                    }
+                    let width = working.summed(left.unwrap_or(0.0), right.unwrap_or(0.0));
+                    let formula = format!("{formula}, summed over both sides");
+                    working.finish(&formula, (width, &situation.site), caution)
                 }
                 Rule::Boundary(rule) => {
                     let side = |working: &mut Working, structure: &Structure| {

@@ -29,6 +29,8 @@ pub enum SeparationError {
         provision: String,
         /// Why.
         reason: String,
+        /// What can be done instead.
+        remedy: String,
     },
     /// What stands in an expression of a user's rule cannot be computed here.
     #[error("{provision}: {message}, at `{part}`, character {character} of its {of}")]
@@ -116,9 +118,7 @@ impl SeparationError {
             Self::MissingInput { input, .. } => {
                 format!("add `{}` to the table [separation]", input.key())
             }
-            Self::NotApplicable { .. } => {
-                "choose the rule of the code that covers this situation".to_owned()
-            }
+            Self::NotApplicable { remedy, .. } => remedy.clone(),
             Self::Expression { .. } => {
                 "correct the rule, or the inputs that it is given".to_owned()
             }

@@ -24,6 +24,7 @@ mod own;
 mod provision;
 mod provisions;
 mod registry;
+mod remedy;
 mod status;
 mod suite_rule;
 mod worked_example;

@@ -2,6 +2,7 @@
 
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Structure};
+use crate::remedy;
 
 /// One number that went into a gap.
 #[derive(Debug, Clone, PartialEq)]
@@ -132,6 +133,16 @@ impl Working {
         SeparationError::NotApplicable {
             provision: self.provision.clone(),
             reason: reason.into(),
+            remedy: remedy::where_it_does_not_apply(&self.provision, false, &[]),
+        }
+    }
+
+    /// The error of a rule between buildings beside a wall.
+    pub(crate) fn needs_a_neighbour(&self) -> SeparationError {
+        SeparationError::NotApplicable {
+            provision: self.provision.clone(),
+            reason: "it needs a building on either side".to_owned(),
+            remedy: remedy::where_it_does_not_apply(&self.provision, true, &[]),
         }
     }
 

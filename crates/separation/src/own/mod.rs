@@ -165,7 +165,7 @@ impl OwnRule {
     ) -> Result<Requirement, SeparationError> {
         let mut working = Working::new(self.name());
         if self.text.between {
-            return Err(working.not_applicable("it needs a building on either side"));
+            return Err(working.needs_a_neighbour());
         }
         let given = Given::One {
             structure,

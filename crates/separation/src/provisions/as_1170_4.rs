@@ -4,23 +4,19 @@ use crate::assumptions::{Ground, HeightDatum};
 use crate::descriptor::{Basis, ProvisionDescriptor, Rule};
 use crate::edition::Edition;
 use crate::error::SeparationError;
-use crate::inputs::{Site, Structure};
+use crate::inputs::Structure;
 use crate::status::Status;
 use crate::working::Working;
 
 /// Height of the structure (m) above which the rule speaks.
 const LOWEST: f64 = 15.0;
 
-fn boundary(
-    working: &mut Working,
-    structure: &Structure,
-    _: f64,
-    _: &Site,
-) -> Result<f64, SeparationError> {
+fn boundary(working: &mut Working, structure: &Structure) -> Result<Option<f64>, SeparationError> {
     if structure.height <= LOWEST {
-        return Err(working.not_applicable("it speaks of structures of more than 15 m"));
+        return Ok(None);
     }
-    Ok(0.01 * working.note("H", structure.height, "m"))
+    let height = working.note(format!("H({})", structure.name), structure.height, "m");
+    Ok(Some(0.01 * height))
 }
 
 static EDITION: Edition = Edition {
@@ -41,9 +37,11 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     formula: "H / 100 with the height H of the structure, or by analysis",
     inputs: &[],
     status: Status::Unverified("the rule and its limit of 15 m"),
-    remarks: &["For structures of more than 15 m; at each of their levels."],
+    remarks: &[
+        "For structures of more than 15 m; at each of their levels. Of a lower one beside them it asks nothing.",
+    ],
     worked: "21000 / 100",
-    rule: Rule::Boundary(boundary),
+    rule: Rule::BoundaryOfSome(boundary, "it speaks of structures of more than 15 m"),
 };
 
 #[cfg(test)]
@@ -51,6 +49,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use crate::inputs::{Site, Situation};
 
     /// A structure of 20 m: 200 mm at each of its levels. One of 15 m: nothing.
     #[test]
@@ -69,5 +68,36 @@ mod tests {
             own(15.0, 15.0),
             Err(SeparationError::NotApplicable { .. })
         ));
+    }
+
+    /// 20 m beside 12 m: 200 mm for the higher one, on either side. 20 m beside 16 m: 360 mm. Of two
+    /// low ones it says nothing, and the code has no other rule.
+    #[test]
+    fn beside_a_low_structure_the_high_one_counts() {
+        let of = |left, right| {
+            let structure = |height| Structure {
+                height,
+                ..Structure::default()
+            };
+            BOUNDARY.between(&Situation {
+                left: structure(left),
+                right: structure(right),
+                elevation: 12.0,
+                ..Situation::default()
+            })
+        };
+        for (left, right, width) in [(20.0, 12.0, 0.2), (12.0, 20.0, 0.2), (20.0, 16.0, 0.36)] {
+            let found = of(left, right).unwrap().width;
+            assert!((found - width).abs() < 1.0e-12, "{left} {right}: {found}");
+        }
+        let help = of(12.0, 15.0).unwrap_err().help().unwrap();
+        for part in [
+            "no other rule",
+            "absolute_sum",
+            "(SRSS)",
+            "[[separation.rule]]",
+        ] {
+            assert!(help.contains(part), "{part}: {help}");
+        }
     }
 }

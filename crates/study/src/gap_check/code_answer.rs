@@ -217,6 +217,7 @@ fn answer_at(
             return Err(SeparationError::NotApplicable {
                 provision: "the code".to_owned(),
                 reason: "the level lies between two walls".to_owned(),
+                remedy: "no width is asked for there".to_owned(),
             });
         }
     };

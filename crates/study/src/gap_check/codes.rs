@@ -569,6 +569,7 @@ pub(crate) fn by_code(
             (None, None) => Err(SeparationError::NotApplicable {
                 provision: descriptor.name().to_owned(),
                 reason: "the level lies between two walls".to_owned(),
+                remedy: "no width is asked for there".to_owned(),
             }),
         }
     };

@@ -87,6 +87,28 @@ fn worked_examples_of_the_page_are_right() {
     assert_eq!(worked, descriptors().len() + 2);
 }
 
+/// The page offers the name of a family with a date for editions alone that have dates.
+#[test]
+fn the_page_offers_dates_where_they_choose() {
+    let page = std::fs::read_to_string(root().join("docs/reference/provisions.md")).unwrap();
+    let offered: Vec<_> = page.lines().filter(|l| l.contains("with a date")).collect();
+    assert!(
+        offered
+            .iter()
+            .any(|l| l.contains("`--code tdy_2007`, or `turkey`"))
+    );
+    for line in offered {
+        assert!(line.starts_with("In force from"), "{line}");
+    }
+    let output = gap(&["--code", "japan_practice", "--date", "2020-01-01"]);
+    let said = plain(&text(&output.stderr));
+    assert_eq!(output.status.code(), Some(2), "{said}");
+    assert!(
+        said.contains("leave it out") && !said.contains("name \"japan\""),
+        "{said}"
+    );
+}
+
 /// The rules of the example: 0.8 of the sum of the peaks, and setbacks of 0.005 h on either side
 /// for three storeys and aligned floors.
 #[test]

@@ -321,6 +321,12 @@ impl CodeDescriptor {
         listed.either[0].edition
     }
 
+    /// Whether there are days on which the name of its family stands for it: it has one, and dates.
+    #[must_use]
+    pub fn is_chosen_by_dates(&self) -> bool {
+        self.family != self.name && self.edition().in_force.is_some()
+    }
+
     /// Whether a provision is one of this code.
     #[must_use]
     pub fn has(&self, provision: &ProvisionDescriptor) -> bool {
@@ -917,6 +923,26 @@ mod tests {
                 .contains("mexico_city_2020 from 2020-06-09")
         );
         assert!(choose_code("atlantis", on("2018-06-01")).is_err());
+    }
+
+    /// A draft and a practice have no dates: no day chooses them.
+    #[test]
+    fn editions_without_dates_are_chosen_by_none() {
+        for (name, by_dates) in [
+            ("eurocode_8_2004", true),
+            ("eurocode_8_draft", false),
+            ("japan_practice", false),
+            ("tdy_2007", true),
+            ("nch_433", false),
+        ] {
+            let found = find_code(name).unwrap();
+            assert_eq!(found.is_chosen_by_dates(), by_dates, "{name}");
+        }
+        for code in codes().iter().filter(|c| c.is_chosen_by_dates()) {
+            let days = (1990..2040).map(|year| on(&format!("{year}-12-31")));
+            let mut chosen = days.filter_map(|day| choose_code(code.family, day).ok());
+            assert!(chosen.any(|(c, _)| c.name == code.name), "{}", code.name);
+        }
     }
 
     #[test]

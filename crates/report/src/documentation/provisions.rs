@@ -216,9 +216,9 @@ fn dates(edition: &Edition) -> String {
     let next = next.map_or_else(String::new, |next| format!(" Superseded by {next}."));
     let of_edition = codes().iter().filter(|c| c.edition() == edition);
     let names: Vec<_> = of_edition
-        .map(|c| match c.family == c.name {
-            true => format!("`--code {}`", c.name),
-            false => format!("`--code {}`, or `{}` with a date", c.name, c.family),
+        .map(|c| match c.is_chosen_by_dates() {
+            false => format!("`--code {}`", c.name),
+            true => format!("`--code {}`, or `{}` with a date", c.name, c.family),
         })
         .collect();
     let names = match names.is_empty() {

@@ -443,7 +443,8 @@ fn chosen_code(
         return Ok((Some(code.code()), Some(date)));
     }
     let why = format!("\"{}\" is one edition", name.value);
-    let help = if code.family == code.name {
+    let mut editions = codes().iter().filter(|c| c.family == code.family);
+    let help = if !editions.any(|c| c.is_chosen_by_dates()) {
         "leave it out".to_owned()
     } else {
         let family = code.family;

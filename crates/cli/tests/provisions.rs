@@ -283,6 +283,10 @@ fn editions_by_date() {
             &["--code", "ntc", "--date", "2000-01-01"],
             "in force on 2000-01-01",
         ),
+        (
+            &["--code", "asce_7", "--date", "2017-06-01"],
+            "name the edition, with --code or `code` in [separation]: asce_7_2010 or asce_7_2016",
+        ),
         // A date that nothing asks for.
         (
             &["--code", "tdy_2007", "--date", "2018-12-31"],

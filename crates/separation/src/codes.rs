@@ -4,7 +4,7 @@
 use pounding_catalogue::{Descriptor, Registry};
 
 use crate::descriptor::ProvisionDescriptor;
-use crate::edition::{Date, Edition};
+use crate::edition::{Date, Edition, Validity};
 use crate::error::SeparationError;
 use crate::inputs::{Site, Situation, Structure};
 use crate::provision::Provision;
@@ -642,7 +642,8 @@ pub fn find_code(name: &str) -> Result<&'static CodeDescriptor, SeparationError>
 ///
 /// # Errors
 /// [`SeparationError::UnknownProvision`] with the nearest known name, and
-/// [`SeparationError::NotInForce`] for a family of which no edition is.
+/// [`SeparationError::NotInForce`] for a family of which no edition is; [`SeparationError::DayNotKnown`]
+/// where the newest that may be in force begins or ends in that year, on a day that is not known.
 pub fn choose_code(
     name: &str,
     date: Date,
@@ -652,13 +653,16 @@ pub fn choose_code(
     if exact || editions.is_empty() {
         return find_code(name).map(|code| (code, false));
     }
+    let possible = editions.iter().map(|c| **c);
+    let possible: Vec<_> = possible
+        .filter(|c| c.edition().validity(date) != Validity::NotInForce)
+        .collect();
     // Of two whose dates overlap the newer.
-    let in_force = editions.iter().rev();
-    let newest = in_force
-        .filter(|c| c.edition().is_in_force(date))
-        .max_by_key(|c| c.edition().in_force.map(|known| known.from));
+    let newest = possible.iter().rev();
+    let newest = newest.max_by_key(|c| c.edition().in_force.map(|known| known.from));
     match newest {
-        Some(code) => Ok((code, true)),
+        Some(code) if code.edition().validity(date) == Validity::InForce => Ok((code, true)),
+        Some(_) => Err(day_not_known(name, date, &possible)),
         None => Err(SeparationError::NotInForce {
             what: name.to_owned(),
             date,
@@ -670,8 +674,9 @@ pub fn choose_code(
 /// The one code of a country or city that is in force on a day.
 ///
 /// # Errors
-/// [`SeparationError::UnknownCountry`], [`SeparationError::NotInForce`], and
-/// [`SeparationError::SeveralCodes`] where it has more than one.
+/// [`SeparationError::UnknownCountry`], [`SeparationError::NotInForce`],
+/// [`SeparationError::SeveralCodes`] where it has more than one, and
+/// [`SeparationError::DayNotKnown`] as for a family.
 pub fn code_in_country(
     country: &str,
     date: Date,
@@ -686,8 +691,23 @@ pub fn code_in_country(
         let country = country.to_owned();
         return Err(SeparationError::UnknownCountry { country, known });
     }
-    let in_force = all.iter().filter(|c| c.edition().is_in_force(date));
-    match in_force.collect::<Vec<_>>().as_slice() {
+    let of = |wanted: Validity| {
+        let found = all.iter().copied();
+        found.filter(move |c| c.edition().validity(date) == wanted)
+    };
+    // One that ends in that year decides nothing beside a newer edition that is in force.
+    let from = |c: &CodeDescriptor| c.edition().in_force.map(|known| known.from);
+    let followed = |old: &CodeDescriptor| {
+        let mut newer = of(Validity::InForce);
+        newer.any(|new| new.family == old.family && from(new) > from(old))
+    };
+    if of(Validity::NotKnown).any(|c| !followed(c)) {
+        let possible = all.iter().map(|c| **c);
+        let possible =
+            possible.filter(|c| c.edition().validity(date) != Validity::NotInForce && !followed(c));
+        return Err(day_not_known(country, date, &possible.collect::<Vec<_>>()));
+    }
+    match of(Validity::InForce).collect::<Vec<_>>().as_slice() {
         [one] => Ok(one),
         [] => Err(SeparationError::NotInForce {
             what: country.to_owned(),
@@ -699,6 +719,16 @@ pub fn code_in_country(
             date,
             codes: several.iter().map(|c| c.name).collect(),
         }),
+    }
+}
+
+/// The error of a day in a year in which editions change.
+fn day_not_known(what: &str, date: Date, possible: &[&'static CodeDescriptor]) -> SeparationError {
+    SeparationError::DayNotKnown {
+        what: what.to_owned(),
+        date,
+        known: possible.iter().map(|c| dated(c)).collect(),
+        codes: possible.iter().map(|c| c.name).collect(),
     }
 }
 
@@ -899,7 +929,9 @@ mod tests {
             ("asce_7", "2012-06-01", "asce_7_2010"),
             ("asce_7", "2026-11-23", "asce_7_2022"),
             ("e_030", "2020-01-01", "e_030_2018"),
-            ("e_030", "2026-11-23", "e_030_2026"),
+            ("e_030", "2027-01-01", "e_030_2026"),
+            ("asce_7", "2016-12-31", "asce_7_2010"),
+            ("asce_7", "2018-01-01", "asce_7_2016"),
             ("mexico_city", "2005-01-01", "mexico_city_2004"),
             ("mexico_city", "2021-01-01", "mexico_city_2020"),
             // The draft is in force at no time.
@@ -923,6 +955,28 @@ mod tests {
                 .contains("mexico_city_2020 from 2020-06-09")
         );
         assert!(choose_code("atlantis", on("2018-06-01")).is_err());
+    }
+
+    /// In the year in which an edition begins or ends, of which no day is known, none is chosen.
+    #[test]
+    fn a_year_in_which_editions_change_asks_for_the_edition() {
+        for (family, date, names) in [
+            ("asce_7", "2017-06-01", "asce_7_2010 or asce_7_2016"),
+            ("asce_7", "2022-01-01", "asce_7_2016 or asce_7_2022"),
+            ("e_030", "2026-11-23", "e_030_2018 or e_030_2026"),
+            ("is_1893", "2016-12-31", "is_1893_2016 or is_1893_2002"),
+            ("nbcc", "2015-07-01", "nbcc_2015"),
+            ("taiwan", "2022-07-01", "taiwan_2011"),
+        ] {
+            let error = choose_code(family, on(date)).unwrap_err();
+            let help = error.help().unwrap();
+            assert!(help.ends_with(&format!(": {names}")), "{family}: {help}");
+            assert!(error.to_string().contains("only years are"), "{error}");
+        }
+        let error = code_in_country("Peru", on("2026-11-23")).unwrap_err();
+        assert!(error.help().unwrap().contains("e_030_2018 or e_030_2026"));
+        let found = code_in_country("Peru", on("2027-01-01")).unwrap();
+        assert_eq!(found.name, "e_030_2026");
     }
 
     /// A draft and a practice have no dates: no day chooses them.

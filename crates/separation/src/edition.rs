@@ -22,7 +22,7 @@ pub struct Edition {
 }
 
 /// From when to when an edition is in force. Dates are `2018-03-22`, or `2010` where only the year
-/// is known: then from the first of January on.
+/// is known: then nothing is known of the days of that year.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct InForce {
     /// First day or year.
@@ -45,10 +45,14 @@ impl InForce {
 
     /// Whether the edition is in force on this day.
     #[must_use]
-    pub fn on(&self, date: Date) -> bool {
-        // Years and days of ISO 8601 stand in the order of their characters.
-        let date = date.to_string();
-        self.from <= date.as_str() && self.until.is_none_or(|until| date.as_str() < until)
+    pub fn on(&self, date: Date) -> Validity {
+        let begun = reached(self.from, date);
+        let ended = self.until.map_or(Some(false), |until| reached(until, date));
+        match (begun, ended) {
+            (Some(false), _) | (_, Some(true)) => Validity::NotInForce,
+            (Some(true), Some(false)) => Validity::InForce,
+            _ => Validity::NotKnown,
+        }
     }
 
     /// `from 2007-03-06 to 2019-01-01`, with how far the dates were checked.
@@ -64,11 +68,33 @@ impl InForce {
     }
 }
 
+/// Whether an edition is in force on a day.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Validity {
+    /// It is.
+    InForce,
+    /// It is not, or has no dates.
+    NotInForce,
+    /// It begins or ends in the year of that day, on a day that is not known.
+    NotKnown,
+}
+
+/// Whether a day is a known one or a later one; `None` in the year of which only that is known.
+fn reached(known: &str, date: Date) -> Option<bool> {
+    // Years and days of ISO 8601 stand in the order of their characters.
+    let date = date.to_string();
+    match date.strip_prefix(known) {
+        Some(rest) if !rest.is_empty() => None,
+        _ => Some(known <= date.as_str()),
+    }
+}
+
 impl Edition {
     /// Whether it is in force on this day, as far as its dates are known.
     #[must_use]
-    pub fn is_in_force(&self, date: Date) -> bool {
-        self.in_force.is_some_and(|known| known.on(date))
+    pub fn validity(&self, date: Date) -> Validity {
+        let known = self.in_force;
+        known.map_or(Validity::NotInForce, |known| known.on(date))
     }
 }
 
@@ -114,16 +140,22 @@ mod tests {
         let old = InForce::recalled("2007-03-06", Some("2019-01-01")).unwrap();
         let new = InForce::recalled("2019-01-01", None).unwrap();
         let year = InForce::recalled("2010", Some("2017")).unwrap();
+        let (yes, no) = (Validity::InForce, Validity::NotInForce);
+        let perhaps = Validity::NotKnown;
         for (date, in_old, in_new, in_year) in [
-            ("2007-03-05", false, false, false),
-            ("2007-03-06", true, false, false),
-            ("2009-12-31", true, false, false),
-            ("2010-01-01", true, false, true),
-            ("2016-12-31", true, false, true),
-            ("2017-01-01", true, false, false),
-            ("2018-12-31", true, false, false),
-            ("2019-01-01", false, true, false),
-            ("2026-11-23", false, true, false),
+            ("2007-03-05", no, no, no),
+            ("2007-03-06", yes, no, no),
+            ("2009-12-31", yes, no, no),
+            ("2010-01-01", yes, no, perhaps),
+            ("2010-12-31", yes, no, perhaps),
+            ("2011-01-01", yes, no, yes),
+            ("2016-12-31", yes, no, yes),
+            ("2017-01-01", yes, no, perhaps),
+            ("2017-12-31", yes, no, perhaps),
+            ("2018-01-01", yes, no, no),
+            ("2018-12-31", yes, no, no),
+            ("2019-01-01", no, yes, no),
+            ("2026-11-23", no, yes, no),
         ] {
             let day: Date = date.parse().unwrap();
             assert_eq!(

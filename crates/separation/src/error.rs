@@ -62,6 +62,18 @@ pub enum SeparationError {
         /// The editions that are known, with their dates.
         known: Vec<String>,
     },
+    /// An edition begins or ends in the year of a day, and its own day is not known.
+    #[error("the edition of {what} in force on {date} is not known, of these only years are: {}", known.join("; "))]
+    DayNotKnown {
+        /// Code or country.
+        what: String,
+        /// The day.
+        date: Date,
+        /// The editions that may be in force, with their dates.
+        known: Vec<String>,
+        /// Their names.
+        codes: Vec<&'static str>,
+    },
     /// Several codes of a country are in force on a day.
     #[error("{country} has several codes in force on {date}: {}", codes.join(", "))]
     SeveralCodes {
@@ -124,6 +136,10 @@ impl SeparationError {
             }
             Self::NoDate { .. } => "write year, month and day, such as 2018-03-22".to_owned(),
             Self::NotInForce { known, .. } => format!("known are {}", known.join("; ")),
+            Self::DayNotKnown { codes, .. } => format!(
+                "name the edition, with --code or `code` in [separation]: {}",
+                codes.join(" or ")
+            ),
             Self::SeveralCodes { .. } => {
                 "name one of them: --code, or `code` in [separation]".to_owned()
             }

@@ -37,7 +37,7 @@ pub use codes::{
 };
 pub use combination::{CombinationRule, Oscillator, correlation_coefficient};
 pub use descriptor::{Basis, Place, ProvisionDescriptor, Unavailable};
-pub use edition::{Date, Edition, InForce};
+pub use edition::{Date, Edition, InForce, Validity};
 pub use effective_properties::{EffectiveProperties, YieldingOscillator};
 pub use error::SeparationError;
 pub use inputs::{Input, Site, Situation, SoilZone, StructuralSystem, Structure};

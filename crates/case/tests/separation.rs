@@ -47,6 +47,62 @@ fn read_and_spread_over_buildings() {
     assert_eq!(s.provisions.unwrap()[0].value, "asce_7_10_between");
 }
 
+/// Values that no code has: one warning a key, which names value, usual range and what was meant.
+#[test]
+fn unusual_values_are_warned_of() {
+    let warnings = |text: &str| Separation::parse(text, 2).unwrap().warnings();
+    for (text, parts) in [
+        (
+            "importance = 125",
+            &["`importance`", "125", "0.5 to 2", "as a factor, 1.25"][..],
+        ),
+        (
+            "importance = [1.0, 12.5]",
+            &["12.5 for building 2", "decimal point it is 1.25"],
+        ),
+        (
+            "response_modification = 0.125",
+            &["`response_modification`", "1 to 12", "its inverse is 8"],
+        ),
+        ("displacement_amplification = 55", &["1 to 12", "it is 5.5"]),
+        (
+            "design_ground_acceleration = 0.25",
+            &["0.25 m/s2", "0.05 g to 2 g", "was \"0.25 g\" meant?"],
+        ),
+        (
+            "design_ground_acceleration = 250",
+            &["was \"250 cm/s2\" meant?"],
+        ),
+        (
+            "spectral_acceleration_1s = 0.35",
+            &["was \"0.35 g\" meant?"],
+        ),
+        ("seismic_coefficient = 12", &["at most 1", "a factor, 0.12"]),
+        (
+            "isolation_damping_coefficient = 150",
+            &["0.8 to 2", "a factor, 1.5"],
+        ),
+        (
+            "isolation_period = 2800",
+            &["at most 10 s", "was \"2800 ms\" meant?"],
+        ),
+        (
+            "plan_length = 40\nplan_width = 20\nplan_eccentricity = [2, 21]",
+            &["21 m for building 2", "half of the plan of 40 m"],
+        ),
+    ] {
+        let found = warnings(text);
+        assert_eq!(found.len(), 1, "{text}: {found:?}");
+        for part in parts {
+            assert!(found[0].contains(part), "{text}: {part}: {}", found[0]);
+        }
+    }
+    let ends = "importance = [0.5, 2]\nresponse_modification = [1, 12]\ndisplacement_amplification = [1, 12]\n\
+        design_ground_acceleration = \"2 g\"\nspectral_acceleration_1s = \"0.05 g\"\nseismic_coefficient = 1\n\
+        isolation_damping_coefficient = [0.8, 2]\nisolation_period = \"10 s\"\nplan_length = 40\nplan_eccentricity = 20";
+    assert_eq!(warnings(ends), [""; 0]);
+}
+
 #[test]
 fn absent_table_gives_nothing() {
     let text = CASE.split("[separation]").next().unwrap();

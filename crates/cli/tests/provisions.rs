@@ -392,6 +392,55 @@ fn a_code_without_a_rule_for_the_gap_says_what_else_there_is() {
     }
 }
 
+/// A value that no code has is warned of by `gap`, in text and JSON, also of an argument, which counts
+/// in the place of the case; by `check` where it stands in the case.
+#[test]
+fn values_that_no_code_has_are_warned_of() {
+    let says = "`importance` of [separation] is 125, and in codes 0.5 to 2; a percentage is written as a factor, 1.25";
+    let shown = text(&gap(&["--set", "importance=125"]).stdout);
+    assert_eq!(
+        shown.matches(&format!("warning: {says}")).count(),
+        1,
+        "{shown}"
+    );
+    let of_json = |output: &Output| -> Vec<String> {
+        let all = json(output)["warnings"].clone();
+        let all = all.as_array().unwrap().iter();
+        all.map(|w| w.as_str().unwrap().to_owned()).collect()
+    };
+    let said = of_json(&gap(&["--set", "importance=125", "--json"]));
+    assert!(said.iter().any(|w| w == says), "{said:?}");
+    assert!(
+        !of_json(&gap(&["--json"]))
+            .iter()
+            .any(|w| w.contains("importance"))
+    );
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    let records = root().join("ground_motions").canonicalize().unwrap();
+    let case = std::fs::read_to_string(root().join(CASE)).unwrap();
+    let case = case
+        .replace("../../ground_motions", records.to_str().unwrap())
+        .replace("importance = 1.0", "importance = 125");
+    std::fs::write(&file, case).unwrap();
+    let name = file.to_str().unwrap();
+    let shown = text(&pounding(&["check", name]).stdout);
+    assert_eq!(shown.matches(says).count(), 1, "{shown}");
+    let said = of_json(&pounding(&["check", name, "--json"]));
+    assert!(said.iter().any(|w| w == says), "{said:?}");
+    let set = [
+        "gap",
+        name,
+        "--points",
+        "0",
+        "--set",
+        "importance=1",
+        "--json",
+    ];
+    let said = of_json(&pounding(&set));
+    assert!(!said.iter().any(|w| w == says), "{said:?}");
+}
+
 /// A disputed rule shows both widths, judges no gap and gives no verdict: by hand, of the sum of
 /// peaks with I = 1, a third and two thirds.
 #[test]

@@ -60,7 +60,10 @@ pub(crate) fn answer(prepared: &Prepared) -> Answer {
         .iter()
         .map(|(what, path)| json!([what, path.display().to_string()]));
     answer.say("files", files.collect::<Value>());
-    answer.say("warnings", json!(prepared.assembly.warnings()));
+    let of_separation = case.separation.warnings();
+    let warnings = prepared.assembly.warnings().into_iter();
+    let warnings: Vec<_> = warnings.chain(of_separation).collect();
+    answer.say("warnings", json!(warnings));
     answer.say("excitation", json!(prepared.assembly.excitation()));
     answer.say("case", case.source.as_str());
     answer

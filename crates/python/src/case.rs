@@ -180,7 +180,7 @@ impl PyCase {
     fn check_json(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| {
             let assembly = self.assembly()?;
-            json(&Understood::of(&assembly))
+            json(&Understood::of(&self.case, &assembly))
         })
         .map_err(PyErr::from)
     }

@@ -2,6 +2,7 @@
 
 mod laws;
 mod rule;
+mod usual;
 
 use std::collections::BTreeMap;
 use std::io::Read;
@@ -617,6 +618,13 @@ impl Separation {
     /// The first thing wrong in it, with its place in the text.
     pub fn parse(text: &str, buildings: usize) -> Result<Self, CaseError> {
         crate::parse::separation_keys(text, buildings)
+    }
+
+    /// What lies outside the values that codes have, in words: a warning for each key, with what was
+    /// probably meant.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        usual::warnings(self)
     }
 
     /// The same with what `other` gives in the place of what this one has; a code in the place of

@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use pounding_assembly::Assembly;
+use pounding_case::Case;
 use pounding_catalogue::wording::counted;
 use pounding_shear_building::{OnFoundation, ShearBuilding, SpringDashpot};
 use pounding_time_history::LevelPlace;
@@ -29,7 +30,7 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
         drop(progress);
         return print(&text);
     }
-    let understood = Understood::of(&assembly);
+    let understood = Understood::of(&case, &assembly);
     drop(progress);
     print(&pretty(&understood)?)
 }
@@ -191,7 +192,7 @@ struct Analysis {
 impl<'a> Understood<'a> {
     /// What was understood of a case.
     #[must_use]
-    pub fn of(assembly: &'a Assembly) -> Self {
+    pub fn of(case: &Case, assembly: &'a Assembly) -> Self {
         let system = &assembly.system;
         let of_floors = |b: &'a ShearBuilding| b.foundation().map_or(b, OnFoundation::fixed_base);
         let buildings = system.buildings().iter().map(|b| Building {
@@ -248,7 +249,9 @@ impl<'a> Understood<'a> {
                 scale: record.scale(),
                 echo: assembly.excitation(),
             },
-            warnings: assembly.warnings(),
+            warnings: (assembly.warnings().into_iter())
+                .chain(case.separation.warnings())
+                .collect(),
             analysis: Analysis {
                 output_step: assembly.output_step,
                 duration: duration.unwrap_or(assembly.system.record_duration()),

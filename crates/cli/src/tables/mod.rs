@@ -359,6 +359,7 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
         text.push_str(&format!("  {line}\n"));
     }
     text.push_str(&warning_lines(&assembly.warnings()));
+    text.push_str(&warning_lines(&case.separation.warnings()));
     for b in assembly.system.buildings() {
         let on = b.foundation();
         let of_floors = on.map_or(&**b, |on| on.fixed_base());

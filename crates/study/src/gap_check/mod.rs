@@ -355,6 +355,7 @@ pub fn gap_check_dealt(
         sweep: sweep.transpose()?,
         warnings: warnings(case, records)
             .into_iter()
+            .chain(separation.warnings())
             .chain(repeated.warnings(&names))
             .collect(),
         repeated,

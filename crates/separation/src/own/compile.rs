@@ -39,7 +39,15 @@ pub(super) fn compile(text: &RuleText) -> Result<OwnRule, CaseError> {
         found => {
             let at = expression.at.clone();
             let message = format!("the result is {}, and must be a length", described(found));
-            return Err(whole.error(at, message, "give the width in metres"));
+            let help = match found {
+                Kind::Number(d) if d == Dimension::NUMBER => {
+                    "a length stands with its unit in `inputs`, and its name in the expression: expression = \"w\" with inputs = { w = \"100 mm\" }"
+                }
+                _ => {
+                    "write an expression of lengths, such as expression = \"max(0.01 * height, w)\" with inputs = { w = \"100 mm\" }"
+                }
+            };
+            return Err(whole.error(at, message, help));
         }
     }
     Ok(compiler.finish(expression))
@@ -596,7 +604,7 @@ fn deepest(source: &str) -> Option<usize> {
 
 /// What the parser says of a text that is no expression.
 fn unreadable(text: &Text<'_>, errors: &ParseErrors) -> CaseError {
-    let help = "use names, numbers, + - * / %, comparisons, && || !, functions, and condition ? this : that";
+    let help = "use names, numbers, + - * / %, comparisons, && || !, functions, and condition ? this : that; numbers with a unit stand in `inputs`, such as w = \"100 mm\"";
     let Some(first) = errors.errors.first() else {
         return text.error(0..0, "this is no expression", help);
     };

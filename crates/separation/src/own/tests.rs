@@ -26,7 +26,7 @@ fn between(expression: &str, more: &str) -> Result<Requirement, SeparationError>
 }
 
 /// By hand for the worked example: u 80 and 60 mm, h 18 m, 7 and 6 storeys of 21 and 18 m, R 8 and
-/// 5, Cd 4 and 4.5, I 1.25, floors not aligned, one owner, zone II, a_g S = 0.25 g.
+/// 5, Cd 4 and 4.5, I 1.1, floors not aligned, one owner, zone II, a_g S = 0.25 g.
 #[test]
 fn twenty_right_ones() {
     const NONE: &str = "";
@@ -241,6 +241,31 @@ fn wrong_ones_are_refused_with_their_place() {
             );
         }
     }
+}
+
+/// What the errors of a width without its unit propose is right: 100 mm, and 180 mm at 18 m.
+#[test]
+fn a_number_for_a_width_is_told_how_it_is_written() {
+    for (wrong, expression, width) in [
+        ("0.1", "w", 0.1),
+        ("height * height", "max(0.01 * height, w)", 0.18),
+    ] {
+        let error = compiled(&file("between", wrong, "")).unwrap_err();
+        let help = error.help.unwrap();
+        let inputs = "inputs = { w = \"100 mm\" }";
+        for part in [&format!("expression = \"{expression}\""), inputs] {
+            assert!(help.contains(part), "{part}: {help}");
+        }
+        let found = between(expression, inputs).unwrap().width;
+        assert!((found - width).abs() < 1e-12, "{expression}: {found}");
+    }
+    let error = compiled(&file("between", "100 mm", "")).unwrap_err();
+    assert!(
+        error
+            .help
+            .unwrap()
+            .contains("stand in `inputs`, such as w = \"100 mm\"")
+    );
 }
 
 /// Wrong tables, definitions and names, each with its line.

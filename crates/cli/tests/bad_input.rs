@@ -143,24 +143,18 @@ fn steps_of_seconds_are_named() {
         format!("A\nB\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 100, DT= 2 SEC\n{values}");
     std::fs::write(folder.path().join("record.at2"), at2).unwrap();
     let said = "the time step is 2 s, where accelerographs have 0.0001 s to 0.1 s: with it the 100 samples take 198 s";
-    for (arguments, with_line) in [
-        ("motion info record.at2", true),
-        ("motion spectrum record.at2", true),
-        ("gap case.toml --records record.at2 --points 0", false),
-        (
-            "compare case.toml --records record.at2 --models hertz_1882 --approach-velocity 0.2",
-            false,
-        ),
+    for arguments in [
+        "motion info record.at2",
+        "motion spectrum record.at2",
+        "gap case.toml --records record.at2 --points 0",
+        "compare case.toml --records record.at2 --models hertz_1882 --approach-velocity 0.2",
     ] {
         let arguments: Vec<&str> = arguments.split(' ').collect();
         let output = run_in(folder.path(), CASE, &record(), &arguments);
         let text = String::from_utf8_lossy(&output.stdout);
-        assert!(
-            text.contains(said),
-            "{arguments:?}: {text} {}",
-            message(&output)
-        );
-        assert_eq!(text.contains("line 4: the time step"), with_line, "{text}");
+        let told = format!("{text} {}", message(&output));
+        assert_eq!(text.matches(said).count(), 1, "{arguments:?}: {told}");
+        assert!(text.contains("line 4: the time step"), "{told}");
     }
 }
 

@@ -207,6 +207,8 @@ pub enum TimeHistoryError {
         time: f64,
         /// Method.
         method: &'static str,
+        /// Its name in cases.
+        name: &'static str,
     },
     /// A recorder refused a step.
     #[error("recorder: {0}")]
@@ -246,9 +248,16 @@ impl TimeHistoryError {
             Self::Chatter { .. } => {
                 "try another method, another separation rule for that gap, or a small gap in place of none for that link, and report the case"
             }
-            Self::EnergyResidual { .. } => {
-                "use a smaller `relative_tolerance` (event_driven, adaptive) or `step` (methods of a fixed step); a method that damps numerically (HHT-alpha, gamma > 1/2) needs a larger `energy_tolerance`"
-            }
+            Self::EnergyResidual { name, .. } => match *name {
+                "adaptive" | "event_driven" => "use a smaller `relative_tolerance`",
+                "newmark" => {
+                    "use a smaller `step`; `gamma` below 1/2 adds energy to the motion, and above 1/2 it takes energy from it, which a larger `energy_tolerance` allows"
+                }
+                "hht_alpha" => {
+                    "use a smaller `step`; the method takes energy from the motion, which a larger `energy_tolerance` allows"
+                }
+                _ => "use a smaller `step`",
+            },
             _ => return None,
         };
         Some(text.to_owned())

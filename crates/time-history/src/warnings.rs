@@ -444,7 +444,7 @@ impl Warning {
     /// ground shakes most.
     #[must_use]
     pub fn of_excitation(system: &System, options: &RunOptions) -> Vec<Self> {
-        let mut warnings: Vec<_> = ground_offsets(system).into_iter().collect();
+        let mut warnings: Vec<_> = ground_offsets(system).collect();
         let further = system.ground_motions().iter().map(|m| &m.acceleration);
         let samples = [system.ground()]
             .into_iter()

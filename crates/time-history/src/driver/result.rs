@@ -56,6 +56,7 @@ impl Driver<'_> {
                 allowed,
                 time: duration,
                 method: self.method.information().title,
+                name: self.method.information().name,
             });
         }
         let counts = self.method.counts();

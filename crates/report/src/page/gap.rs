@@ -142,6 +142,16 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
                 "{ownership}what the rule takes for granted &ndash; {}.",
                 taken(answer, &format!("{rule}/assumptions"))
             ));
+            let remarks = 0..answer.list(&format!("{case}/remarks")).len();
+            let remarks: Vec<String> = remarks
+                .map(|r| answer.quote(&format!("{case}/remarks/{r}")))
+                .collect();
+            if !remarks.is_empty() {
+                points.push(format!(
+                    "{ownership}to know &ndash; {}.",
+                    remarks.join(" ").trim_end_matches('.')
+                ));
+            }
         }
         let in_force = answer.quote(&at("code/in_force"));
         if !in_force.is_empty() {
@@ -265,17 +275,48 @@ fn statistic(answer: Answer<'_>, code: &str) -> String {
         }
         _ => "",
     };
-    let least = format!("{code}/spectrum/least_ratio");
-    let below = match answer.at(&format!("{code}/spectrum/is_reached")).as_bool() {
-        Some(false) => format!(
-            " The mean spectrum of the records falls to {} of that of the code, which asks for {}, or their mean peak acceleration is below that of the code ({}): the widths are no answer by the code.",
-            answer.say(&least, 1.0),
-            answer.say(&format!("{code}/spectrum/at_least"), 1.0),
-            answer.quote(&format!("{code}/spectrum/clause")),
-        ),
-        _ => String::new(),
+    format!(
+        "{rule}{few}{}",
+        spectrum(answer, &format!("{code}/spectrum"))
+    )
+}
+
+/// How the mean spectrum of the suite stands to what a code asks of it; nothing where that is not
+/// known.
+fn spectrum(answer: Answer<'_>, of: &str) -> String {
+    let at = |key: &str| format!("{of}/{key}");
+    if answer.at(of).is_null() {
+        return String::new();
+    }
+    let asks = format!(
+        "the code asks for at least {} of its spectrum ({})",
+        answer.say_percent(&at("at_least")),
+        answer.quote(&at("clause"))
+    );
+    let Some(reached) = answer.at(&at("is_reached")).as_bool() else {
+        return format!(
+            " The mean spectrum of the records is not compared with that of the code, as the case does not scale them to it; {asks}."
+        );
     };
-    format!("{rule}{few}{below}")
+    let peaks = match answer.at(&at("ratio_of_peaks")).is_null() {
+        true => String::new(),
+        false => format!(
+            " Their mean peak acceleration is {} of that of the code, which asks for all of it.",
+            answer.say_percent(&at("ratio_of_peaks"))
+        ),
+    };
+    let told = format!(
+        " The mean spectrum of the records is nowhere below {} of that of the code (at {} s); {asks}.{peaks}",
+        answer.say_percent(&at("least_ratio")),
+        answer.say(&at("period_of_least_ratio"), 1.0),
+    );
+    match reached {
+        true => told,
+        false => format!(
+            "{told} <strong>The widths are no answer by the code</strong>: records times {} would be one.",
+            answer.say(&at("factor"), 1.0)
+        ),
+    }
 }
 
 /// What a rule takes for granted, in a sentence.

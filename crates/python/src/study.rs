@@ -254,8 +254,8 @@ fn gap_check_json(
     };
     let made = watched(py, progress, |watch| {
         let records = under(case, &motions)?;
-        let tell = |done, total| watch.tell(done, total);
-        let check = gap_check(&case.case, &separation, &records, &options, &tell);
+        let ask = |done, total| watch.ask(done, total);
+        let check = gap_check(&case.case, &separation, &records, &options, &ask);
         let check = check.map_err(|e| case.problem(of_check(e, &case.case)))?;
         json(&Check::of(&check))
     })?;
@@ -294,8 +294,8 @@ fn compare_json(
     };
     let made = watched(py, progress, |watch: &Watch| {
         let records = under(case, &motions)?;
-        let tell = |done, total| watch.tell(done, total);
-        let comparison = compare(&case.case, &records, &options, &tell);
+        let ask = |done, total| watch.ask(done, total);
+        let comparison = compare(&case.case, &records, &options, &ask);
         let comparison = comparison.map_err(|e| case.problem(of_check(e, &case.case)))?;
         json(&Compared::of(&comparison))
     })?;

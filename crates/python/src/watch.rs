@@ -1,5 +1,6 @@
 //! Long work without the interpreter's lock, which Ctrl-C ends and which says how far it is.
 
+use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::mpsc::channel;
 use std::time::Duration;
@@ -28,6 +29,15 @@ impl Watch {
     pub fn tell(&self, done: usize, total: usize) {
         self.done.store(done, Ordering::Relaxed);
         self.total.store(total, Ordering::Relaxed);
+    }
+
+    /// The same; says whether to go on.
+    pub fn ask(&self, done: usize, total: usize) -> ControlFlow<()> {
+        self.tell(done, total);
+        match self.stopped() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
     }
 }
 

@@ -9,7 +9,7 @@ import time
 
 import numpy as np
 import pytest
-from conftest import EXAMPLES, PAIR
+from conftest import EXAMPLES, PAIR, ROOT
 
 import pounding
 
@@ -65,6 +65,25 @@ def test_progress_is_told_and_may_end_the_work() -> None:
 
     with pytest.raises(ZeroDivisionError):
         pounding.run_many([ROW] * 10_000, threads=1, progress=refuse)
+
+
+@pytest.mark.parametrize("work", ["gap_check", "compare"])
+def test_progress_ends_checks_and_comparisons(work: str) -> None:
+    told: list[tuple[int, int]] = []
+
+    def refuse(done: int, total: int) -> None:
+        told.append((done, total))
+        raise ZeroDivisionError
+
+    motion = pounding.read_motion(ROOT / "ground_motions" / "el_centro_1940_ns.csv")
+    records = {f"scaled by 1.{i:02}": motion.scaled_by(1.0 + 0.01 * i) for i in range(40)}
+    with pytest.raises(ZeroDivisionError):
+        if work == "gap_check":
+            pounding.gap_check(ROW, points=100_000, threads=1, progress=refuse)
+        else:
+            pounding.compare(ROW, records=records, threads=1, progress=refuse)
+    # Minutes are left of either.
+    assert told[-1][0] < 0.5 * told[-1][1], told
 
 
 def test_a_run_that_fails_stands_in_its_place(pair_dict: dict) -> None:

@@ -8,7 +8,7 @@ use pounding_gap_element::SeparationRule;
 use pounding_study::comparison::{
     Comparison, ComparisonOptions, Holds, QuantityKind, RestitutionRule, StiffnessRule, compare,
 };
-use pounding_study::gap_check::{CheckError, under_records};
+use pounding_study::gap_check::{CheckError, UNWATCHED, under_records};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -37,7 +37,7 @@ fn options(models: &[&str]) -> ComparisonOptions {
 
 fn compared(case: &Case, options: &ComparisonOptions) -> Comparison {
     let records = under_records(case, &[]).unwrap();
-    compare(case, &records, options, &|_, _| {}).unwrap()
+    compare(case, &records, options, UNWATCHED).unwrap()
 }
 
 fn value(c: &Comparison, model: &str, kind: QuantityKind, of: &str) -> f64 {
@@ -174,11 +174,11 @@ fn failures_are_recorded() {
     let mut asked = options(&["jankowski_2005", "gonthier_2004"]);
     asked.restitution = Some(1.5);
     let records = under_records(&case, &[]).unwrap();
-    let error = compare(&case, &records, &asked, &|_, _| {}).unwrap_err();
+    let error = compare(&case, &records, &asked, UNWATCHED).unwrap_err();
     assert!(matches!(error, CheckError::Option { .. }));
     asked.restitution = None;
     asked.models = vec!["jankowsky_2005".to_owned()];
-    let error = compare(&case, &records, &asked, &|_, _| {}).unwrap_err();
+    let error = compare(&case, &records, &asked, UNWATCHED).unwrap_err();
     assert!(error.help().unwrap().contains("jankowski_2005"));
     asked.restitution_rule = RestitutionRule::Exact;
     // Without another parameter its relation leads no lower than this.
@@ -187,7 +187,7 @@ fn failures_are_recorded() {
         "muthukumar_2003".to_owned(),
         "exact_hunt_crossley".to_owned(),
     ];
-    let c = compare(&case, &records, &asked, &|_, _| {}).unwrap();
+    let c = compare(&case, &records, &asked, UNWATCHED).unwrap();
     let diagnosis = c.models[0].diagnosis().unwrap();
     assert!(diagnosis.contains("returns"), "{diagnosis}");
     assert!(c.models[1].is_complete(), "{:?}", c.models[1].diagnosis());

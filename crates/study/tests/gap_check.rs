@@ -1,6 +1,7 @@
 //! The gap check on the three-storey pair of the examples.
 #![allow(clippy::unwrap_used)]
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 
@@ -8,7 +9,7 @@ use pounding_assembly::assemble;
 use pounding_case::{Case, Separation};
 use pounding_separation::{Oscillator, correlation_coefficient};
 use pounding_study::gap_check::{
-    CheckError, GapCheck, GapCheckOptions, SweepOptions, gap_check, under_records,
+    CheckError, GapCheck, GapCheckOptions, SweepOptions, UNWATCHED, gap_check, under_records,
 };
 
 fn root() -> PathBuf {
@@ -32,7 +33,7 @@ fn options() -> GapCheckOptions {
 
 fn check(case: &Case, records: &[PathBuf], options: &GapCheckOptions) -> GapCheck {
     let records = under_records(case, records).unwrap();
-    gap_check(case, &case.separation, &records, options, &|_, _| {}).unwrap()
+    gap_check(case, &case.separation, &records, options, UNWATCHED).unwrap()
 }
 
 fn both() -> [PathBuf; 2] {
@@ -114,6 +115,7 @@ fn a_wider_gap_can_be_worse() {
     let tell = |done: usize, total: usize| {
         assert!(done <= total && total == 7);
         *told.lock().unwrap() += 1;
+        ControlFlow::Continue(())
     };
     let three = gap_check(&case, &case.separation, &records, &asked, &tell).unwrap();
     assert_eq!(*told.lock().unwrap(), 7);
@@ -234,7 +236,7 @@ fn inputs_from_the_case() {
     let case = pair("\"20 mm\"");
     let records = under_records(&case, &[]).unwrap();
     let refused = |separation: &Separation| -> Vec<(String, String)> {
-        let check = gap_check(&case, separation, &records, &options(), &|_, _| {}).unwrap();
+        let check = gap_check(&case, separation, &records, &options(), UNWATCHED).unwrap();
         let codes = check.gaps[0].codes.iter();
         codes
             .filter_map(|c| Some((c.provision.name().to_owned(), c.refusal()?.to_string())))
@@ -272,7 +274,7 @@ fn yielding(change: impl Fn(&str) -> String) -> Case {
 fn cautioned(case: &Case) -> Vec<String> {
     let records = under_records(case, &[]).unwrap();
     let inputs = Separation::parse(INPUTS, 2).unwrap();
-    let check = gap_check(case, &inputs, &records, &options(), &|_, _| {}).unwrap();
+    let check = gap_check(case, &inputs, &records, &options(), UNWATCHED).unwrap();
     let gap = &check.gaps[0];
     for code in &gap.codes {
         let silent = code.caution().is_some() || code.refusal().is_some() || code.is_disputed();
@@ -579,7 +581,7 @@ fn mistakes() {
     let case = pair("\"20 mm\"");
     let records = under_records(&case, &[]).unwrap();
     let refuse = |options: GapCheckOptions| {
-        gap_check(&case, &case.separation, &records, &options, &|_, _| {}).unwrap_err()
+        gap_check(&case, &case.separation, &records, &options, UNWATCHED).unwrap_err()
     };
     let error = refuse(GapCheckOptions {
         target_probability: 1.0,
@@ -608,7 +610,7 @@ fn mistakes() {
     let nowhere = under_records(&case, &[root().join("nowhere.csv")]).unwrap_err();
     assert!(nowhere.to_string().contains("nowhere.csv"), "{nowhere}");
     let named = Separation::parse("provisions = \"nbcc\"", 2).unwrap();
-    let error = gap_check(&case, &named, &records, &options(), &|_, _| {}).unwrap_err();
+    let error = gap_check(&case, &named, &records, &options(), UNWATCHED).unwrap_err();
     assert!(
         error.help().unwrap().contains("nbcc_2015_between"),
         "{error}"

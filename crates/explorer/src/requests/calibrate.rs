@@ -4,7 +4,7 @@ use pounding_catalogue::numbers::significant;
 use pounding_gap_element::laboratory::EXAMPLE_RESTITUTION;
 use pounding_gap_element::registry;
 use pounding_study::calibration::{RestitutionRule, StiffnessRule, calibrated, references};
-use pounding_study::gap_check::demands;
+use pounding_study::gap_check::{UNWATCHED, demands};
 use serde_json::{Value, json};
 
 use super::under_its_record;
@@ -22,7 +22,7 @@ pub(crate) fn answer(prepared: Prepared, gap: usize, model: &str) -> Result<Answ
     }
     let records = [under_its_record(prepared)];
     let system = &records[0].assembly.system;
-    let own = demands(&records, 1, &|_, _| {}).map_err(|e| Refused::of_check(e, &case))?;
+    let own = demands(&records, 1, UNWATCHED).map_err(|e| Refused::of_check(e, &case))?;
     let rules = (StiffnessRule::Penetration, RestitutionRule::AsPublished);
     let like_it = references(&case, system, &own, (None, None))
         .map_err(|e| e.to_string())

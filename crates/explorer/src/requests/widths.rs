@@ -3,7 +3,7 @@
 
 use pounding_case::Separation;
 use pounding_study::gap_check::{
-    CodeGap, CombinationGap, GapCheckOptions, GapReport, even_widths, gap_check, widest,
+    CodeGap, CombinationGap, GapCheckOptions, GapReport, UNWATCHED, even_widths, gap_check, widest,
 };
 use serde_json::{Value, json};
 
@@ -25,7 +25,7 @@ pub(crate) fn answer(prepared: Prepared, separation: &Separation) -> Result<Answ
         sweep: None,
         threads: 1,
     };
-    let check = gap_check(&case, separation, &records, &options, &|_, _| {})
+    let check = gap_check(&case, separation, &records, &options, UNWATCHED)
         .map_err(|e| Refused::of_check(e, &case))?;
     let mut answer = Answer::default();
     answer.say("gaps", check.gaps.iter().map(gap).collect::<Value>());

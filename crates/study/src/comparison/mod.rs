@@ -23,8 +23,8 @@ use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
     Amplification, CaseUnderRecord, CheckError, CollapsedRecord, GapLevel, Progress, RecordDemand,
-    Repeated, amplification, collapsed_building, in_parallel, levels, rebuilt, stand_or_collapse,
-    warnings, without_collapsed,
+    Repeated, UNWATCHED, amplification, collapsed_building, in_parallel, levels, rebuilt,
+    stand_or_collapse, warnings, without_collapsed,
 };
 
 /// What is asked for.
@@ -210,7 +210,7 @@ pub fn compare_dealt(
     let references = references(case, &records[0].assembly.system, &own, wanted)?;
     let rules = (options.stiffness_rule, options.restitution_rule);
     let mut models: Vec<ComparedModel> =
-        in_parallel(descriptors.len(), options.threads, &|_, _| {}, |i| {
+        in_parallel(descriptors.len(), options.threads, UNWATCHED, |i| {
             let gaps = references.iter();
             ComparedModel {
                 descriptor: descriptors[i],
@@ -219,7 +219,7 @@ pub fn compare_dealt(
                     .collect(),
                 records: Vec::new(),
             }
-        });
+        })?;
     let quantities = quantities::of_system(system);
     let tell = |done, _| progress(looked_at + done, total);
     let count = models.len() * records.len();

@@ -38,7 +38,7 @@ pub(super) fn part<T: Stored>(
                 "it is not this shard of this check: move it away",
             ));
         }
-        let made = in_parallel(mine.len(), threads, progress, |i| make(mine[i]));
+        let made = in_parallel(mine.len(), threads, progress, |i| make(mine[i]))?;
         let content = Content::of(shard, count, &mine, &made).encode(identity);
         pounding_files::write(file, &content).map_err(failed)?;
     }
@@ -223,6 +223,7 @@ mod tests {
     #![allow(clippy::unwrap_used)]
     use super::super::Deal;
     use super::*;
+    use crate::gap_check::UNWATCHED;
 
     /// A run of a few numbers.
     #[derive(Debug, Clone, PartialEq)]
@@ -246,7 +247,7 @@ mod tests {
     }
 
     fn runs(deal: &Deal, identity: &str, count: usize) -> Result<Vec<Made<Run>>, CheckError> {
-        deal.runs(|| identity.to_owned(), count, (2, &|_, _| {}), make)
+        deal.runs(|| identity.to_owned(), count, (2, UNWATCHED), make)
     }
 
     #[test]

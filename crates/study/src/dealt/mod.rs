@@ -93,7 +93,7 @@ impl Deal {
         #[cfg(not(feature = "results"))]
         let _ = identity;
         match self {
-            Self::All => Ok(in_parallel(count, threads, progress, make)),
+            Self::All => in_parallel(count, threads, progress, make),
             #[cfg(feature = "results")]
             Self::Part { shard, file } => {
                 let on = (threads, progress);

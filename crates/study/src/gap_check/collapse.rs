@@ -68,7 +68,7 @@ pub(crate) fn stand_or_collapse(
     progress: Progress<'_>,
 ) -> Result<(Vec<RecordDemand>, Vec<CollapsedRecord>), CheckError> {
     let (mut standing, mut collapsed, mut first) = (Vec::new(), Vec::new(), None);
-    let results = by_record(records, threads, progress);
+    let results = by_record(records, threads, progress)?;
     for (record, result) in records.iter().enumerate().zip(results) {
         match result {
             Ok(demand) => standing.push(demand),

@@ -185,15 +185,18 @@ pub fn demands(
     threads: usize,
     progress: Progress<'_>,
 ) -> Result<Vec<RecordDemand>, CheckError> {
-    by_record(records, threads, progress).into_iter().collect()
+    by_record(records, threads, progress)?.into_iter().collect()
 }
 
 /// The same, with what keeps each record from a demand.
+///
+/// # Errors
+/// [`CheckError::Stopped`].
 pub(super) fn by_record(
     records: &[CaseUnderRecord],
     threads: usize,
     progress: Progress<'_>,
-) -> Vec<Result<RecordDemand, CheckError>> {
+) -> Result<Vec<Result<RecordDemand, CheckError>>, CheckError> {
     in_parallel(records.len(), threads, progress, |i| one(&records[i]))
 }
 

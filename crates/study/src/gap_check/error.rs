@@ -13,6 +13,9 @@ pub enum CheckError {
     /// The case is wrong at a place.
     #[error(transparent)]
     Case(#[from] CaseError),
+    /// Ended by who watches its progress.
+    #[error("stopped before the end: nothing is kept")]
+    Stopped,
     /// A record could not be used, or the isolated buildings not integrated under it.
     #[error("record {record}: {source}")]
     Record {
@@ -125,6 +128,7 @@ impl CheckError {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::Case(error) => error.help.clone(),
+            Self::Stopped => None,
             Self::Record { source, .. } | Self::AllCollapse { source, .. } => source.help(),
             Self::Separation(error) => error.help(),
             Self::Word { help, .. } => help.clone(),

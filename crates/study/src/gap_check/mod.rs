@@ -25,7 +25,7 @@ pub use demand::{
     Amplification, AmplifiedQuantity, GapLevel, RecordDemand, amplification, demands,
 };
 pub use error::CheckError;
-pub use parallel::Progress;
+pub use parallel::{Progress, UNWATCHED};
 pub use records::{
     CaseUnderRecord, RecordFiles, SkippedFile, distinct, record_files, under_records,
 };

@@ -7,7 +7,7 @@ use pounding_ground_motion::processing::{BAND_PERIODS, BandTarget};
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 
 use super::error::CheckError;
-use super::parallel::in_parallel;
+use super::parallel::{UNWATCHED, in_parallel};
 use super::records::CaseUnderRecord;
 
 /// Periods of the spectra: enough for a smooth curve.
@@ -110,13 +110,13 @@ pub(super) fn of_records(
     damping: f64,
     threads: usize,
 ) -> Result<Vec<Vec<f64>>, CheckError> {
-    let spectra = in_parallel(records.len(), threads, &|_, _| {}, |r| {
+    let spectra = in_parallel(records.len(), threads, UNWATCHED, |r| {
         let record = &records[r];
         let linear = Evaluation::PiecewiseLinear;
         let found = response_spectrum(&record.assembly.accelerogram, periods, damping, linear);
         found.map(|s| s.pseudo_acceleration).map_err(wrong(record))
     });
-    spectra.into_iter().collect()
+    spectra?.into_iter().collect()
 }
 
 /// The mean of spectra at so many periods.

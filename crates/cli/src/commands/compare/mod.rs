@@ -57,7 +57,10 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
         threads: threads(arguments.threads),
     };
     let progress = Progress::begin(Unit::Runs)?;
-    let tell = |done: usize, total: usize| progress.show(done, total, "");
+    let tell = |done: usize, total: usize| {
+        progress.show(done, total, "");
+        std::ops::ControlFlow::Continue(())
+    };
     let comparison = compare_dealt(&case, &records, &options, (&tell, &deal)).map_err(failed)?;
     drop(progress);
     if told_part(&deal, "compare")? {

@@ -65,7 +65,10 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.output.as_deref(),
     ])?;
     let progress = Progress::begin(Unit::Runs)?;
-    let tell = |done: usize, total: usize| progress.show(done, total, "");
+    let tell = |done: usize, total: usize| {
+        progress.show(done, total, "");
+        std::ops::ControlFlow::Continue(())
+    };
     let check = gap_check_dealt(&case, &separation, &records, &options, (&tell, &deal));
     let check = check.map_err(failed)?;
     drop(progress);

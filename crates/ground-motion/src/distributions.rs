@@ -24,6 +24,23 @@ pub fn normal_distribution(x: f64) -> f64 {
     0.5 * libm::erfc(-x * FRAC_1_SQRT_2)
 }
 
+/// Probability that a standard normal variable exceeds this number, over the density there
+/// (Mills' ratio): relative error 2e-15 for numbers above zero, however far in the tail, where
+/// both underflow. Infinite from -39 down.
+#[must_use]
+pub fn mills_ratio(x: f64) -> f64 {
+    if x < 2.5 {
+        let density_of_zero = 0.5 * std::f64::consts::FRAC_2_SQRT_PI * FRAC_1_SQRT_2;
+        return normal_distribution(-x) * libm::exp(0.5 * x * x) / density_of_zero;
+    }
+    // Laplace's continued fraction, which has all digits after that many terms.
+    let terms = 10 + (500.0 / (x * x)) as u32;
+    let rest = (1..=terms)
+        .rev()
+        .fold(x, |below, n| x + f64::from(n) / below);
+    1.0 / rest
+}
+
 /// Density of the standard normal distribution.
 #[must_use]
 pub fn normal_density(x: f64) -> f64 {
@@ -126,6 +143,29 @@ mod tests {
         assert_eq!(normal_quantile(1.0), f64::INFINITY);
         assert!(normal_quantile(1.5).is_nan() && normal_quantile(f64::NAN).is_nan());
         near(normal_density(0.0), 0.398_942_280_401_432_7, 1e-15);
+    }
+
+    /// By 50-digit arithmetic (mpmath).
+    #[test]
+    fn tails_over_their_density() {
+        for (x, expected) in [
+            (-5.0, 672_621.636_722_879_3),
+            (-1.0, 3.477_051_811_703_694_5),
+            (0.0, 1.253_314_137_315_500_3),
+            (0.3, 1.001_837_400_992_155_7),
+            (1.0, 0.655_679_542_418_798_5),
+            (2.4, 0.366_050_808_687_150_3),
+            (2.6, 0.343_164_145_005_869_1),
+            (5.0, 0.192_808_104_715_315_76),
+            (12.0, 0.082_766_286_501_369_18),
+            (40.0, 0.024_984_404_205_720_57),
+            (1e3, 9.999_990_000_029_999e-4),
+            (1e8, 1e-8),
+        ] {
+            near(mills_ratio(x), expected, 3e-15);
+        }
+        assert_eq!(mills_ratio(f64::INFINITY), 0.0);
+        assert_eq!(mills_ratio(-60.0), f64::INFINITY);
     }
 
     /// Closed forms for two and four degrees, the normal distribution for one, and the 5 % points

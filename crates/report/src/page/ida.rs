@@ -88,7 +88,9 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
                 answer.say(&at("mean_annual_frequency"), 1.0)
             ));
         }
-        if !answer.at(&at("mean_annual_frequency_bounds")).is_null() {
+        // Bounds without their frequency would stand beside the dispersion.
+        let known = !answer.at(&at("mean_annual_frequency")).is_null();
+        if known && !answer.at(&at("mean_annual_frequency_bounds")).is_null() {
             let confidence = match answer.at(&at("fit/confidence")).is_null() {
                 true => String::new(),
                 false => format!(
@@ -285,4 +287,31 @@ fn demands(answer: Answer<'_>) -> String {
     out + &note(
         "Fractiles over the records. A collapse is above everything: a dash is a fractile among collapses.",
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use serde_json::json;
+
+    /// Bounds beside the dispersion would be read as its own.
+    #[test]
+    fn bounds_stand_with_their_frequency_alone() {
+        let told = |frequency: Value| {
+            let state = json!({
+                "name": "pounding", "remarks": [], "mean_annual_frequency": frequency,
+                "fit": {
+                    "kind": "lognormal", "median": 0.8, "dispersion": 0.4, "confidence": 0.95,
+                    "median_bounds": [0.7, 0.9], "dispersion_bounds": [0.3, 0.5],
+                },
+                "mean_annual_frequency_bounds": [1e-3, 4e-3],
+            });
+            let answer = json!({ "unit": "m s-2", "limits": [state], "gaps": [], "levels": [],
+                "records": 2, "measure": "PGA" });
+            points(Answer(&answer), None)[0].clone()
+        };
+        assert!(told(json!(2e-3)).contains("bootstrap"));
+        let without = told(Value::Null);
+        assert!(!without.contains("bootstrap"), "{without}");
+    }
 }

@@ -245,10 +245,10 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     let first_impacts = first_gap + gaps.len();
     // Who has collapsed has been through every state before.
     let pounds = |r: &Run| r.collapsed || r.demands[first_impacts..].iter().any(|n| *n > 0.0);
-    let mut results = vec![evaluation.limit(POUNDING, &pounds)];
+    let mut results = vec![evaluation.limit(POUNDING, &pounds)?];
     for (i, (demand, exceeds)) in limits.iter().enumerate() {
         let reached = |r: &Run| r.collapsed || r.demands[first_limit + i] > *exceeds;
-        results.push(evaluation.limit(&demand.name, &reached));
+        results.push(evaluation.limit(&demand.name, &reached)?);
     }
     let variable = &study.variables[settings.intensity];
     Ok(IdaReport {
@@ -266,7 +266,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
             .iter()
             .enumerate()
             .map(|(i, g)| evaluation.gap(g, first_gap + i))
-            .collect(),
+            .collect::<Result<_, _>>()?,
     })
 }
 
@@ -355,7 +355,24 @@ impl Evaluation<'_> {
         counts
     }
 
-    fn limit(&self, name: &str, reached: &dyn Fn(&Run) -> bool) -> LimitResult {
+    /// The frequency of a state, which is a number: comparisons with one that is none are all
+    /// false, so that the search for a gap would end there.
+    fn frequency(
+        fit: &FragilityFit,
+        hazard: &HazardCurve,
+        of: &str,
+    ) -> Result<Option<f64>, StudyError> {
+        let frequency = mean_annual_frequency(fit, hazard);
+        match frequency {
+            Some(frequency) if !frequency.is_finite() => Err(StudyError::Evaluation {
+                what: "mean annual frequency",
+                reason: format!("{of}: {fit:?} and the hazard curve give no number"),
+            }),
+            _ => Ok(frequency),
+        }
+    }
+
+    fn limit(&self, name: &str, reached: &dyn Fn(&Run) -> bool) -> Result<LimitResult, StudyError> {
         let counts = self.counts(reached);
         let fit = fit(&counts);
         let capacities = self.capacities(reached);
@@ -364,7 +381,10 @@ impl Evaluation<'_> {
             _ => None,
         };
         let hazard = self.settings.hazard.as_ref();
-        let frequency = hazard.and_then(|h| mean_annual_frequency(&fit, h));
+        let frequency = match hazard {
+            Some(hazard) => Self::frequency(&fit, hazard, name)?,
+            None => None,
+        };
         let confidence = self.settings.confidence;
         let fitted = matches!(fit, FragilityFit::Lognormal(_));
         let bounds = hazard.filter(|_| fitted).and_then(|hazard| {
@@ -373,7 +393,7 @@ impl Evaluation<'_> {
         });
         let mut remarks = goodness::remarks(&fit, goodness.as_ref(), &counts, &capacities);
         remarks.extend(hazard.into_iter().flat_map(|h| self.of_frequency(&fit, h)));
-        LimitResult {
+        Ok(LimitResult {
             name: name.to_owned(),
             remarks,
             goodness,
@@ -381,7 +401,7 @@ impl Evaluation<'_> {
             frequency_bounds: bounds,
             counts,
             fit,
-        }
+        })
     }
 
     fn shown(&self, si: f64) -> ShownIntensity {
@@ -463,26 +483,35 @@ impl Evaluation<'_> {
         self.intensities.iter().enumerate().map(level).collect()
     }
 
-    fn gap(&self, name: &str, column: usize) -> PoundingDemand {
-        let at = |width: f64| GapResult {
-            width,
-            result: self.limit(&format!("{name} {width} m"), &|r| r.demands[column] > width),
+    fn gap(&self, name: &str, column: usize) -> Result<PoundingDemand, StudyError> {
+        let at = |width: f64| {
+            let result =
+                self.limit(&format!("{name} {width} m"), &|r| r.demands[column] > width)?;
+            Ok(GapResult { width, result })
         };
-        PoundingDemand {
+        let widths = self.settings.gaps.iter().map(|w| at(*w));
+        Ok(PoundingDemand {
             gap: name.to_owned(),
-            widths: self.settings.gaps.iter().map(|w| at(*w)).collect(),
-            minimum: self
-                .settings
-                .target_frequency
-                .and_then(|t| self.minimum(column, t)),
-        }
+            widths: widths.collect::<Result<_, StudyError>>()?,
+            minimum: match self.settings.target_frequency {
+                Some(target) => self.minimum(name, column, target)?,
+                None => None,
+            },
+        })
     }
 
     /// The least width from which on the frequency stays at or below the target. Counts
     /// change only at the demands of the runs, which are looked at one by one, from the
     /// maximum down.
-    fn minimum(&self, column: usize, target: f64) -> Option<MinimumGap> {
-        let hazard = self.settings.hazard.as_ref()?;
+    fn minimum(
+        &self,
+        gap: &str,
+        column: usize,
+        target: f64,
+    ) -> Result<Option<MinimumGap>, StudyError> {
+        let Some(hazard) = &self.settings.hazard else {
+            return Ok(None);
+        };
         let mut demands: Vec<f64> = self
             .runs
             .iter()
@@ -490,7 +519,7 @@ impl Evaluation<'_> {
             .map(|r| r.demands[column])
             .collect();
         if demands.is_empty() {
-            return None;
+            return Ok(None);
         }
         // Buildings that collapse by themselves are kept apart by no gap.
         demands.retain(|d| d.is_finite());
@@ -501,7 +530,7 @@ impl Evaluation<'_> {
         let fitted = |width: f64| fit(&self.counts(&|r| r.demands[column] > width));
         for (i, width) in demands.iter().enumerate() {
             let fit = fitted(*width);
-            let frequency = mean_annual_frequency(&fit, hazard).unwrap_or(f64::INFINITY);
+            let frequency = Self::frequency(&fit, hazard, gap)?.unwrap_or(f64::INFINITY);
             if frequency <= target {
                 best = Some(MinimumGap {
                     width: Some(*width),
@@ -512,12 +541,12 @@ impl Evaluation<'_> {
                 continue;
             }
             let Some(best) = &mut best else {
-                return Some(MinimumGap {
+                return Ok(Some(MinimumGap {
                     width: None,
                     frequency,
                     open: None,
                     remarks: Vec::new(),
-                });
+                }));
             };
             if least_frequency(&fit, hazard) <= target {
                 best.open = Some(self.open(&fit, hazard, target, || {
@@ -529,7 +558,7 @@ impl Evaluation<'_> {
             }
             break;
         }
-        best
+        Ok(best)
     }
 
     /// What a fit leaves open of a least gap.
@@ -579,6 +608,15 @@ mod tests {
         (at_1_g, target): (f64, f64),
     ) -> MinimumGap {
         let points = [0.02, 0.5, 10.0].map(|x| (x * STANDARD_GRAVITY, at_1_g / f64::powi(x, 2)));
+        least_gap_under(per_g, intensities, (&points, target))
+    }
+
+    /// The same for a hazard curve of these points.
+    fn least_gap_under(
+        per_g: &[f64],
+        intensities: &[f64],
+        (points, target): (&[(f64, f64)], f64),
+    ) -> MinimumGap {
         let settings = IdaSettings {
             record: 0,
             intensity: 1,
@@ -607,7 +645,7 @@ mod tests {
             intensities: &intensities,
             runs: &runs,
         };
-        evaluation.minimum(0, target).unwrap()
+        evaluation.minimum("pair", 0, target).unwrap().unwrap()
     }
 
     /// Two records close every gap below 36.75 mm at 0.1 g, which is exceeded three times as often as the target
@@ -618,6 +656,24 @@ mod tests {
         let open = found.open.unwrap();
         assert!((open.wider_than - 0.03675).abs() < 1e-9, "{found:?}");
         assert!(found.width.unwrap() > 0.04, "{found:?}");
+    }
+
+    /// A curve that falls to a tenth within 2 % has its least gap as one without that does: the
+    /// frequency comes from far below.
+    #[test]
+    fn a_steep_end_of_the_hazard_leaves_the_least_gap() {
+        let quantile = pounding_ground_motion::distributions::normal_quantile;
+        let per_g =
+            (0..30).map(|record| 0.2 * (0.4 * quantile((f64::from(record) + 0.5) / 30.0)).exp());
+        let per_g: Vec<f64> = per_g.collect();
+        let fine: Vec<f64> = (0..16).map(|i| 0.05 * 1.35_f64.powi(i)).collect();
+        let points = [(0.02, 0.5), (2.0, 5e-5)].map(|(x, y)| (x * STANDARD_GRAVITY, y));
+        let smooth = least_gap_under(&per_g, &fine, (&points, 2e-3));
+        let last = (2.02 * STANDARD_GRAVITY, 5e-6);
+        let steep = least_gap_under(&per_g, &fine, (&[points[0], points[1], last], 2e-3));
+        let (a, b) = (smooth.width.unwrap(), steep.width.unwrap());
+        assert!((b / a - 1.0).abs() < 0.02, "{smooth:?} {steep:?}");
+        assert!(steep.frequency <= 2e-3 && steep.open.is_none(), "{steep:?}");
     }
 
     /// The frequency of a width `w` is `k0 (w / 0.2)^-2 exp(2 beta^2)`: the target asks for

@@ -201,8 +201,11 @@ impl fmt::Display for FitRemark {
             } => {
                 write!(
                     f,
-                    "the hazard curve begins at {first}, where the probability of the state is {probability:.2} already: what weaker motions add is not counted, neither in the frequency nor in its bounds ({} per year if the first power law of the curve went on); begin the curve lower",
-                    figures(*uncounted)
+                    "the hazard curve begins at {first}, where the probability of the state is {probability:.2} already: what weaker motions add is not counted, neither in the frequency nor in its bounds ({} if the first power law of the curve went on); begin the curve lower",
+                    match uncounted.is_finite() {
+                        true => format!("{} per year", figures(*uncounted)),
+                        false => "without bound".to_owned(),
+                    }
                 )
             }
             Self::AboveHazard { last, share } => write!(

@@ -1,18 +1,54 @@
 //! From a fragility and the hazard at a site to a mean annual frequency.
 
-use pounding_ground_motion::distributions::normal_distribution;
+use pounding_ground_motion::distributions::{mills_ratio, normal_distribution};
 
 use super::fragility::{Fragility, FragilityFit};
 use super::goodness::{FitRemark, ShownIntensity};
 use crate::study_file::HazardCurve;
 
-impl HazardCurve {
-    /// Power law `factor intensity^-slope` between two neighbouring points.
-    fn segment(a: (f64, f64), b: (f64, f64)) -> (f64, f64) {
-        let slope = (a.1 / b.1).ln() / (b.0 / a.0).ln();
-        (a.1 * a.0.powf(slope), slope)
+/// Power law through a point of a curve: `lambda = frequency (x / intensity)^-slope`.
+#[derive(Clone, Copy)]
+struct PowerLaw {
+    intensity: f64,
+    frequency: f64,
+    slope: f64,
+}
+
+impl PowerLaw {
+    /// The one between two neighbouring points. A slope may be in the thousands: no power of an
+    /// intensity stands alone.
+    fn between(a: (f64, f64), b: (f64, f64)) -> Self {
+        Self {
+            intensity: a.0,
+            frequency: a.1,
+            slope: logarithm(a.1, b.1) / logarithm(b.0, a.0),
+        }
     }
 
+    /// Logarithm of the frequency with which an intensity is exceeded.
+    fn logarithm_at(&self, x: f64) -> f64 {
+        libm::log(self.frequency) - self.slope * logarithm(x, self.intensity)
+    }
+
+    fn at(&self, x: f64) -> f64 {
+        self.frequency * libm::exp(-self.slope * logarithm(x, self.intensity))
+    }
+
+    /// The intensity that is exceeded with this frequency.
+    fn exceeded_with(&self, frequency: f64) -> f64 {
+        self.intensity * libm::exp(logarithm(self.frequency, frequency) / self.slope)
+    }
+}
+
+/// `ln(a / b)`, with all digits also where the two are close together.
+fn logarithm(a: f64, b: f64) -> f64 {
+    match a > 0.5 * b && a < 2.0 * b {
+        true => libm::log1p((a - b) / b),
+        false => libm::log(a / b),
+    }
+}
+
+impl HazardCurve {
     /// Mean annual frequency (1/year) with which an intensity is exceeded: a power law
     /// between points, that of the last two above them; below the first point the
     /// frequency of the first.
@@ -24,8 +60,7 @@ impl HazardCurve {
         }
         let above = self.points.partition_point(|p| p.0 < intensity);
         let i = above.clamp(1, self.points.len() - 1);
-        let (factor, slope) = Self::segment(self.points[i - 1], self.points[i]);
-        factor * intensity.powf(-slope)
+        PowerLaw::between(self.points[i - 1], self.points[i]).at(intensity)
     }
 
     fn with_fragility(&self, f: &Fragility) -> f64 {
@@ -41,7 +76,7 @@ impl HazardCurve {
                 let end = if i == last { f64::INFINITY } else { p[1].0 };
                 let (from, to) = (p[0].0.max(from), end.min(to));
                 match from < to {
-                    true => part(f, Self::segment(p[0], p[1]), from, to),
+                    true => part(f, PowerLaw::between(p[0], p[1]), from, to),
                     false => 0.0,
                 }
             })
@@ -55,8 +90,8 @@ impl HazardCurve {
         }
         let above = self.points.partition_point(|p| p.1 > frequency);
         let i = above.clamp(1, self.points.len() - 1);
-        let (factor, slope) = Self::segment(self.points[i - 1], self.points[i]);
-        Some((factor / frequency).powf(1.0 / slope))
+        let law = PowerLaw::between(self.points[i - 1], self.points[i]);
+        Some(law.exceeded_with(frequency))
     }
 
     /// What a state that is reached by all above an intensity would count below the first point,
@@ -66,8 +101,7 @@ impl HazardCurve {
         if intensity >= first.0 {
             return 0.0;
         }
-        let (factor, slope) = Self::segment(first, self.points[1]);
-        factor * intensity.powf(-slope) - first.1
+        PowerLaw::between(first, self.points[1]).at(intensity) - first.1
     }
 }
 
@@ -93,7 +127,7 @@ pub(super) fn remarks(
     let reached_above = |x: f64| (hazard.missing_above(x), f64::from(x > last.0), 1.0);
     let (uncounted, above, probability) = match fit {
         FragilityFit::Lognormal(f) => {
-            let law = HazardCurve::segment(first, hazard.points[1]);
+            let law = PowerLaw::between(first, hazard.points[1]);
             let above = hazard.between(f, last.0, f64::INFINITY) / frequency;
             (part(f, law, 0.0, first.0), above, f.probability(first.0))
         }
@@ -150,41 +184,77 @@ pub(super) fn least_frequency(fit: &FragilityFit, hazard: &HazardCurve) -> f64 {
     }
 }
 
-/// `int P(x) |d lambda(x)|` over a stretch where `lambda = factor x^-slope`, exactly: by
-/// parts, completing the square in the logarithm.
-fn part(f: &Fragility, (factor, slope): (f64, f64), from: f64, to: f64) -> f64 {
-    let (theta, beta) = (f.median, f.dispersion);
-    let z = |x: f64| (x / theta).ln() / beta;
-    let shift = slope * beta;
-    let at = |x: f64| {
-        if x.is_infinite() {
-            return (0.0, 1.0);
-        }
-        if x == 0.0 {
-            return (0.0, 0.0);
-        }
-        (
-            factor * x.powf(-slope) * normal_distribution(z(x)),
-            normal_distribution(z(x) + shift),
-        )
+/// `int P(x) |d lambda(x)|` over a stretch where `lambda` is a power law, exactly: by parts,
+/// completing the square in the logarithm. What that asks for is a tail of the normal
+/// distribution times the exponential of half a square, which for a steep stretch is a product of
+/// nothing and infinity: each end takes its tail over its density, and the exponents are added up
+/// before any of them is taken. Never NaN; infinite only below the curve, where a steep law has
+/// no bound.
+fn part(f: &Fragility, law: PowerLaw, from: f64, to: f64) -> f64 {
+    let shift = law.slope * f.dispersion;
+    let z = |x: f64| logarithm(x, f.median) / f.dispersion;
+    let end = |x: f64| End {
+        z: z(x),
+        log_frequency: law.logarithm_at(x),
     };
-    let (low, high) = (at(from), at(to));
-    let whole = factor * theta.powf(-slope) * (0.5 * shift * shift).exp();
-    // Differences of the upper tail, where the lower one has no digits left.
-    let between = if z(from) + shift > 0.0 {
-        let upper = |x: f64| {
-            if x.is_infinite() {
-                0.0
-            } else {
-                normal_distribution(-z(x) - shift)
-            }
-        };
-        upper(from) - upper(to)
+    let below = |x: f64| if x > 0.0 { end(x).below(shift) } else { 0.0 };
+    let above = |x: f64| {
+        if x.is_finite() {
+            end(x).above(shift)
+        } else {
+            0.0
+        }
+    };
+    // Where the integrand is largest if the law goes on to both sides, tails change sides.
+    if z(from) >= -shift {
+        above(from) - above(to)
+    } else if z(to) <= -shift {
+        below(to) - below(from)
     } else {
-        high.1 - low.1
-    };
-    whole * between - (high.0 - low.0)
+        let fall = shift * (-shift - z(law.intensity));
+        let peak = End {
+            z: -shift,
+            log_frequency: libm::log(law.frequency) - fall,
+        };
+        (peak.below(shift) - below(from)) + (peak.above(shift) - above(to))
+    }
 }
+
+/// An end of a stretch.
+struct End {
+    /// Quantile of the fragility.
+    z: f64,
+    /// Logarithm of the frequency with which the intensity is exceeded.
+    log_frequency: f64,
+}
+
+impl End {
+    /// What intensities above it count if the law goes on there: the end is above the peak.
+    fn above(&self, shift: f64) -> f64 {
+        let rest = mills_ratio((self.z + shift).max(0.0));
+        if self.z < 0.0 {
+            return self.with_density(mills_ratio(-self.z) + rest);
+        }
+        let reached = normal_distribution(self.z) * libm::exp(self.log_frequency);
+        reached + self.with_density(rest)
+    }
+
+    /// What intensities below it count if the law goes on there: the end is below the peak.
+    fn below(&self, shift: f64) -> f64 {
+        // The probability at the end, which is far below the median, over its density.
+        let reached = mills_ratio(-self.z);
+        self.with_density(mills_ratio((-self.z - shift).max(0.0)) - reached)
+    }
+
+    /// Frequency and normal density times a factor.
+    fn with_density(&self, factor: f64) -> f64 {
+        let exponent = self.log_frequency - 0.5 * self.z * self.z - HALF_LOG_TWO_PI;
+        factor * libm::exp(exponent)
+    }
+}
+
+/// Half the logarithm of 2 pi.
+const HALF_LOG_TWO_PI: f64 = 0.918_938_533_204_672_8;
 
 /// Mean annual frequency (1/year) of a state, `int P(state | x) |d lambda(x)|`, without
 /// error of quadrature.
@@ -250,6 +320,115 @@ mod tests {
         }
         let found = curve.with_fragility(&f);
         assert!((found / sum - 1.0).abs() < 1e-8, "{found} {sum}");
+    }
+
+    /// `int P(x) |d lambda(x)|` by Gauss's rule of five points on many panels, in the logarithm of
+    /// the intensity; without an upper end up to where nothing is left.
+    fn quadrature(f: &Fragility, law: PowerLaw, from: f64, to: f64) -> f64 {
+        const RULE: [(f64, f64); 5] = [
+            (0.0, 0.568_888_888_888_888_9),
+            (0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+            (-0.538_469_310_105_683_1, 0.478_628_670_499_366_47),
+            (0.906_179_845_938_664, 0.236_926_885_056_189_08),
+            (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
+        ];
+        let reach = (from / f.median).ln().max(9.0 * f.dispersion) + 60.0 / law.slope;
+        let to = to.min(f.median * reach.exp());
+        let rise = 0.5 * ((from / f.median).ln().min(0.0) / f.dispersion).powi(2);
+        let to = to.min(from * ((60.0 + rise) / law.slope).exp());
+        // Above, all reach the state: the law alone is left.
+        let all = f.median * (9.0 * f.dispersion).exp();
+        if from < all && all < to {
+            return quadrature(f, law, from, all) + quadrature(f, law, all, to);
+        }
+        let panels = 3_000;
+        let width = (to / from).ln() / f64::from(panels);
+        let at = |u: f64| {
+            let quantile = ((from / f.median).ln() + u) / f.dispersion;
+            let log = law.slope * ((from / law.intensity).ln() + u);
+            law.slope * law.frequency * (-log).exp() * normal_distribution(quantile)
+        };
+        let panel = |i: u32| -> f64 {
+            let middle = (f64::from(i) + 0.5) * width;
+            let value = |(x, w): (f64, f64)| w * at(middle + 0.5 * width * x);
+            RULE.map(value).iter().sum()
+        };
+        0.5 * width * (0..panels).map(panel).sum::<f64>()
+    }
+
+    /// Stretches of every steepness, on all sides of the median, against quadrature.
+    #[test]
+    fn steep_stretches_agree_with_quadrature() {
+        let mut found_of = 0;
+        for slope in [0.3, 1.0, 3.0, 20.0, 116.0, 1e3, 1e4] {
+            for (median, dispersion) in [(0.083, 0.395), (0.5, 0.05), (0.51, 0.8), (3.0, 0.4)] {
+                for (from, to) in [(0.5, 0.51), (0.05, 0.2), (0.05, 5.0), (0.4, f64::INFINITY)] {
+                    let law = PowerLaw {
+                        intensity: 0.5,
+                        frequency: 1e-3,
+                        slope,
+                    };
+                    if law.at(from) > 1e250 || (to.is_finite() && law.at(to) < 1e-250) {
+                        continue;
+                    }
+                    let f = fragility(median, dispersion);
+                    let found = part(&f, law, from, to);
+                    let expected = quadrature(&f, law, from, to);
+                    if expected < 1e-280 {
+                        continue;
+                    }
+                    found_of += 1;
+                    assert!(
+                        (found / expected - 1.0).abs() < 2e-12,
+                        "{slope} {median} {dispersion} {from} {to}: {found:e} {expected:e}"
+                    );
+                }
+            }
+        }
+        assert!(found_of > 60, "{found_of}");
+    }
+
+    /// A curve with a stretch of a slope of 116, in g; the sum by quadrature, its value by mpmath.
+    #[test]
+    fn a_steep_end_of_a_curve_has_a_frequency() {
+        let points = vec![(0.02, 1.2), (0.1, 3.5e-2), (0.5, 1.0e-3), (0.51, 1.0e-4)];
+        let curve = HazardCurve::new(points.clone()).unwrap();
+        let f = fragility(0.083, 0.395);
+        let expected: f64 = points
+            .windows(2)
+            .map(|p| {
+                let end = if p[1].0 == 0.51 {
+                    f64::INFINITY
+                } else {
+                    p[1].0
+                };
+                quadrature(&f, PowerLaw::between(p[0], p[1]), p[0].0, end)
+            })
+            .sum();
+        let found = mean_annual_frequency(&FragilityFit::Lognormal(f), &curve).unwrap();
+        assert!((found / expected - 1.0).abs() < 1e-12, "{found} {expected}");
+        assert!((found - 0.076_707_627_594_565).abs() < 1e-13, "{found}");
+        // Points as close as numbers are.
+        for next in [0.5 + f64::EPSILON, 0.500_001] {
+            let curve = HazardCurve::new(vec![(0.1, 1e-2), (0.5, 1e-3), (next, 1e-9)]).unwrap();
+            for median in [0.01, 0.083, 0.5, 2.0, 1e3] {
+                let fit = FragilityFit::Lognormal(fragility(median, 0.395));
+                let found = mean_annual_frequency(&fit, &curve).unwrap();
+                assert!((0.0..=1e-2).contains(&found), "{median} {found}");
+            }
+            assert!((curve.frequency(0.5) / 1e-3 - 1.0).abs() < 1e-12);
+            assert_eq!(curve.frequency(0.6), 0.0);
+        }
+        // A steep law has no bound below its curve: said without a number.
+        let steep = HazardCurve::new(vec![(0.5, 1e-3), (0.51, 1e-4)]).unwrap();
+        let shown = |si: f64| ShownIntensity { si, in_g: false };
+        let fit = FragilityFit::Lognormal(f);
+        let said = remarks(&fit, &steep, &[0.01, 9.0], shown);
+        let [FitRemark::BelowHazard { uncounted, .. }, ..] = said[..] else {
+            panic!("{said:?}")
+        };
+        assert_eq!(uncounted, f64::INFINITY);
+        assert!(said[0].to_string().contains("without bound"), "{}", said[0]);
     }
 
     /// A curve that begins in the middle of a fragility says what it leaves out: with one power

@@ -98,10 +98,18 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
                     answer.say_percent(&at("fit/confidence"))
                 ),
             };
+            let bound = |place: usize| {
+                let path = at(&format!("mean_annual_frequency_bounds/{place}"));
+                (!answer.at(&path).is_null()).then(|| answer.say(&path, 1.0))
+            };
+            let range = match (bound(0), bound(1)) {
+                (Some(low), Some(high)) => format!("{low} to {high}"),
+                (Some(low), None) => format!("at least {low}"),
+                (None, Some(high)) => format!("at most {high}"),
+                (None, None) => "without bounds".to_owned(),
+            };
             sentence.push_str(&format!(
-                " ({} to {}{confidence}, by a bootstrap over the records)",
-                answer.say(&at("mean_annual_frequency_bounds/0"), 1.0),
-                answer.say(&at("mean_annual_frequency_bounds/1"), 1.0)
+                " ({range}{confidence}, by a bootstrap over the records)"
             ));
         }
         points.push(sentence + ".");
@@ -297,21 +305,23 @@ mod tests {
     /// Bounds beside the dispersion would be read as its own.
     #[test]
     fn bounds_stand_with_their_frequency_alone() {
-        let told = |frequency: Value| {
+        let told = |frequency: Value, high: Value| {
             let state = json!({
                 "name": "pounding", "remarks": [], "mean_annual_frequency": frequency,
                 "fit": {
                     "kind": "lognormal", "median": 0.8, "dispersion": 0.4, "confidence": 0.95,
                     "median_bounds": [0.7, 0.9], "dispersion_bounds": [0.3, 0.5],
                 },
-                "mean_annual_frequency_bounds": [1e-3, 4e-3],
+                "mean_annual_frequency_bounds": [1e-3, high],
             });
             let answer = json!({ "unit": "m s-2", "limits": [state], "gaps": [], "levels": [],
                 "records": 2, "measure": "PGA" });
             points(Answer(&answer), None)[0].clone()
         };
-        assert!(told(json!(2e-3)).contains("bootstrap"));
-        let without = told(Value::Null);
+        assert!(told(json!(2e-3), json!(4e-3)).contains("bootstrap"));
+        let open = told(json!(2e-3), Value::Null);
+        assert!(open.contains("(at least "), "{open}");
+        let without = told(Value::Null, json!(4e-3));
         assert!(!without.contains("bootstrap"), "{without}");
     }
 }

@@ -177,16 +177,17 @@ fn frequencies(gap: &str, widths: &[GapResult]) -> Option<Plot> {
             ..Look::points(0)
         },
     }];
-    let bounds = widths
-        .iter()
-        .filter_map(|w| Some((w.width * 1e3, w.result.frequency_bounds?)));
-    for (number, (width, bounds)) in bounds.enumerate() {
+    let bounds = widths.iter().filter_map(|w| {
+        let bounds = w.result.frequency_bounds?;
+        Some((w.width * 1e3, bounds.low?, bounds.high?))
+    });
+    for (number, (width, low, high)) in bounds.enumerate() {
         series.push(Series {
             name: match number {
                 0 => "bounds, bootstrap over records".to_owned(),
                 _ => String::new(),
             },
-            points: vec![(width, bounds.low), (width, bounds.high)],
+            points: vec![(width, low), (width, high)],
             look: Look {
                 dash: Some("".into()),
                 ..Look::line(0)

@@ -10,16 +10,45 @@ use crate::study_file::HazardCurve;
 pub const RESAMPLES: usize = 1000;
 /// Seed of the drawing, the same in every analysis.
 const SEED: u64 = 20_261_123;
-/// Part of the sets that may have no frequency.
-const MOST_WITHOUT: f64 = 0.05;
 
 /// Bounds of a mean annual frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrequencyBounds {
-    /// Lower bound (1/year).
-    pub low: f64,
-    /// Upper bound (1/year).
-    pub high: f64,
+    /// Lower bound (1/year); `None` where the sets that could have any frequency reach its tail.
+    pub low: Option<f64>,
+    /// Upper bound (1/year); `None` where the sets of unknown frequency reach its tail.
+    pub high: Option<f64>,
+    /// Sets whose frequency is not known but above the others: some or all of their records reach
+    /// the state at the lowest intensity already.
+    pub above: usize,
+    /// Sets that could have any frequency: their counts give no fragility.
+    pub unknown: usize,
+}
+
+/// What a set says of its frequency.
+enum Drawn {
+    Frequency(f64),
+    Above,
+    Unknown,
+}
+
+impl Drawn {
+    fn of(fit: &FragilityFit, hazard: &HazardCurve) -> Self {
+        let frequency = match *fit {
+            // Any narrow curve between the two is as likely: neither end stands for them all.
+            FragilityFit::Step { lower, upper } if lower > 0.0 && upper.is_finite() => {
+                Some(hazard.frequency((lower * upper).sqrt()))
+            }
+            // All from the second intensity on: what they do below is not known.
+            FragilityFit::Step { upper, .. } if upper.is_finite() => return Self::Above,
+            FragilityFit::Always { .. } => return Self::Above,
+            _ => mean_annual_frequency(fit, hazard),
+        };
+        match frequency {
+            Some(frequency) if frequency.is_finite() => Self::Frequency(frequency),
+            _ => Self::Unknown,
+        }
+    }
 }
 
 /// Runs of one record: at each intensity how many were made and how many reached the state.
@@ -29,8 +58,9 @@ pub(super) type RecordCounts = Vec<(usize, usize)>;
 /// Annals of Statistics 7, 1) over records: so many records are drawn with replacement from
 /// them, with all their runs, since runs of one record at different intensities depend on one
 /// another. The hazard is taken as known. A set that leaves a step between two intensities counts
-/// with their geometric mean. `None` with fewer than two records, or where more than
-/// one in twenty of the sets has no frequency.
+/// with their geometric mean; one of which some or all records reach the state at the lowest
+/// intensity counts as above all others, and one without a fragility at both ends. `None` with
+/// fewer than two records.
 pub(super) fn frequency_bounds(
     intensities: &[f64],
     records: &[RecordCounts],
@@ -57,24 +87,38 @@ pub(super) fn frequency_bounds(
                 count.reached += reached;
             }
         }
-        match fit(&counts) {
-            // Any narrow curve between the two is as likely: neither end stands for them all.
-            FragilityFit::Step { lower, upper } if lower > 0.0 && upper.is_finite() => {
-                Some(hazard.frequency((lower * upper).sqrt()))
-            }
-            fit => mean_annual_frequency(&fit, hazard),
-        }
+        Drawn::of(&fit(&counts), hazard)
     };
-    let mut found: Vec<f64> = (0..RESAMPLES).filter_map(drawn).collect();
-    if (RESAMPLES - found.len()) as f64 > MOST_WITHOUT * RESAMPLES as f64 {
-        return None;
+    let mut found = Vec::new();
+    let (mut above, mut unknown) = (0, 0);
+    for set in 0..RESAMPLES {
+        match drawn(set) {
+            Drawn::Frequency(frequency) => found.push(frequency),
+            Drawn::Above => above += 1,
+            Drawn::Unknown => unknown += 1,
+        }
     }
-    found.sort_by(f64::total_cmp);
     let tail = 0.5 * (1.0 - confidence);
-    Some(FrequencyBounds {
-        low: fractile(&found, tail),
-        high: fractile(&found, 1.0 - tail),
-    })
+    Some(bounds(found, [above, unknown], tail))
+}
+
+/// Percentiles of frequencies beside so many sets that are above them and so many that could be
+/// anywhere, which are none where such a set has part in them.
+fn bounds(mut found: Vec<f64>, [above, unknown]: [usize; 2], tail: f64) -> FrequencyBounds {
+    found.sort_by(f64::total_cmp);
+    let known = |bound: f64| bound.is_finite().then_some(bound);
+    let beside = |below: usize, above: usize| {
+        let mut all = vec![f64::NEG_INFINITY; below];
+        all.extend(&found);
+        all.resize(all.len() + above, f64::INFINITY);
+        all
+    };
+    FrequencyBounds {
+        low: known(fractile(&beside(unknown, above), tail)),
+        high: known(fractile(&beside(0, above + unknown), 1.0 - tail)),
+        above,
+        unknown,
+    }
 }
 
 #[cfg(test)]
@@ -111,11 +155,9 @@ mod tests {
         let exact = 1e-4 * median.powf(-k) * (0.5 * k * k * beta * beta).exp();
         let deviation = (k * k * beta * beta / n as f64 * (1.0 + 0.5 * k * k * beta * beta)).sqrt();
         let reach = 1.644_853_6 * deviation;
-        assert!(
-            bounds.low < exact && exact < bounds.high,
-            "{bounds:?} {exact}"
-        );
-        let found = 0.5 * (bounds.high / bounds.low).ln();
+        let (low, high) = (bounds.low.unwrap(), bounds.high.unwrap());
+        assert!(low < exact && exact < high, "{bounds:?} {exact}");
+        let found = 0.5 * (high / low).ln();
         assert!((found / reach - 1.0).abs() < 0.15, "{found} {reach}");
         // Same input, same bits.
         let again = frequency_bounds(&intensities, &records, &hazard, 0.9);
@@ -129,12 +171,66 @@ mod tests {
         assert_eq!(frequency_bounds(&[0.1, 0.2], &one, &hazard, 0.9), None);
         // All reach it already at the least intensity: no frequency, and no bounds.
         let always = [vec![(1, 1), (1, 1)], vec![(1, 1), (1, 1)]];
-        assert_eq!(frequency_bounds(&[0.1, 0.2], &always, &hazard, 0.9), None);
+        let without = frequency_bounds(&[0.1, 0.2], &always, &hazard, 0.9).unwrap();
+        assert_eq!((without.low, without.high), (None, None));
+        assert_eq!((without.above, without.unknown), (RESAMPLES, 0));
         let counts = [Counts {
             intensity: 0.1,
             runs: 2,
             reached: 2,
         }];
         assert!(matches!(fit(&counts), FragilityFit::Always { .. }));
+    }
+
+    /// Three records of four reach the state at the lowest intensity, the other one never but at
+    /// the last: sets without the latter, (3/4)^4 of them, have the highest frequencies, which nobody
+    /// knows.
+    #[test]
+    fn sets_above_the_others_count_there() {
+        let hazard = HazardCurve::new(vec![(0.01, 1e-1), (1.0, 1e-4)]).unwrap();
+        let early = vec![(1, 1), (1, 1), (1, 1)];
+        let late = vec![(1, 0), (1, 1), (1, 0)];
+        let records = [early.clone(), early.clone(), early, late];
+        let found = frequency_bounds(&[0.1, 0.2, 0.4], &records, &hazard, 0.9).unwrap();
+        assert!((250..400).contains(&found.above), "{found:?}");
+        assert_eq!(found.high, None, "{found:?}");
+    }
+
+    /// Of 1000 sets with the frequencies 1, 2, ...: by hand.
+    #[test]
+    fn a_bound_is_withheld_where_unknown_sets_reach_its_tail() {
+        let rising = |count: u32| (1..=count).map(f64::from).collect::<Vec<f64>>();
+        // Place 949.05 of 0 to 999 is among the known ones as long as 951 are known.
+        let found = bounds(rising(951), [49, 0], 0.05);
+        assert!((found.low.unwrap() - 50.95).abs() < 1e-9, "{found:?}");
+        assert!((found.high.unwrap() - 950.05).abs() < 1e-9, "{found:?}");
+        let found = bounds(rising(950), [50, 0], 0.05);
+        assert!((found.low.unwrap() - 50.95).abs() < 1e-9, "{found:?}");
+        assert_eq!(found.high, None);
+        // Those that could be anywhere are at both ends: place 49.95 is 9.95 behind forty of them.
+        let found = bounds(rising(960), [0, 40], 0.05);
+        assert!((found.low.unwrap() - 10.95).abs() < 1e-9, "{found:?}");
+        assert!((found.high.unwrap() - 950.05).abs() < 1e-9, "{found:?}");
+        let found = bounds(rising(900), [0, 100], 0.05);
+        assert_eq!((found.low, found.high), (None, None));
+        // No number is none of them.
+        let counts = |reached: [usize; 2]| {
+            let level = |(i, reached): (usize, usize)| Counts {
+                intensity: [0.1, 0.2][i],
+                runs: 4,
+                reached,
+            };
+            reached
+                .into_iter()
+                .enumerate()
+                .map(level)
+                .collect::<Vec<_>>()
+        };
+        let hazard = HazardCurve::new(vec![(0.1, 1e-2), (1.0, 1e-4)]).unwrap();
+        let of = |reached| Drawn::of(&fit(&counts(reached)), &hazard);
+        assert!(matches!(of([3, 1]), Drawn::Unknown));
+        assert!(matches!(of([2, 4]), Drawn::Above));
+        assert!(matches!(of([4, 4]), Drawn::Above));
+        assert!(matches!(of([1, 2]), Drawn::Frequency(_)));
     }
 }

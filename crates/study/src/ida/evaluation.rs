@@ -393,6 +393,7 @@ impl Evaluation<'_> {
         });
         let mut remarks = goodness::remarks(&fit, goodness.as_ref(), &counts, &capacities);
         remarks.extend(hazard.into_iter().flat_map(|h| self.of_frequency(&fit, h)));
+        remarks.extend(bounds.iter().flat_map(of_bounds));
         Ok(LimitResult {
             name: name.to_owned(),
             remarks,
@@ -581,6 +582,16 @@ impl Evaluation<'_> {
             wanted: hazard.intensity(target).map(|x| self.shown(x)),
         }
     }
+}
+
+/// What must be said of bounds that are missing.
+fn of_bounds(bounds: &FrequencyBounds) -> Vec<FitRemark> {
+    let &FrequencyBounds { above, unknown, .. } = bounds;
+    let low = bounds.low.is_none() && unknown > 0;
+    let low = low.then_some(FitRemark::NoLowerBound { unknown });
+    let high = bounds.high.is_none();
+    let high = high.then_some(FitRemark::NoUpperBound { above, unknown });
+    low.into_iter().chain(high).collect()
 }
 
 #[cfg(test)]

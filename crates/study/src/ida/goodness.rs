@@ -5,6 +5,7 @@ use std::fmt;
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_ground_motion::distributions::chi_square_exceedance;
 
+use super::bootstrap::RESAMPLES;
 use super::fragility::{Counts, Fragility, FragilityFit};
 
 /// Below this probability a fit is poor.
@@ -109,6 +110,18 @@ pub enum FitRemark {
         /// What is left out if the first power law went on (1/year).
         uncounted: f64,
     },
+    /// The bootstrap has no upper bound of the frequency.
+    NoUpperBound {
+        /// Sets whose records reach the state at the lowest intensity already, some or all.
+        above: usize,
+        /// Sets whose counts give no fragility.
+        unknown: usize,
+    },
+    /// The bootstrap has no lower bound of the frequency.
+    NoLowerBound {
+        /// Sets whose counts give no fragility.
+        unknown: usize,
+    },
     /// Part of the frequency comes from above the hazard curve.
     AboveHazard {
         /// Last intensity of the curve.
@@ -139,6 +152,8 @@ impl FitRemark {
         matches!(
             self,
             Self::BelowHazard { .. }
+                | Self::NoUpperBound { .. }
+                | Self::NoLowerBound { .. }
                 | Self::AboveHazard { .. }
                 | Self::FromBelow { .. }
                 | Self::FromAbove { .. }
@@ -208,6 +223,27 @@ impl fmt::Display for FitRemark {
                     }
                 )
             }
+            Self::NoUpperBound { above, unknown } => {
+                write!(
+                    f,
+                    "no upper bound of the frequency: of {RESAMPLES} sets of records "
+                )?;
+                match (*above, *unknown) {
+                    (above, 0) => write!(
+                        f,
+                        "{above} reach the state at the lowest intensity already; add lower intensities"
+                    ),
+                    (0, unknown) => write!(f, "{unknown} have no fragility; add records"),
+                    (above, unknown) => write!(
+                        f,
+                        "{above} reach the state at the lowest intensity already and {unknown} have no fragility; add lower intensities and records"
+                    ),
+                }
+            }
+            Self::NoLowerBound { unknown } => write!(
+                f,
+                "no lower bound of the frequency: of {RESAMPLES} sets of records {unknown} have no fragility; add records"
+            ),
             Self::AboveHazard { last, share } => write!(
                 f,
                 "{:.0} % of the frequency comes from above {last}, where the hazard curve ends and its last power law is taken to go on; end the curve higher",

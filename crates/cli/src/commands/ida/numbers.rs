@@ -56,8 +56,8 @@ struct Limit<'a> {
     goodness_of_fit: Option<Goodness>,
     remarks: Vec<String>,
     mean_annual_frequency: Option<f64>,
-    /// By a bootstrap over records, at the confidence of the study.
-    mean_annual_frequency_bounds: Option<[f64; 2]>,
+    /// By a bootstrap over records, at the confidence of the study; one that is null is not known.
+    mean_annual_frequency_bounds: Option<[Option<f64>; 2]>,
 }
 
 /// Pearson's test.
@@ -227,7 +227,10 @@ impl<'a> Limit<'a> {
             }),
             remarks: limit.remarks.iter().map(ToString::to_string).collect(),
             mean_annual_frequency: limit.frequency,
-            mean_annual_frequency_bounds: limit.frequency_bounds.map(|b| [b.low, b.high]),
+            mean_annual_frequency_bounds: limit
+                .frequency_bounds
+                .map(|b| [b.low, b.high])
+                .filter(|b| b.iter().any(Option::is_some)),
         }
     }
 }

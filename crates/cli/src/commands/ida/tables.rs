@@ -2,8 +2,8 @@
 
 use pounding_catalogue::wording::counted;
 use pounding_study::{
-    FitRemark, FragilityFit, IdaReport, IdaSettings, LimitResult, MinimumGap, POOR, PoundingDemand,
-    RESAMPLES,
+    FitRemark, FragilityFit, FrequencyBounds, IdaReport, IdaSettings, LimitResult, MinimumGap,
+    POOR, PoundingDemand, RESAMPLES,
 };
 
 use crate::tables::{Table, new_table};
@@ -23,7 +23,7 @@ pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
         settings.confidence * 100.0,
         limits(report, settings)
     ));
-    text.push_str(&how_frequencies_are_bounded(settings));
+    text.push_str(&how_frequencies_are_bounded(report, settings));
     text.push_str(&poor_fits(
         report,
         report.limits.iter().map(|l| (l.name.clone(), l)),
@@ -114,8 +114,11 @@ fn states<'s>(
 }
 
 /// What the bounds of frequencies are.
-fn how_frequencies_are_bounded(settings: &IdaSettings) -> String {
-    if settings.hazard.is_none() {
+fn how_frequencies_are_bounded(report: &IdaReport, settings: &IdaSettings) -> String {
+    let widths = report.gaps.iter().flat_map(|gap| &gap.widths);
+    let mut states = report.limits.iter().chain(widths.map(|w| &w.result));
+    let stands = |b: FrequencyBounds| b.low.or(b.high).is_some();
+    if !states.any(|state| state.frequency_bounds.is_some_and(stands)) {
         return String::new();
     }
     format!(
@@ -265,13 +268,12 @@ fn counts(limit: &LimitResult) -> String {
 fn frequency(limit: &LimitResult, (scale, unit): (f64, &str)) -> String {
     match (limit.frequency, limit.fit) {
         (Some(frequency), _) => match limit.frequency_bounds {
-            Some(bounds) => format!(
-                "{} ({}..{})",
-                digits(frequency),
-                digits(bounds.low),
-                digits(bounds.high)
-            ),
-            None => digits(frequency),
+            Some(bounds) if bounds.low.or(bounds.high).is_some() => {
+                let shown = |bound: Option<f64>| bound.map_or("?".to_owned(), digits);
+                let (low, high) = (shown(bounds.low), shown(bounds.high));
+                format!("{} ({low}..{high})", digits(frequency))
+            }
+            _ => digits(frequency),
         },
         (None, FragilityFit::Always { from }) => {
             format!(

@@ -385,7 +385,9 @@ impl From<StudyError> for Failure {
             {
                 Self::unwritten(e.to_string(), help)
             }
-            e @ StudyError::Evaluation { .. } => Self::computation(e.to_string(), help),
+            e @ (StudyError::Evaluation { .. } | StudyError::NoDemand { .. }) => {
+                Self::computation(e.to_string(), help)
+            }
             e @ StudyError::Interrupted { .. } => Self::interrupted(e.to_string(), help),
             e => Self::input(e.to_string(), help),
         }

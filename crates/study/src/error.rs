@@ -173,6 +173,16 @@ pub enum StudyError {
         /// Why.
         reason: String,
     },
+    /// A state of an incremental dynamic analysis that some run has no demand for.
+    #[error("{state}: {reason}")]
+    NoDemand {
+        /// Name of the state.
+        state: String,
+        /// Why there is none.
+        reason: &'static str,
+        /// What to ask for instead.
+        help: &'static str,
+    },
     /// Counts or a hazard curve that allow no answer.
     #[error("{what}: {reason}")]
     Evaluation {
@@ -257,6 +267,7 @@ impl StudyError {
             Self::NotShown { .. } => {
                 "write the record of the case under a header [ground_motion], with `scale` as one entry of it"
             }
+            Self::NoDemand { help, .. } => help,
             Self::Evaluation { .. } => {
                 "choose levels of intensity from where no record pounds to where all do, and more records"
             }

@@ -14,6 +14,7 @@ mod output;
 mod parquet;
 mod plans;
 mod python;
+mod rigid;
 mod shards;
 mod shared_records;
 mod shown;

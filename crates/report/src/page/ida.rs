@@ -38,7 +38,15 @@ pub fn ida(answer: &Value, target: Option<f64>, drawn: &[Picture], inputs: &Inpu
         }
     }
     body.push_str(&section("Runs by intensity", &counts(answer)));
-    body.push_str(&section("Demands by intensity", &demands(answer)));
+    let remarks = 0..answer.list("/remarks").len();
+    let remarks: Vec<String> = remarks
+        .map(|r| format!("{}.", answer.quote(&format!("/remarks/{r}"))))
+        .collect();
+    let said = match remarks.is_empty() {
+        true => String::new(),
+        false => sentences(&remarks),
+    };
+    body.push_str(&section("Demands by intensity", &(said + &demands(answer))));
     inputs.page(&body)
 }
 

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use pounding_case::{Case, Side};
+
 use crate::runs::{Axis, Layout};
 use crate::study_file::{DemandKind, Limit};
 
@@ -19,12 +21,34 @@ pub(super) struct Demand {
     /// Whether it is one of the buildings without gaps, which a collapse in contact leaves
     /// as it is.
     isolated: bool,
-    /// Whether a missing value is one that is not defined: the force of velocity jumps.
-    has_to_be_there: bool,
+    needs: Needs,
+}
+
+/// What a demand needs to be defined where impacts are rigid, jumps of the velocity.
+#[derive(Debug, Clone, PartialEq)]
+enum Needs {
+    /// Nothing.
+    Nothing,
+    /// Its own values: a jump has no contact force.
+    Itself,
+    /// No jump of a building of its own: columns of impacts and of forces at its levels.
+    NoJump(Vec<(usize, usize)>),
+}
+
+/// What a demand lacks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Lack {
+    /// A contact force.
+    Force,
+    /// The accelerations during rigid impacts.
+    Acceleration,
 }
 
 /// The quantity that rigid impacts do not have.
 const FORCE: &str = "peak_force";
+/// Those of which rigid impacts are left out.
+const ACCELERATION: &str = "peak_acceleration_absolute";
+const ACCELERATION_ACROSS: &str = "peak_acceleration_across";
 
 impl Demand {
     /// Maximum value in a row; missing values, such as the time of a contact that did not
@@ -33,9 +57,21 @@ impl Demand {
         self.columns.iter().map(|c| values[*c]).fold(0.0, f64::max)
     }
 
-    /// Whether the demand of a run is not defined.
-    pub(super) fn is_undefined(&self, values: &[f64]) -> bool {
-        self.has_to_be_there && self.columns.iter().any(|c| values[*c].is_nan())
+    /// Whether the demand of a run is not defined, and for want of what.
+    pub(super) fn lacks(&self, values: &[f64]) -> Option<Lack> {
+        match &self.needs {
+            Needs::Nothing => None,
+            Needs::Itself => {
+                let missing = self.columns.iter().any(|c| values[*c].is_nan());
+                missing.then_some(Lack::Force)
+            }
+            Needs::NoJump(levels) => {
+                let jump = |&(impacts, force): &(usize, usize)| {
+                    values[impacts] > 0.0 && values[force].is_nan()
+                };
+                levels.iter().any(jump).then_some(Lack::Acceleration)
+            }
+        }
     }
 
     /// The same for a run that may have collapsed: then it is above everything.
@@ -47,8 +83,33 @@ impl Demand {
     }
 }
 
+/// What accelerations need: no rigid impact at the gaps of the building, or of any without one.
+fn no_jump(layout: &Layout, gaps: &[(String, Vec<String>)], building: Option<&str>) -> Needs {
+    let beside = |gap: &str| {
+        let mut gaps = gaps.iter().filter(|(name, _)| name == gap);
+        gaps.any(|(_, sides)| building.is_none_or(|b| sides.iter().any(|side| side == b)))
+    };
+    let levels = layout.range("impacts").zip(layout.range(FORCE));
+    let levels = levels.zip(&layout.levels);
+    let levels = levels.filter(|(_, level)| beside(&level.of));
+    Needs::NoJump(levels.map(|(columns, _)| columns).collect())
+}
+
+/// Names of the gaps of a case, and of the buildings beside each.
+pub(super) fn sides_of_gaps(case: &Case) -> Vec<(String, Vec<String>)> {
+    let sides = |gap: &pounding_case::Gap| {
+        let names = gap.between.iter().filter_map(|side| match side {
+            Side::Building(b) => Some(case.buildings[*b].name.value.clone()),
+            Side::Wall => None,
+        });
+        names.collect()
+    };
+    let gaps = case.gaps.iter();
+    gaps.map(|gap| (gap.name.clone(), sides(gap))).collect()
+}
+
 /// Demands of every building and every gap, the worst storey or level of each.
-pub(super) fn usual(layout: &Layout) -> Vec<Demand> {
+pub(super) fn usual(layout: &Layout, gaps: &[(String, Vec<String>)]) -> Vec<Demand> {
     let mut demands = Vec::new();
     let groups = |places: &[crate::runs::Place]| {
         let mut names: Vec<String> = Vec::new();
@@ -61,16 +122,16 @@ pub(super) fn usual(layout: &Layout) -> Vec<Demand> {
     };
     for building in groups(&layout.storeys) {
         let mine = |column: usize| layout.storeys[column].of == building;
-        for (name, unit) in [
-            ("peak_drift_ratio", "1"),
-            ("peak_acceleration_absolute", "m s-2"),
-        ] {
+        for (name, unit) in [("peak_drift_ratio", "1"), (ACCELERATION, "m s-2")] {
             demands.push(Demand {
                 name: format!("{name}: {building}"),
                 unit,
                 columns: chosen(layout.range(name), mine),
                 isolated: false,
-                has_to_be_there: false,
+                needs: match name {
+                    ACCELERATION => no_jump(layout, gaps, Some(&building)),
+                    _ => Needs::Nothing,
+                },
             });
         }
     }
@@ -92,7 +153,10 @@ pub(super) fn usual(layout: &Layout) -> Vec<Demand> {
                 unit,
                 columns: chosen(layout.range(name), mine),
                 isolated: name == ISOLATED,
-                has_to_be_there: name == FORCE,
+                needs: match name {
+                    FORCE => Needs::Itself,
+                    _ => Needs::Nothing,
+                },
             });
         }
     }
@@ -105,12 +169,17 @@ fn chosen(range: Range<usize>, pick: impl Fn(usize) -> bool) -> Vec<usize> {
 }
 
 /// Columns of a demand whose name and unit a study gives; `building` names the building.
-pub(super) fn of_limit(layout: &Layout, limit: &Limit, building: Option<&str>) -> Demand {
+pub(super) fn of_limit(
+    layout: &Layout,
+    gaps: &[(String, Vec<String>)],
+    limit: &Limit,
+    building: Option<&str>,
+) -> Demand {
     let (name, unit, axis) = match limit.demand {
         DemandKind::Displacement => ("peak_displacement", "m", Axis::Storey),
         DemandKind::DriftRatio => ("peak_drift_ratio", "1", Axis::Storey),
         DemandKind::StoreyShear => ("peak_storey_shear", "N", Axis::Storey),
-        DemandKind::AccelerationAbsolute => ("peak_acceleration_absolute", "m s-2", Axis::Storey),
+        DemandKind::AccelerationAbsolute => (ACCELERATION, "m s-2", Axis::Storey),
         DemandKind::BaseMoment => ("peak_base_moment", "N m", Axis::Building),
         DemandKind::FoundationSway => ("peak_foundation_sway", "m", Axis::Building),
         DemandKind::FoundationRotation => ("peak_foundation_rotation", "rad", Axis::Building),
@@ -120,7 +189,7 @@ pub(super) fn of_limit(layout: &Layout, limit: &Limit, building: Option<&str>) -
         DemandKind::Rotation => ("peak_rotation", "rad", Axis::Storey),
         DemandKind::EdgeDisplacement => ("peak_edge_displacement", "m", Axis::Storey),
         DemandKind::DisplacementAcross => ("peak_displacement_across", "m", Axis::Storey),
-        DemandKind::AccelerationAcross => ("peak_acceleration_across", "m s-2", Axis::Storey),
+        DemandKind::AccelerationAcross => (ACCELERATION_ACROSS, "m s-2", Axis::Storey),
         DemandKind::ContactForce => (FORCE, "N", Axis::Level),
         DemandKind::ColumnShear => ("peak_column_shear", "N", Axis::Level),
         DemandKind::Impulse => ("impulse_max", "N s", Axis::Level),
@@ -141,7 +210,11 @@ pub(super) fn of_limit(layout: &Layout, limit: &Limit, building: Option<&str>) -
         unit,
         columns: chosen(layout.range(name), mine),
         isolated: name == ISOLATED,
-        has_to_be_there: name == FORCE,
+        needs: match name {
+            FORCE => Needs::Itself,
+            ACCELERATION | ACCELERATION_ACROSS => no_jump(layout, gaps, building),
+            _ => Needs::Nothing,
+        },
     }
 }
 
@@ -152,6 +225,6 @@ pub(super) fn of_gap(layout: &Layout, name: &'static str, gap: &str) -> Demand {
         unit: "m",
         columns: chosen(layout.range(name), |column| layout.levels[column].of == gap),
         isolated: name == ISOLATED,
-        has_to_be_there: false,
+        needs: Needs::Nothing,
     }
 }

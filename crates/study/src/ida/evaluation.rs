@@ -6,7 +6,7 @@ use pounding_case::Dimension;
 use pounding_catalogue::STANDARD_GRAVITY;
 
 use super::bootstrap::{FrequencyBounds, frequency_bounds};
-use super::demands::{Demand, of_gap, of_limit, usual};
+use super::demands::{Demand, Lack, of_gap, of_limit, sides_of_gaps, usual};
 use super::fragility::{Counts, FragilityFit, fit};
 use super::goodness::{self, Capacity, FitRemark, GoodnessOfFit, ShownIntensity};
 use super::hazard::{self, least_frequency, mean_annual_frequency};
@@ -141,6 +141,8 @@ pub struct IdaReport {
     pub records: usize,
     /// Names and units of the demands.
     pub demands: Vec<(String, String)>,
+    /// What must be said of the demands: which are left out.
+    pub remarks: Vec<String>,
     /// The intensities, rising.
     pub levels: Vec<IntensityLevel>,
     /// Each demand of each sample, a record or a record with other variables of the study, at
@@ -194,7 +196,8 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
         return Err(wrong("the result is not that of the whole study"));
     }
     let layout = &result.description.layout;
-    let mut shown = usual(layout);
+    let sides = sides_of_gaps(&study.base);
+    let mut shown = usual(layout, &sides);
     let limits: Vec<(Demand, f64)> = settings
         .limits
         .iter()
@@ -202,7 +205,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
             let building = l
                 .building
                 .map(|b| study.base.buildings[b].name.value.as_str());
-            (of_limit(layout, l, building), l.exceeds)
+            (of_limit(layout, &sides, l, building), l.exceeds)
         })
         .collect();
     let gaps: Vec<&str> = study.base.gaps.iter().map(|g| g.name.as_str()).collect();
@@ -217,24 +220,38 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     intensities.sort_by(f64::total_cmp);
     // In a list several records have the same.
     intensities.dedup();
-    let (mut runs, undefined) = runs(result, settings, &needs, &intensities)?;
-    if let Some((limit, _)) = limits
-        .iter()
-        .zip(&undefined[shown.len()..])
-        .find(|(_, u)| **u)
-    {
-        return Err(wrong(&format!(
-            "{}: rigid impacts have no contact force; ask for the impulse instead: demand = \"impulse\"",
-            limit.0.name
-        )));
+    let (mut runs, lacking) = runs(result, settings, &needs, &intensities)?;
+    let of_limits = limits.iter().zip(&lacking[shown.len()..]);
+    for ((limit, _), lack) in of_limits {
+        let (reason, help) = match lack {
+            None => continue,
+            Some(Lack::Force) => (
+                "rigid impacts have no contact force",
+                "ask for the impulse instead: demand = \"impulse\"",
+            ),
+            Some(Lack::Acceleration) => (
+                "rigid impacts are jumps of the velocity, which accelerations leave out",
+                "ask for another demand, such as demand = \"drift_ratio\", or take a model with a contact force",
+            ),
+        };
+        return Err(StudyError::NoDemand {
+            state: limit.name.clone(),
+            reason,
+            help,
+        });
     }
     // What some run does not have is shown of none.
-    for place in (0..shown.len()).rev().filter(|place| undefined[*place]) {
-        shown.remove(place);
+    let mut left_out = Vec::new();
+    for place in (0..shown.len()).rev() {
+        let Some(lack) = lacking[place] else {
+            continue;
+        };
+        left_out.push((shown.remove(place).name, lack));
         for run in &mut runs {
             run.demands.remove(place);
         }
     }
+    left_out.reverse();
     let evaluation = Evaluation {
         settings,
         intensities: &intensities,
@@ -259,6 +276,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
             .iter()
             .map(|d| (d.name.clone(), d.unit.to_owned()))
             .collect(),
+        remarks: of_demands(&left_out),
         levels: evaluation.levels(shown.len()),
         curves: evaluation.curves(shown.len()),
         limits: results,
@@ -282,15 +300,28 @@ fn intensities(study: &Study, settings: &IdaSettings) -> Vec<f64> {
 /// Rows of the result that are held at once.
 const BLOCK: usize = 1024;
 
-/// Runs with their demands, and of every demand whether some run does not have it.
+/// Demands of which there are no fractiles.
+fn of_demands(left_out: &[(String, Lack)]) -> Vec<String> {
+    let said = |lack: Lack, reason: &str| {
+        let names = left_out.iter().filter(|(_, l)| *l == lack);
+        let names: Vec<&str> = names.map(|(name, _)| name.as_str()).collect();
+        (!names.is_empty()).then(|| format!("{reason}: without {}", names.join(", ")))
+    };
+    let force = said(Lack::Force, "rigid impacts have no contact force");
+    let jumps = "rigid impacts are jumps of the velocity, which accelerations leave out";
+    let acceleration = said(Lack::Acceleration, jumps);
+    acceleration.into_iter().chain(force).collect()
+}
+
+/// Runs with their demands, and of every demand what some run lacks for it.
 fn runs(
     result: &ResultReader,
     settings: &IdaSettings,
     needs: &[Demand],
     intensities: &[f64],
-) -> Result<(Vec<Run>, Vec<bool>), StudyError> {
+) -> Result<(Vec<Run>, Vec<Option<Lack>>), StudyError> {
     let mut runs = Vec::new();
-    let mut undefined = vec![false; needs.len()];
+    let mut lacking = vec![None; needs.len()];
     let mut samples: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
     for start in (0..result.rows).step_by(BLOCK) {
         for (row, point) in result.block(start..(start + BLOCK).min(result.rows))? {
@@ -302,8 +333,8 @@ fn runs(
             let key: Vec<u64> = others.map(|(_, value)| value.bits()).collect();
             let next = samples.len();
             if !row.ending.failed() && !row.ending.collapsed() {
-                for (undefined, demand) in undefined.iter_mut().zip(needs) {
-                    *undefined |= demand.is_undefined(&row.values);
+                for (lacking, demand) in lacking.iter_mut().zip(needs) {
+                    *lacking = lacking.or_else(|| demand.lacks(&row.values));
                 }
             }
             runs.push(Run {
@@ -322,7 +353,7 @@ fn runs(
             });
         }
     }
-    Ok((runs, undefined))
+    Ok((runs, lacking))
 }
 
 struct Evaluation<'a> {

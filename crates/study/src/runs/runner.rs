@@ -22,7 +22,7 @@ use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
 use crate::error::StudyError;
 use crate::gap_check::{Repeated, of_each_record, of_reading};
 use crate::study_file::{
-    IntensityMeasure, RecordKind, Study, Target, Value, Variable, beside_that_across,
+    IntensityMeasure, RecordKind, Study, Target, Value, Values, Variable, beside_that_across,
 };
 use pounding_files::checksum::hexadecimal;
 
@@ -149,6 +149,12 @@ impl<'s> Runner<'s> {
         warnings.extend(Repeated::by(motions.all.len(), same).warnings(&names));
         let base =
             CaseTree::parse(&study.base.source, &study.base.file).map_err(AssemblyError::Case)?;
+        let stores = |name: &str| layout.quantities.iter().any(|q| q.name == name);
+        let rigid_of_case = has_rigid_impacts(&system);
+        if stores("peak_acceleration_absolute") && may_be_rigid(study, &base, rigid_of_case, &rest)
+        {
+            warnings.push(JUMPS.to_owned());
+        }
         Ok(Self {
             layout,
             levels,
@@ -360,6 +366,48 @@ impl<'s> Runner<'s> {
         hash.update(self.layout.signature());
         self.named_files.iter().for_each(|f| hash.update(f));
         hexadecimal(&hash.finalize())
+    }
+}
+
+/// What a study with rigid impacts must know of its accelerations.
+const JUMPS: &str = "rigid impacts are jumps of the velocity, which floor accelerations leave out: peak_acceleration_absolute is that between the impacts";
+
+fn has_rigid_impacts(system: &System) -> bool {
+    let mut levels = system.levels().iter();
+    levels.any(|level| level.model.rigid_restitution().is_some())
+}
+
+/// Whether impacts are rigid in some run, as those of the case are or as a value of a variable
+/// makes them.
+fn may_be_rigid(
+    study: &Study,
+    base: &CaseTree<'_>,
+    rigid_of_case: bool,
+    rest: &Accelerogram,
+) -> bool {
+    let of_value = |variable: &Variable, choice: usize| {
+        let edits = variable.target.edits(&Value::Choice(choice));
+        let variant = Variant::new(base, &edits);
+        let case = variant.case().ok()?;
+        let assembled = |case: &Case| assemble_with_record(case, rest);
+        let assembly = variant.make(&case, assembled).ok()?;
+        Some(has_rigid_impacts(&assembly.system))
+    };
+    let chosen = study.variables.iter().filter_map(|variable| {
+        let entry = matches!(variable.target, Target::Entry { .. } | Target::Model { .. });
+        match &variable.values {
+            Values::Choices(names) if entry => Some((variable, names.len())),
+            _ => None,
+        }
+    });
+    let mut found = chosen.map(|(variable, count)| {
+        let mut of_values = (0..count).filter_map(|choice| of_value(variable, choice));
+        of_values.any(|rigid| rigid)
+    });
+    match rigid_of_case {
+        // Unless a variable has other models in every run.
+        true => found.all(|rigid| rigid),
+        false => found.any(|rigid| rigid),
     }
 }
 

@@ -17,6 +17,9 @@ pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
         counted(report.records, "record"),
         levels(report)
     );
+    for remark in &report.remarks {
+        text.push_str(&format!("  {remark}\n"));
+    }
     text.push_str(&format!(
         "\nFragility: lognormal, maximum likelihood, medians in {}; bounds at {} % confidence\n{}\n",
         report.shown_intensity().1,

@@ -23,6 +23,11 @@ use crate::values::text_of;
 /// Name in messages of a case that was made of a dict.
 const MADE: &str = "<dict>";
 
+/// A path as it is meant now: the working folder may be another one when it is used.
+pub fn here(path: PathBuf) -> PathBuf {
+    std::path::absolute(&path).unwrap_or(path)
+}
+
 /// A case: buildings, gaps, ground motion and analysis.
 #[pyclass(frozen, name = "Case", module = "pounding._native")]
 #[derive(Debug, Clone)]
@@ -108,14 +113,14 @@ impl PyCase {
     /// A case from the text of a case file; `file` names it and is the base of its paths.
     #[staticmethod]
     fn from_text(source: &str, file: PathBuf) -> Result<Self, Problem> {
-        Self::parsed(source, &file, false, false)
+        Self::parsed(source, &here(file), false, false)
     }
 
     /// A case from its file.
     #[staticmethod]
     fn from_file(path: PathBuf) -> Result<Self, Problem> {
         let source = read_text(&path, "case").map_err(|e| Failure::case(e, ""))?;
-        Self::parsed(&source, &path, false, false)
+        Self::parsed(&source, &here(path), false, false)
     }
 
     /// A case from a dict with the keys of the case file; paths in it begin in `folder`. With
@@ -128,7 +133,7 @@ impl PyCase {
         motion: Option<&Motion>,
     ) -> PyResult<Self> {
         let text = text_of(dict)?;
-        let made = Self::parsed(&text, &folder.join(MADE), true, motion.is_some())?;
+        let made = Self::parsed(&text, &here(folder).join(MADE), true, motion.is_some())?;
         Ok(Self {
             motion: motion.map(|m| Arc::clone(&m.record)),
             motion_file: motion.and_then(|m| m.file.clone()),

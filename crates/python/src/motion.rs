@@ -13,7 +13,7 @@ use pounding_ground_motion::{
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::case::json;
+use crate::case::{here, json};
 use crate::errors::Problem;
 
 /// An accelerogram: accelerations (m/s2) at even steps, linear in between.
@@ -97,7 +97,7 @@ impl Motion {
             ..ReadOptions::default()
         };
         let record = py.detach(|| read(&path, &options)).map_err(refused)?;
-        Ok(Self::of(record, Some(path)))
+        Ok(Self::of(record, Some(here(path))))
     }
 
     /// Accelerations (m/s2); a copy, which may be changed.

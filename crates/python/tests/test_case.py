@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import pickle
+import shutil
 import tomllib
 from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import EXAMPLES, PAIR, RECORD
+from conftest import EXAMPLES, PAIR, RECORD, ROOT
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -232,3 +233,37 @@ def test_errors_say_all_that_is_wrong(pair_dict: dict) -> None:
     with pytest.raises(pounding.PoundingError, match="energy") as told:
         pounding.run(pounding.Case.from_dict(pair_dict))
     assert "energy" in told.value.faults[0][0]
+
+
+def test_paths_are_those_of_the_folder_in_which_a_case_was_made(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, pair_dict: dict
+) -> None:
+    motions = ROOT / "ground_motions"
+    for folder, record in (("A", "el_centro_1940_ns.csv"), ("B", "kobe_1995_jma_ns.csv")):
+        (tmp_path / folder).mkdir()
+        shutil.copy(motions / record, tmp_path / folder / "record.csv")
+    pair_dict["ground_motion"] = {"file": "record.csv"}
+    monkeypatch.chdir(tmp_path / "A")
+    case = pounding.Case.from_dict(pair_dict)
+    with open("case.toml", "w") as file:
+        file.write(case.source)
+    of_file = pounding.Case.from_file("case.toml")
+    text = pounding.Case.from_text(case.source)
+    motion = pounding.Case.from_dict(pair_dict).with_motion(pounding.read_motion("record.csv"))
+    before = pounding.run(case).summary
+    monkeypatch.chdir(tmp_path / "B")
+    for made in (case, of_file, text, motion):
+        after = pounding.run(made)
+        assert after.peaks.equals(pounding.run(case).peaks)
+        with pytest.raises(pounding.CaseError):
+            after.to_hdf5(tmp_path / "A" / "record.csv")
+    with pytest.raises(pounding.CaseError):
+        pounding.run(of_file).to_hdf5(tmp_path / "A" / "case.toml")
+    assert pounding.run(case).summary == before
+
+
+def test_a_record_of_a_dict_has_its_name(pair_dict: dict) -> None:
+    case = pounding.Case.from_dict(pair_dict, folder=ROOT / "examples" / "three_storey_pair")
+    kobe = ROOT / "ground_motions" / "kobe_1995_jma_ns.csv"
+    assert list(pounding.gap_check(case, {"my kobe": kobe}).demand.index) == ["my kobe"]
+    assert list(pounding.gap_check(case, [kobe]).demand.index) == ["kobe_1995_jma_ns"]

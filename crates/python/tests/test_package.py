@@ -7,8 +7,9 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
-from conftest import PAIR, ROOT
+from conftest import EXAMPLES, PAIR, ROOT
 
 OTHERS = ["h5py", "netCDF4", "xarray", "obspy"]
 #: What is done with each: opened and closed where it has a file format of its own.
@@ -98,6 +99,18 @@ def test_pictures_are_drawn() -> None:
         axes = draw(result)
         assert axes.get_xlabel() and axes.get_ylabel()
     motion = pounding.read_motion(ROOT / "ground_motions" / "el_centro_1940_ns.csv")
+    # Storeys are counted from 1, as everywhere.
+    light = result.buildings["light"].displacement
+    drawn = plot.displacements(result, storey=1).lines[0].get_ydata()
+    assert np.array_equal(drawn, 1e3 * light[:, 0])
+    roofs = plot.displacements(result).lines[0].get_ydata()
+    assert np.array_equal(roofs, 1e3 * light[:, -1])
+    for storey in (0, 4):
+        with pytest.raises(ValueError, match="none of 1 to 3"):
+            plot.displacements(result, storey=storey)
+    rigid = pounding.run(EXAMPLES / "rigid_impacts" / "case.toml")
+    with pytest.raises(ValueError, match="have no force"):
+        pounding.plot.forces(rigid)
     assert plot.spectra([motion, motion.scaled_by(0.5)]).get_legend() is not None
     with pytest.raises(ValueError, match="no gap"):
         plot.opening(result, "nowhere")

@@ -12,6 +12,8 @@ gap is wide enough, and how sensitive the answer is to the impact model.
 Numbers are SI; texts may carry units. Errors say what is wrong, where, and what to do.
 """
 
+from typing import Any
+
 from . import _native
 from ._case import Analysis, Building, Case, Gap, GroundMotion, Link, Separation
 from ._errors import CaseError, ComputationError, OutputError, PoundingError, RecordError
@@ -57,3 +59,12 @@ __all__ = [
     "spectrum",
     "sweep",
 ]
+
+
+def __getattr__(name: str) -> Any:
+    # Matplotlib is needed for `plot` alone.
+    if name == "plot":
+        import importlib
+
+        return importlib.import_module(".plot", __name__)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

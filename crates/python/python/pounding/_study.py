@@ -188,7 +188,8 @@ def ida(
         )
     options = {"shard": None, "resume": resume, "keep_going": keep_going}
     target, finished, analysis = _run_study(study, output, True, threads, progress, **options)
-    return Ida({**(analysis or {}), "sweep": finished}, target)
+    # The working folder may be another one when its runs are read.
+    return Ida({**(analysis or {}), "sweep": finished}, os.path.abspath(target))
 
 
 @dataclass(frozen=True)

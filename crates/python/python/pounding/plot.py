@@ -30,13 +30,22 @@ def _axes(axes: Axes | None) -> Axes:
     return made
 
 
-def displacements(result: Result, *, storey: int = -1, axes: Axes | None = None) -> Axes:
-    """Displacements (mm) of one storey of each building over time; the roofs by default."""
+def displacements(result: Result, *, storey: int | None = None, axes: Axes | None = None) -> Axes:
+    """Displacements (mm) of one storey, from 1, of each building that has it over time; the roofs
+    by default."""
     drawn = _axes(axes)
-    for number, (name, building) in enumerate(result.buildings.items()):
-        values = 1e3 * building.displacement[:, storey]
+    highest = max((b.displacement.shape[1] for b in result.buildings.values()), default=0)
+    if storey is not None and not 1 <= storey <= highest:
+        raise ValueError(f"storey {storey} is none of 1 to {highest}")
+    number = 0
+    for name, building in result.buildings.items():
+        if storey is not None and storey > building.displacement.shape[1]:
+            continue
+        values = 1e3 * building.displacement[:, -1 if storey is None else storey - 1]
         drawn.plot(result.time, values, _STYLES[number % 4], lw=0.9, label=name)
-    drawn.set(xlabel="time (s)", ylabel="displacement (mm)")
+        number += 1
+    title = "roofs" if storey is None else f"storey {storey}"
+    drawn.set(xlabel="time (s)", ylabel="displacement (mm)", title=title)
     drawn.legend(frameon=False)
     return drawn
 
@@ -71,8 +80,10 @@ def forces(result: Result, gap: str | None = None, *, axes: Axes | None = None) 
     drawn, name = _axes(axes), _gap(result, gap)
     impacts = result.impacts
     impacts = impacts[impacts["gap"] == name]
+    if len(impacts) and impacts["peak_force"].isna().all():
+        raise ValueError(f"rigid impacts of {name!r} have no force: draw `impulse` of `result.impacts`")
     for number, (level, rows) in enumerate(impacts.groupby("level")):
-        times, values = rows["t_close"], rows["peak_force"] / 1e3
+        times, values = rows["peak_force_time"], rows["peak_force"] / 1e3
         drawn.vlines(times, 0.0, values, lw=0.6, color=f"C{number}")
         drawn.plot(times, values, "osD^v"[number % 5], ms=3, color=f"C{number}", label=f"level {level}")
     drawn.set(xlabel="time (s)", ylabel="peak force (kN)", title=name, xlim=(0, result.time[-1]))

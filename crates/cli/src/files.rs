@@ -1,5 +1,6 @@
 //! Files of a command: what it reads beside its arguments, and where its outputs have a place.
 
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use pounding_files::{FileUse, LeftOver, PartFile, left_over};
@@ -81,6 +82,56 @@ pub fn no_result_stands(path: &Path) -> Result<(), Failure> {
     ))
 }
 
+/// Whether a file has bytes that would be lost. Devices and pipes have none.
+fn holds_something(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() > 0)
+}
+
+/// Refuses to replace a file of somebody else under a name that the user has not given; what there
+/// is to say where the user has.
+fn foreign(path: &Path, named: bool, what: &str) -> Result<Option<String>, Failure> {
+    let path = path.display();
+    match named {
+        true => Ok(Some(format!(
+            "{path} is replaced, which was no {what} of this program"
+        ))),
+        false => Err(Failure::unwritten(
+            format!("{path} is no {what} of this program: nothing takes its place unasked"),
+            Some("name another file with --output, or remove it".to_owned()),
+        )),
+    }
+}
+
+/// What stands where a page is to be written: one of ours is replaced, any other file only under a
+/// name that the user has given, which is said.
+///
+/// # Errors
+/// A file of somebody else under a default name, or one that cannot be read.
+pub fn page_is_spared(path: &Path, named: bool) -> Result<(), Failure> {
+    no_result_stands(path)?;
+    if holds_something(path) && !is_page(path) {
+        foreign(path, named, "page")?
+            .iter()
+            .for_each(|said| note(said));
+    }
+    Ok(())
+}
+
+/// Whether a file is a page of this program, by its mark; pages of versions without one by their head.
+fn is_page(path: &Path) -> bool {
+    /// Bytes within which head and title stand.
+    const HEAD: u64 = 1 << 18;
+    let mut head = Vec::new();
+    let read = pounding_files::input::open(path).map(|file| file.take(HEAD).read_to_end(&mut head));
+    if !matches!(read, Ok(Ok(_))) {
+        return false;
+    }
+    let head = String::from_utf8_lossy(&head);
+    let begins = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta http-equiv=\"Content-Security-Policy\" content=\"default-src &#39;none&#39;";
+    head.contains(pounding_report::page::MARK)
+        || (head.starts_with(begins) && head.contains("<p class=\"what\">"))
+}
+
 /// What stands where a result is to be written, which takes the place of an earlier one of the same
 /// case or study, and of no other one unasked.
 pub struct Replaced<'r> {
@@ -116,7 +167,10 @@ impl Replaced<'_> {
     /// As [`spared`](Self::spared).
     pub fn judged(&self, goes_on: bool) -> Result<Option<String>, Failure> {
         let Some(found) = Label::of(self.output) else {
-            return Ok(None);
+            return match holds_something(self.output) && !goes_on {
+                true => foreign(self.output, self.named, "result"),
+                false => Ok(None),
+            };
         };
         let (output, kind) = (self.output.display(), found.kind);
         let of = match found.file.as_str() {

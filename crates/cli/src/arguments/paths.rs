@@ -8,6 +8,7 @@ use std::ffi::OsString;
 use std::ops::Deref;
 use std::path::{Path, PathBuf};
 
+use clap::builder::{OsStringValueParser, TypedValueParser, ValueParser, ValueParserFactory};
 use clap::{Arg, ArgMatches, Command};
 use pounding_files::FileUse;
 use serde::Serialize;
@@ -22,6 +23,18 @@ macro_rules! path_type {
         impl From<OsString> for $name {
             fn from(text: OsString) -> Self {
                 Self(text.into())
+            }
+        }
+
+        impl ValueParserFactory for $name {
+            type Parser = ValueParser;
+
+            fn value_parser() -> ValueParser {
+                let named = |text: OsString| match text.is_empty() {
+                    true => Err("the name of a file is empty"),
+                    false => Ok(Self::from(text)),
+                };
+                ValueParser::new(OsStringValueParser::new().try_map(named))
             }
         }
 

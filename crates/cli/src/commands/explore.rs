@@ -12,7 +12,7 @@ use crate::arguments::ExploreArguments;
 use crate::asked_separation::{Asked, overridden};
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case};
-use crate::files::{have_a_place, name_left_over, reads_too, record_files};
+use crate::files::{have_a_place, name_left_over, page_is_spared, reads_too, record_files};
 use crate::output::print;
 use crate::plot;
 
@@ -43,6 +43,7 @@ pub fn explore(arguments: &ExploreArguments, mut files: FileUse) -> Result<(), F
     let rules = overridden(case.separation.clone(), &asked)?.rules;
     let given = rules.get(known).map(|rule| (&*rule.file, &*rule.source));
     let given = given.map(|(file, text)| (name_of(Path::new(file)), text));
+    page_is_spared(&output, arguments.output.is_some())?;
     have_a_place([Some(output.as_path())])?;
     let mut held = named_files(&case)?;
     for record in &records {

@@ -9,7 +9,7 @@ use pounding_report::{Answered, ReportError, RunResult};
 use pounding_study::ResultReader;
 
 use crate::failure::Failure;
-use crate::files::name_left_over;
+use crate::files::{name_left_over, page_is_spared};
 use crate::output::{print, warn};
 use crate::separate::{Reading, reading, warnings};
 use crate::{page, plot};
@@ -47,6 +47,9 @@ pub fn report(
             beside
         }
     };
+    if !child {
+        page_is_spared(&output, asked.output.is_some())?;
+    }
     if Answered::may_be(path) {
         return of_answer(asked, &output);
     }

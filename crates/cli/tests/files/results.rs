@@ -164,3 +164,90 @@ fn no_text_takes_the_place_of_a_result() {
         );
     }
 }
+
+/// What another program has written stays under a default name; under a given one it is replaced,
+/// and that is said. An empty file holds nothing, and results and pages of ours are replaced.
+#[test]
+fn a_file_of_another_program_is_not_replaced_unasked() {
+    let fixture = Fixture::new();
+    let run = |command: &str| fixture.run(&command.split(' ').collect::<Vec<_>>());
+    let made = run("run case.toml -o other.h5");
+    assert!(made.status.success(), "{}", message(&made));
+    let foreign = [b"\x89HDF\r\n\x1a\nof another program".as_slice(), b"a text"];
+    for (command, default) in [
+        ("run case.toml", "case.h5"),
+        ("sweep study.toml", "study.h5"),
+        ("report other.h5", "other.html"),
+        ("explore case.toml", "case.html"),
+    ] {
+        let default = match command {
+            // Both are called by the folder where they are called `case` and `study`.
+            "run case.toml" | "sweep study.toml" => {
+                let made = run(command);
+                let said = String::from_utf8_lossy(&made.stdout).into_owned();
+                assert!(made.status.success(), "{command}: {}", message(&made));
+                let ending = if command.starts_with("run") {
+                    ".h5"
+                } else {
+                    ".study.h5"
+                };
+                let files = std::fs::read_dir(fixture.path("")).unwrap();
+                let names = files.map(|f| f.unwrap().file_name().into_string().unwrap());
+                let found = names
+                    .filter(|n| n.ends_with(ending) && n != "other.h5" && said.contains(n.as_str()))
+                    .max_by_key(String::len);
+                found.unwrap_or_else(|| panic!("{default}: {said}"))
+            }
+            _ => default.to_owned(),
+        };
+        for bytes in foreign {
+            std::fs::write(fixture.path(&default), bytes).unwrap();
+            let output = run(command);
+            let said = message(&output);
+            assert_eq!(output.status.code(), Some(4), "{command}: {said}");
+            assert!(said.contains("of this program"), "{command}: {said}");
+            assert_eq!(std::fs::read(fixture.path(&default)).unwrap(), bytes);
+            let named = run(&format!("{command} -o {default}"));
+            let said = message(&named);
+            assert!(named.status.success(), "{command}: {said}");
+            assert!(
+                said.contains("is replaced, which was no"),
+                "{command}: {said}"
+            );
+        }
+        // Its own, and an empty one.
+        let again = run(command);
+        assert!(again.status.success(), "{command}: {}", message(&again));
+        std::fs::write(fixture.path(&default), "").unwrap();
+        let again = run(command);
+        assert!(again.status.success(), "{command}: {}", message(&again));
+    }
+    // A page of a version that did not mark them.
+    let page = fixture.path("other.html");
+    let marked = std::fs::read_to_string(&page).unwrap();
+    let mark = "<meta name=\"generator\" content=\"pounding\">\n";
+    assert!(marked.contains(mark));
+    std::fs::write(&page, marked.replace(mark, "")).unwrap();
+    let again = run("report other.h5");
+    assert!(again.status.success(), "{}", message(&again));
+}
+
+/// Before any run, and without a trace.
+#[test]
+fn an_empty_name_is_no_file() {
+    let fixture = Fixture::new();
+    let before = std::fs::read_dir(fixture.path("")).unwrap().count();
+    for command in [
+        "run case.toml",
+        "sweep study.toml",
+        "gap case.toml --points 0",
+    ] {
+        let mut arguments: Vec<&str> = command.split(' ').collect();
+        arguments.extend(["-o", ""]);
+        let output = fixture.run(&arguments);
+        let said = message(&output);
+        assert_eq!(output.status.code(), Some(2), "{command}: {said}");
+        assert!(said.contains("the name of a file is empty"), "{said}");
+    }
+    assert_eq!(std::fs::read_dir(fixture.path("")).unwrap().count(), before);
+}

@@ -35,6 +35,9 @@ pub struct Document<'a> {
     pub style: &'a str,
 }
 
+/// What marks a page of this program.
+pub const MARK: &str = "<meta name=\"generator\" content=\"pounding\">";
+
 impl Document<'_> {
     /// The whole file.
     #[must_use]
@@ -63,7 +66,7 @@ impl Document<'_> {
             "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
              <meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}{may}\">\n\
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
-             <meta name=\"color-scheme\" content=\"light dark\">\n\
+             <meta name=\"color-scheme\" content=\"light dark\">\n{MARK}\n\
              <title>{title}</title>\n<style>\n{STYLE}{style}</style>\n</head>\n<body>\n\
              <header>\n<h1>{title}</h1>\n<p class=\"what\">{}</p>\n</header>\n\
              <main{long}>\n{}</main>\n{}</body>\n</html>\n",

@@ -15,7 +15,7 @@ mod sweep;
 mod table;
 
 pub use comparison::comparison;
-pub use document::{Document, Script};
+pub use document::{Document, MARK, Script};
 pub use gap::gap;
 pub use html::escaped;
 pub use ida::ida;

@@ -4,8 +4,9 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::recording::unusual_step;
+use crate::start_times::later;
 use crate::station_xml::ResponseFile;
 use crate::step_record::StepRecord;
 use crate::unit::AccelerationUnit;
@@ -62,6 +63,27 @@ pub struct Origin {
     pub header_line: Option<usize>,
     /// What the user should know.
     pub warnings: Vec<String>,
+}
+
+impl Origin {
+    /// Moves the time of the first sample by so much (s).
+    pub(crate) fn start_later(&mut self, by: f64) {
+        if by == 0.0 || self.start_time.is_empty() {
+            return;
+        }
+        match later(&self.start_time, by) {
+            Some(moved) => self.start_time = moved,
+            None => {
+                self.warnings.push(format!(
+                    "the first sample is now {} s {}, and \"{}\", the time of the one before, is left out: it is not a date and time of day that can be moved",
+                    bound(by.abs()),
+                    if by > 0.0 { "later" } else { "earlier" },
+                    self.start_time
+                ));
+                self.start_time.clear();
+            }
+        }
+    }
 }
 
 /// A maximum absolute value and its time.
@@ -185,6 +207,15 @@ impl Accelerogram {
         if let Some(origin) = &mut self.origin {
             origin.unit_in_si = Some(unit_in_si);
         }
+    }
+
+    /// The same record whose first sample is so much later (s) than before. A printed time that is
+    /// not understood is left out, with a warning: it would be that of another sample.
+    pub(crate) fn starting_later(mut self, by: f64) -> Self {
+        if let Some(origin) = &mut self.origin {
+            origin.start_later(by);
+        }
+        self
     }
 
     /// Notes that these steps made it what it is.

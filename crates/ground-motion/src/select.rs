@@ -199,6 +199,7 @@ fn ready(
             (before, displacement - moved)
         });
         samples.insert(0, 0.0);
+        origin.start_later(-time_step);
         origin
             .warnings
             .push("a zero was put before the first value".to_owned());

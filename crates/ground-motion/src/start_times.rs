@@ -28,47 +28,198 @@ pub(crate) fn apart(first: &str, second: &str) -> Option<f64> {
 
 impl Printed {
     fn of(text: &str) -> Option<Self> {
-        let (at, [hours, minutes, seconds]) = with_colons(text).or_else(|| in_a_row(text))?;
-        let (digits, rest) = text[..at].chars().partition(char::is_ascii_digit);
-        let inside = hours < 24.0 && minutes < 60.0 && seconds <= 60.0;
-        inside.then_some(Self {
+        let clock = Clock::of(text)?;
+        let (digits, rest) = text[..clock.from].chars().partition(char::is_ascii_digit);
+        Some(Self {
             date: digits,
             form: rest,
-            seconds: 3600.0 * hours + 60.0 * minutes + seconds,
+            seconds: clock.seconds,
         })
     }
 }
 
-/// Where `14:46:30.005` starts, and its numbers.
-fn with_colons(text: &str) -> Option<(usize, [f64; 3])> {
+/// The time of day in a text.
+struct Clock {
+    /// Where it stands.
+    from: usize,
+    to: usize,
+    /// Seconds after midnight.
+    seconds: f64,
+    /// Digits behind the point.
+    decimals: usize,
+    /// What stands between hours, minutes and seconds.
+    separator: &'static str,
+}
+
+impl Clock {
+    fn of(text: &str) -> Option<Self> {
+        let (from, to, [hours, minutes, seconds], separator) = with_colons(text)
+            .map(|(from, to, numbers)| (from, to, numbers, ":"))
+            .or_else(|| in_a_row(text).map(|(from, to, numbers)| (from, to, numbers, "")))?;
+        let inside = hours < 24.0 && minutes < 60.0 && seconds <= 60.0;
+        let behind = text[from..to].split_once('.');
+        inside.then_some(Self {
+            from,
+            to,
+            seconds: 3600.0 * hours + 60.0 * minutes + seconds,
+            decimals: behind.map_or(0, |(_, digits)| digits.len()),
+            separator,
+        })
+    }
+}
+
+/// Digits of seconds (s) that times are told apart by.
+const DIGITS: usize = 6;
+
+/// A printed time so many seconds later, in its own form; `None` where it is not understood, or
+/// lies on another day of a date that is not.
+pub(crate) fn later(text: &str, by: f64) -> Option<String> {
+    let clock = Clock::of(text)?;
+    if by == 0.0 {
+        return Some(text.to_owned());
+    }
+    if !(by.abs() < 1.0e9) {
+        return None;
+    }
+    // Whole parts of a second, so that 59.9999999 is not printed as 60.
+    let parts = libm::round((clock.seconds + by) * 1.0e6) as i64;
+    let (days, parts) = (parts.div_euclid(DAY), parts.rem_euclid(DAY));
+    let date = match days {
+        0 => text[..clock.from].to_owned(),
+        days => date_later(&text[..clock.from], days)?,
+    };
+    let (whole, fraction) = (parts / 1_000_000, parts % 1_000_000);
+    let mut digits = format!("{fraction:06}");
+    while digits.len() > clock.decimals.min(DIGITS) && digits.ends_with('0') {
+        digits.pop();
+    }
+    let point = if digits.is_empty() { "" } else { "." };
+    let between = clock.separator;
+    Some(format!(
+        "{date}{:02}{between}{:02}{between}{:02}{point}{digits}{}",
+        whole / 3600,
+        whole / 60 % 60,
+        whole % 60,
+        &text[clock.to..]
+    ))
+}
+
+/// A day (us).
+const DAY: i64 = 86_400_000_000;
+
+/// What stands before a time of day, with its date so many days later: `2011/03/11 `,
+/// `2011-03-11T`, `20110311_` or `2011 day 70 `.
+fn date_later(text: &str, days: i64) -> Option<String> {
+    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+    let number = |from: usize, to: usize| text.get(from..to)?.parse::<i64>().ok();
+    if digits == 8 {
+        let date = (number(0, 4)?, number(4, 6)?, number(6, 8)?);
+        let (year, month, day) = date_of(days_after_1900(date)? + days);
+        return Some(format!("{year:04}{month:02}{day:02}{}", &text[8..]));
+    }
+    if digits != 4 {
+        return None;
+    }
+    if let Some(rest) = text[4..].strip_prefix(" day ") {
+        let length = rest.bytes().take_while(u8::is_ascii_digit).count();
+        let day: i64 = rest[..length].parse().ok()?;
+        let (year, day) = year_and_day(number(0, 4)?, day + days);
+        return Some(format!("{year} day {day}{}", &rest[length..]));
+    }
+    let between = text.get(4..5).filter(|c| matches!(*c, "/" | "-"))?;
+    if text.get(7..8) != Some(between) {
+        return None;
+    }
+    let date = (number(0, 4)?, number(5, 7)?, number(8, 10)?);
+    let (year, month, day) = date_of(days_after_1900(date)? + days);
+    let rest = text.get(10..)?;
+    Some(format!(
+        "{year:04}{between}{month:02}{between}{day:02}{rest}"
+    ))
+}
+
+fn is_leap(year: i64) -> bool {
+    year % 4 == 0 && year % 100 != 0 || year % 400 == 0
+}
+
+fn length_of(year: i64) -> i64 {
+    365 + i64::from(is_leap(year))
+}
+
+/// Days of the year before each month.
+const BEFORE: [i64; 12] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
+
+/// Days from 1 January 1900 to a date (year, month, day) of the Gregorian calendar.
+pub(crate) fn days_after_1900((year, month, day): (i64, i64, i64)) -> Option<i64> {
+    let index = usize::try_from(month - 1).ok()?;
+    let before = BEFORE.get(index)?;
+    if !((1..=31).contains(&day) && (1..=9999).contains(&year)) {
+        return None;
+    }
+    let of_year = before + i64::from(is_leap(year) && month > 2) + day - 1;
+    let past = year - 1;
+    Some(365 * (year - 1900) + past / 4 - past / 100 + past / 400 - 460 + of_year)
+}
+
+/// Year, month and day so many days after 1 January 1900.
+fn date_of(days: i64) -> (i64, i64, i64) {
+    let (year, day) = year_and_day(1900, days + 1);
+    let leap = i64::from(is_leap(year));
+    let first = |index: usize| BEFORE[index] + if index > 1 { leap } else { 0 };
+    let month = (0..12).rev().find(|index| first(*index) < day).unwrap_or(0);
+    (year, month as i64 + 1, day - first(month))
+}
+
+/// A day of a year, counted from 1, which may lie in another year.
+pub(crate) fn year_and_day(mut year: i64, mut day: i64) -> (i64, i64) {
+    while day > length_of(year) {
+        day -= length_of(year);
+        year += 1;
+    }
+    while day < 1 {
+        year -= 1;
+        day += length_of(year);
+    }
+    (year, day)
+}
+
+/// Where `14:46:30.005` starts and ends, and its numbers; one digit may have a blank before it, as
+/// in `10:34: 1.0`.
+fn with_colons(text: &str) -> Option<(usize, usize, [f64; 3])> {
     let first = text.find(':')?;
     let is_digit = |c: char| c.is_ascii_digit();
     let hours = text[..first].trim_end_matches(is_digit).len();
-    let (minutes, rest) = text[first + 1..].split_once(':')?;
-    let end = rest.find(|c: char| !is_digit(c) && c != '.');
-    let seconds = rest[..end.unwrap_or(rest.len())].trim_end_matches('.');
-    let number = |text: &str| text.parse::<f64>().ok();
+    let second = first + 1 + text[first + 1..].find(':')?;
+    let rest = &text[second + 1..];
+    let blanks = rest.len() - rest.trim_start_matches(' ').len();
+    let end = rest[blanks..].find(|c: char| !is_digit(c) && c != '.');
+    let seconds = rest[..end.map_or(rest.len(), |end| blanks + end)].trim_end_matches('.');
+    let number = |text: &str| text.trim().parse::<f64>().ok();
     Some((
         hours,
+        second + 1 + seconds.len(),
         [
             number(&text[hours..first])?,
-            number(minutes)?,
+            number(&text[first + 1..second])?,
             number(seconds)?,
         ],
     ))
 }
 
 /// The same of `20110311_144630.005`.
-fn in_a_row(text: &str) -> Option<(usize, [f64; 3])> {
+fn in_a_row(text: &str) -> Option<(usize, usize, [f64; 3])> {
     let (date, time) = text.split_once('_')?;
     let whole = time.split('.').next()?;
     let all_digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
     if !(date.len() == 8 && all_digits(date) && whole.len() == 6 && all_digits(whole)) {
         return None;
     }
-    let number = |text: &str| text.trim().parse::<f64>().ok();
+    let time = time.trim_end();
+    let number = |text: &str| text.parse::<f64>().ok();
+    let from = date.len() + 1;
     Some((
-        date.len() + 1,
+        from,
+        from + time.len(),
         [
             number(&time[..2])?,
             number(&time[2..4])?,
@@ -110,6 +261,17 @@ mod tests {
                 "2011/03/11 14:46:30 JST",
                 None,
             ),
+            (
+                "10/20/2021, 10:34: 1.0 UTC",
+                "10/20/2021, 10:34:11.0 UTC",
+                Some(10.0),
+            ),
+            ("10/20/2021,  9: 4: 1.0", "10/20/2021, 10: 4: 1.0", None),
+            (
+                "10/20/2021, 9: 4: 1.0",
+                "10/20/2021, 10: 4: 1.0",
+                Some(3600.0),
+            ),
             ("", "", None),
             ("14:46", "14:47", None),
             ("at 99:00:00", "at 99:00:01", None),
@@ -123,6 +285,50 @@ mod tests {
                 }
                 (found, seconds) => assert_eq!(found, seconds, "{a}"),
             }
+        }
+    }
+
+    #[test]
+    fn later_times_have_their_own_form() {
+        for (text, by, found) in [
+            (
+                "2011/03/11 14:46:30 JST less 15 s",
+                5.25,
+                Some("2011/03/11 14:46:35.25 JST less 15 s"),
+            ),
+            (
+                "2011/12/31 23:59:59.50 JST",
+                0.5,
+                Some("2012/01/01 00:00:00.00 JST"),
+            ),
+            (
+                "2012-03-01 00:00:00 UTC",
+                -1.0,
+                Some("2012-02-29 23:59:59 UTC"),
+            ),
+            ("20110311_144630.005", -30.005, Some("20110311_144600.000")),
+            ("20110301_000000", -0.5, Some("20110228_235959.5")),
+            (
+                "2000 day 366 23:59:59.9999 UTC",
+                0.0002,
+                Some("2001 day 1 00:00:00.0001 UTC"),
+            ),
+            (
+                "2001 day 1 00:00:00.0000 UTC",
+                -0.5,
+                Some("2000 day 366 23:59:59.5000 UTC"),
+            ),
+            (
+                "10/20/21, 10:34: 1.0 UTC (Q= 5)",
+                9.0,
+                Some("10/20/21, 10:34:10.0 UTC (Q= 5)"),
+            ),
+            // The order of day and month is not known.
+            ("10/11/21, 23:59:59.0", 2.0, None),
+            ("some day", 2.0, None),
+            ("", 2.0, None),
+        ] {
+            assert_eq!(later(text, by).as_deref(), found, "{text}");
         }
     }
 }

@@ -8,6 +8,7 @@ use sha2::{Digest, Sha256};
 
 use crate::error::GroundMotionError;
 use crate::quantity::SeriesUnit;
+use crate::start_times::days_after_1900;
 
 /// Elements of StationXML nest some ten deep; the parser calls itself for each.
 const MOST_DEPTH: usize = 200;
@@ -498,17 +499,8 @@ fn microseconds(text: &str) -> Option<i64> {
         }
         None => 0,
     };
-    let minutes = days_after_1900(year, month, day) * 1440 + hour * 60 + minute - ahead;
+    let minutes = days_after_1900((year, month, day))? * 1440 + hour * 60 + minute - ahead;
     Some(minutes * 60_000_000 + (second * 1.0e6).round() as i64)
-}
-
-/// Days from 1 January 1900 to a date of the Gregorian calendar.
-fn days_after_1900(year: i64, month: i64, day: i64) -> i64 {
-    let leap = year % 4 == 0 && year % 100 != 0 || year % 400 == 0;
-    let before = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
-    let of_year = before[(month - 1) as usize] + i64::from(leap && month > 2) + day - 1;
-    let past = year - 1;
-    365 * (year - 1900) + past / 4 - past / 100 + past / 400 - 460 + of_year
 }
 
 /// The line at which elements nest deeper than is allowed; `None` if none do. What is not well

@@ -173,6 +173,7 @@ fn titles_of_at2_say_nothing_of_the_values() {
             title: title.to_owned(),
             component: "N10E".to_owned(),
             initial: None,
+            start_time: String::new(),
             processing: Processing::Unstated,
             remarks: Vec::new(),
         };

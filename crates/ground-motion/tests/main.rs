@@ -28,6 +28,7 @@ mod readers;
 mod rows_of_numbers;
 mod simultaneous_components;
 mod spectra;
+mod start_times;
 mod stated_durations;
 mod station_xml;
 mod time_columns;

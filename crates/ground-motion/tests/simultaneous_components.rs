@@ -38,7 +38,7 @@ fn components_that_start_at_different_times_are_refused() {
         end: 0.2,
     });
     let cut = process(&first, &[cut]).unwrap().accelerogram;
-    assert!(rotate(&cut, &later, 30.0).is_ok());
+    assert!(rotate(&cut, &together, 30.0).is_err());
 }
 
 #[test]

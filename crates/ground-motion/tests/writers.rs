@@ -25,6 +25,7 @@ fn any_written() -> impl Strategy<Value = Written> {
         title,
         component: "N10E".to_owned(),
         initial: None,
+        start_time: String::new(),
         processing: Processing::Unstated,
         remarks: vec!["Step: made up".to_owned()],
     })
@@ -125,6 +126,7 @@ fn what_cannot_be_written() {
         title: String::new(),
         component: String::new(),
         initial: None,
+        start_time: String::new(),
         processing: Processing::Unstated,
         remarks: Vec::new(),
     };

@@ -340,6 +340,37 @@ fn circular_frequencies_of_fourier_amplitudes() {
     }
 }
 
+/// The time of the first sample goes into our CSV, moved by what is cut off; other formats have no
+/// place for it.
+#[test]
+fn start_times_that_are_lost_are_named() {
+    let folder = Folder::new();
+    let from = folder.name("from.csv");
+    let rows: String = (0..50)
+        .map(|i| format!("{},{}\n", f64::from(i) * 0.1, f64::from(i % 5) - 2.0))
+        .collect();
+    let head = "# Start: 2011/03/11 14:46:59 JST\n# dt: 0.1 s\ntime_s,acceleration_m_s2\n";
+    std::fs::write(&from, format!("{head}{rows}")).unwrap();
+    for (to, name, lost) in [
+        ("pounding_csv", "o.csv", false),
+        ("peer_at2", "o.at2", true),
+        ("plain_columns", "o.txt", true),
+    ] {
+        let said = text(&["convert", &from, "--to", to, "-o", &folder.name(name)]);
+        let named = said.contains("time of the first sample, 2011/03/11 14:46:59 JST");
+        assert_eq!(named, lost, "{said}");
+    }
+    let kept = "# Start: 2011/03/11 14:46:59 JST\n";
+    assert!(folder.content("o.csv").contains(kept));
+    let out = folder.name("cut.csv");
+    text(&["process", &from, "--trim", "start=2 s, end=4 s", "-o", &out]);
+    let content = folder.content("cut.csv");
+    assert!(
+        content.contains("# Start: 2011/03/11 14:47:01 JST\n"),
+        "{content}"
+    );
+}
+
 /// Conversions say what a format cannot hold; a file that is made names no folder.
 #[test]
 fn initial_velocities_that_are_lost_are_named() {

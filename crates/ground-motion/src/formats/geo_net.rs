@@ -10,6 +10,7 @@ use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::{HeaderNumbers, Source};
+use crate::start_times::later;
 use crate::text::{Line, Lines};
 
 const TEXT_LINES: usize = 16;
@@ -147,6 +148,23 @@ fn raw_unit(source: &Source<'_>, header: &Header<'_>) -> Result<DraftUnit, Groun
     }
 }
 
+/// Start of the recorder's buffer: integers 9, 10, 19, 20 and 39 are year, month, day, hour and
+/// minute, integer 40 thousandths of a second. The line of text has the time of the earthquake.
+fn start_of_buffer(integers: &HeaderNumbers) -> Option<String> {
+    let whole = |index, least: f64, most: f64| {
+        let number = integers.get(index)?;
+        let inside = number.fract() == 0.0 && (least..=most).contains(&number);
+        inside.then_some(number)
+    };
+    let (year, month) = (whole(9, 1900.0, 2200.0)?, whole(10, 1.0, 12.0)?);
+    let (day, hour) = (whole(19, 1.0, 31.0)?, whole(20, 0.0, 23.0)?);
+    let (minute, thousandths) = (whole(39, 0.0, 59.0)?, whole(40, 0.0, 1.0e7)?);
+    later(
+        &format!("{year}-{month:02}-{day:02} {hour:02}:{minute:02}:00.000 UT"),
+        thousandths / 1000.0,
+    )
+}
+
 fn block(
     source: &Source<'_>,
     lines: &mut Lines<'_>,
@@ -184,9 +202,11 @@ fn block(
         header.text[1].columns(0, 14),
         header.text[2].text().trim()
     );
-    draft.start_time = header.text[7].text().trim().to_owned() + " (origin)";
     // Text counts times from the end of the leading pad.
     let pad = header.integers.count(32).unwrap_or(0) as f64 * step.unwrap_or(0.0);
+    draft.start_time = start_of_buffer(&header.integers)
+        .and_then(|start| later(&start, -pad))
+        .unwrap_or_default();
     let lower = header.text[13..]
         .iter()
         .map(Line::lower)

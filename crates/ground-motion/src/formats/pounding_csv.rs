@@ -14,6 +14,8 @@ use crate::unit::AccelerationUnit;
 
 const REMEDY: &str = "the layout is in ground_motions/README.md; decimal commas need semicolons or tabs between the columns, also in the header";
 const START: &str = "time_s,acceleration_";
+/// Key of the time of the first sample.
+pub(crate) const START_TIME: &str = "Start";
 /// Keys of velocity and displacement at the first sample.
 pub(crate) const INITIAL_VELOCITY: &str = "Initial velocity";
 pub(crate) const INITIAL_DISPLACEMENT: &str = "Initial displacement";
@@ -23,6 +25,7 @@ pub(crate) const INITIAL_DISPLACEMENT: &str = "Initial displacement";
 pub(super) struct Keys {
     title: Vec<String>,
     component: String,
+    start_time: String,
     history: Vec<String>,
     /// Units and their lines.
     units: Vec<(usize, String)>,
@@ -180,6 +183,7 @@ impl Keys {
     pub(super) fn report(&self, origin: &mut Origin) {
         origin.title = self.title.join("; ");
         origin.history.clone_from(&self.history);
+        origin.start_time.clone_from(&self.start_time);
         if let Some(stage) = self.stage {
             origin.processing = stage;
         }
@@ -194,6 +198,7 @@ impl Keys {
         match key.trim() {
             "Event" | "Station" => self.title.push(value.to_owned()),
             "Component" => value.clone_into(&mut self.component),
+            START_TIME => value.clone_into(&mut self.start_time),
             "Source" | "Step" | "Read" | "Note" => self.history.push(text.trim().to_owned()),
             "Stage" => {
                 let stage = match value.to_ascii_lowercase().as_str() {

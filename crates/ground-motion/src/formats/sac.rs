@@ -8,10 +8,13 @@ use crate::formats::Format;
 use crate::quantity::Quantity;
 use crate::recording::Series;
 use crate::source::Source;
+use crate::start_times::later;
 use crate::text::latin_1;
 
 const HEADER: usize = 632;
 const VERSION: usize = 76;
+/// Time of the first sample after the reference time (s).
+const BEGIN: usize = 5;
 const UNDEFINED: f32 = -12345.0;
 
 /// The bytes with their order.
@@ -176,23 +179,29 @@ fn values(
     Ok(values)
 }
 
+/// Time of the first sample: the reference time and B (word 6) after it. Empty where the header
+/// leaves a part of the reference out.
+fn start_time(words: &Words<'_>) -> String {
+    let [year, day, hour, minute, second, thousandths] =
+        [70, 71, 72, 73, 74, 75].map(|index| words.integer(index));
+    if [year, day, hour, minute, second, thousandths].contains(&-12345) {
+        return String::new();
+    }
+    let reference =
+        format!("{year} day {day} {hour:02}:{minute:02}:{second:02}.{thousandths:03} UTC");
+    let begin = words.float(BEGIN).unwrap_or(0.0);
+    // In single precision: 0.005, not 0.004999999888.
+    let begin = format!("{}", begin as f32).parse().unwrap_or(begin);
+    later(&reference, begin).unwrap_or_default()
+}
+
 fn fill(words: &Words<'_>, draft: &mut Draft) {
     draft.component = words.text(600);
     draft.title = format!("{} {}", words.text(608), words.text(440))
         .trim()
         .to_owned();
     draft.processing = Processing::Unstated;
-    if words.integer(70) != -12345 {
-        draft.start_time = format!(
-            "{} day {} {:02}:{:02}:{:02}.{:03} UTC",
-            words.integer(70),
-            words.integer(71),
-            words.integer(72),
-            words.integer(73),
-            words.integer(74),
-            words.integer(75)
-        );
-    }
+    draft.start_time = start_time(words);
     let (low, high) = (words.float(1), words.float(2));
     draft.peak = low.zip(high).map(|(low, high)| DraftPeak {
         value: {

@@ -169,7 +169,8 @@ impl Butterworth {
             .remark("Butterworth, zero phase, forward and backward");
         let count = record.samples().len();
         let samples = if keep_pads {
-            samples
+            let padded = record.with_samples(samples, h)?;
+            return Ok((padded.starting_later(-(pad as f64) * h), step));
         } else {
             step = step
                 .remark("the pads were removed: velocity and displacement do not return to zero");

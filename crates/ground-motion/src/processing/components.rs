@@ -41,24 +41,21 @@ pub(crate) fn common_length(
     Ok(count)
 }
 
-/// Refuses components whose files state first samples at different times, as those of instruments
-/// that trigger on their own do. One that was cut or lengthened since starts elsewhere.
+/// Refuses components with first samples at different times, as those of instruments
+/// that trigger on their own do.
 fn starts_together(first: &Accelerogram, second: &Accelerogram) -> Result<(), GroundMotionError> {
-    let moved = |of: &Accelerogram| of.steps().iter().any(|s| matches!(s.step, "trim" | "pad"));
     let (Some(a), Some(b)) = (first.origin(), second.origin()) else {
         return Ok(());
     };
     match start_times::apart(&a.start_time, &b.start_time) {
-        Some(apart) if apart > 0.5 * first.time_step() && !(moved(first) || moved(second)) => {
-            Err(GroundMotionError::NotPossible {
-                step: STEP,
-                reason: format!(
-                    "the components do not start together: their first samples are at {} and {}",
-                    a.start_time, b.start_time
-                ),
-                remedy: "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, and use these files",
-            })
-        }
+        Some(apart) if apart > 0.5 * first.time_step() => Err(GroundMotionError::NotPossible {
+            step: STEP,
+            reason: format!(
+                "the components do not start together: their first samples are at {} and {}",
+                a.start_time, b.start_time
+            ),
+            remedy: "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, and use these files",
+        }),
         _ => Ok(()),
     }
 }

@@ -59,7 +59,8 @@ impl Trim {
         let step = step
             .number("start", first as f64 * h, "s")
             .number("end", last as f64 * h, "s");
-        Ok((record.with_samples(kept, h)?, step))
+        let cut = record.with_samples(kept, h)?;
+        Ok((cut.starting_later(first as f64 * h), step))
     }
 }
 
@@ -104,7 +105,8 @@ pub(crate) fn pad(
         .number("before", counts[0] as f64 * h, "s")
         .number("after", counts[1] as f64 * h, "s");
     let padded = with_zeros(record.samples(), counts[0], counts[1]);
-    Ok((record.with_samples(padded, h)?, step))
+    let padded = record.with_samples(padded, h)?;
+    Ok((padded.starting_later(-(counts[0] as f64) * h), step))
 }
 
 /// Samples with zeros before and after them.

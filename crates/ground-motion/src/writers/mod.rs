@@ -30,6 +30,8 @@ pub struct Written {
     pub component: String,
     /// Velocity (m/s) and displacement (m) at the first sample of an acceleration, if known.
     pub initial: Option<(f64, f64)>,
+    /// Time of the first sample as printed; empty if not known.
+    pub start_time: String,
     /// What the agency did to it, if nothing was done to it since.
     pub processing: Processing,
     /// What else the header says: source, steps of processing.
@@ -57,6 +59,7 @@ impl Written {
             title: origin.map_or(String::new(), |o| o.title.clone()),
             component: origin.map_or(String::new(), |o| o.component.clone()),
             initial: record.initial(),
+            start_time: origin.map_or(String::new(), |o| o.start_time.clone()),
             processing: as_read.map_or(Processing::Unstated, |o| o.processing),
             remarks,
         }
@@ -85,6 +88,7 @@ impl Written {
             title: origin.title.clone(),
             component: series.component.clone(),
             initial: series.initial,
+            start_time: origin.start_time.clone(),
             processing: origin.processing,
             remarks: origin
                 .history

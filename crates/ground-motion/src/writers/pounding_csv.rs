@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use crate::accelerogram::Processing;
 use crate::error::GroundMotionError;
-use crate::formats::pounding_csv::{INITIAL_DISPLACEMENT, INITIAL_VELOCITY};
+use crate::formats::pounding_csv::{INITIAL_DISPLACEMENT, INITIAL_VELOCITY, START_TIME};
 use crate::writers::{Written, acceleration_only, line, number, time};
 
 /// The text of a file in our CSV layout: a comment header that says where the motion
@@ -21,6 +21,9 @@ pub fn write_pounding_csv(series: &Written) -> Result<String, GroundMotionError>
     }
     if !series.component.is_empty() {
         let _ = writeln!(text, "# Component: {}", line(&series.component));
+    }
+    if !series.start_time.is_empty() {
+        let _ = writeln!(text, "# {START_TIME}: {}", line(&series.start_time));
     }
     match series.processing {
         Processing::Raw => text.push_str("# Stage: raw\n"),

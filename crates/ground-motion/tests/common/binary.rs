@@ -294,3 +294,17 @@ pub fn mini_seed() -> Vec<Fixture> {
     }
     all
 }
+
+/// The little-endian SAC file at even steps with other words of its header, counted from 0: numbers,
+/// integers (70 to 109), and the name of the component (eight characters).
+pub fn sac_with(floats: &[(usize, f32)], integers: &[(usize, i32)], component: &str) -> Vec<u8> {
+    let mut bytes = sac(COUNT as i64).remove(0).bytes;
+    for (word, value) in floats {
+        bytes[4 * word..4 * word + 4].copy_from_slice(&value.to_le_bytes());
+    }
+    for (word, value) in integers {
+        bytes[4 * word..4 * word + 4].copy_from_slice(&value.to_le_bytes());
+    }
+    bytes[600..608].copy_from_slice(format!("{component:<8}").as_bytes());
+    bytes
+}

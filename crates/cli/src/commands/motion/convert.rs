@@ -95,6 +95,16 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
     if let Some(warning) = &loses_initial {
         written.remarks.push(format!("Note: {warning}"));
     }
+    let loses_start = (arguments.to != Layout::PoundingCsv && !written.start_time.is_empty())
+        .then(|| {
+            format!(
+                "the time of the first sample, {}, is not written, as the format has no place for it: components in files of their own are then not held against one another; pounding_csv holds it",
+                written.start_time
+            )
+        });
+    if let Some(warning) = &loses_start {
+        written.remarks.push(format!("Note: {warning}"));
+    }
     plot::write(&arguments.output, &text)?;
     if arguments.json {
         return print(&pretty(&Converted {
@@ -121,6 +131,9 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
         text.push_str(&format!("warning: {RAW_IN_COLUMNS}\n"));
     }
     if let Some(warning) = &loses_initial {
+        text.push_str(&format!("warning: {warning}\n"));
+    }
+    if let Some(warning) = &loses_start {
         text.push_str(&format!("warning: {warning}\n"));
     }
     text.push_str(&format!(

@@ -5,29 +5,34 @@ use std::fmt;
 use super::steim;
 use crate::error::GroundMotionError;
 use crate::source::Source;
+use crate::start_times::year_and_day;
 use crate::station_xml::ChannelName;
 use crate::text::latin_1;
 
 const HEADER: usize = 48;
+/// A day (us).
+const DAY: i64 = 86_400_000_000;
 
 /// Start of a record for display.
 pub(super) struct StartText {
-    year: u16,
-    day: u16,
-    second: f64,
+    year: i64,
+    day: i64,
+    /// Microseconds after midnight.
+    micro: i64,
 }
 
 impl fmt::Display for StartText {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let whole = self.second as u64;
+        let (whole, fraction) = (self.micro / 1_000_000, self.micro % 1_000_000);
         write!(
             f,
-            "{} day {} {:02}:{:02}:{:07.4} UTC",
+            "{} day {} {:02}:{:02}:{:02}.{:04} UTC",
             self.year,
             self.day,
             whole / 3600,
             whole / 60 % 60,
-            self.second % 60.0
+            whole % 60,
+            fraction / 100
         )
     }
 }
@@ -317,12 +322,15 @@ fn start(numbers: &Numbers<'_>, bytes: &[u8]) -> (i64, StartText) {
         i64::from(numbers.word(40) as i32) * 100
     };
     let micro = clock * 1_000_000 + fraction + correction;
+    // A correction may lead across midnight, either way.
+    let (other, within) = (micro.div_euclid(DAY), micro.rem_euclid(DAY));
+    let (year, day) = year_and_day(i64::from(year), i64::from(day) + other);
     (
-        days * 86_400_000_000 + micro,
+        days * DAY + micro,
         StartText {
             year,
             day,
-            second: (micro as f64 * 1.0e-6).max(0.0),
+            micro: within,
         },
     )
 }

@@ -307,6 +307,45 @@ fn variables_within_one_another_are_refused() {
 
 /// Scaled to a measure, a record has it; and the isolated demand grows in proportion, for
 /// the buildings are elastic.
+/// Which periods an intensity takes: its title and their number.
+#[test]
+fn intensities_say_their_periods() {
+    let folder = tempfile::tempdir().unwrap();
+    let title = |intensity: &str| {
+        let text = format!(
+            "[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = {intensity}\nvalues = [2, 4]\n"
+        );
+        let study = study(folder.path(), &text).map_err(|e| format!("{e}"));
+        study.map(|study| study.variables[1].long_name.clone())
+    };
+    for (intensity, expected) in [
+        (
+            "\"spectral_acceleration\"\nperiod = \"1 s\"",
+            "Sa(1.0000 s), 5 % damping",
+        ),
+        (
+            "\"spectral_acceleration\"\nperiod = [0.5, 1]",
+            "geometric mean of Sa(0.5000 s) and Sa(1.0000 s), 5 % damping",
+        ),
+        (
+            "\"spectral_acceleration\"\nperiod = [0.5, 0.2, 1]",
+            "geometric mean of Sa at 3 periods from 0.2000 to 1.0000 s, 5 % damping",
+        ),
+        (
+            "\"average_spectral_acceleration\"\nperiod = \"1 s\"",
+            "average Sa over 30 periods from 0.2000 to 3.0000 s, 5 % damping",
+        ),
+        (
+            "\"average_spectral_acceleration\"\nperiod = [\"1 s\"]",
+            "average Sa over 30 periods from 0.2000 to 3.0000 s, 5 % damping",
+        ),
+    ] {
+        assert_eq!(title(intensity).unwrap(), expected);
+    }
+    let refused = title("\"average_spectral_acceleration\"\nperiod = [0.5, 1]").unwrap_err();
+    assert!(refused.contains("not over a list"), "{refused}");
+}
+
 #[test]
 fn intensities_are_reached() {
     let folder = tempfile::tempdir().unwrap();

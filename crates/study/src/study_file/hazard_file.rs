@@ -294,7 +294,8 @@ impl Table<'_> {
         let own: &[&str] = match self.measure {
             IntensityMeasure::PeakGroundAcceleration => &GROUND_ACCELERATION,
             IntensityMeasure::PeakGroundVelocity => &GROUND_VELOCITY,
-            IntensityMeasure::SpectralAcceleration { .. } => &SPECTRAL,
+            IntensityMeasure::SpectralAcceleration { .. }
+            | IntensityMeasure::AverageSpectralAcceleration { .. } => &SPECTRAL,
         };
         ANY_INTENSITY.iter().chain(own).copied()
     }

@@ -24,10 +24,17 @@ pub enum IntensityMeasure {
     /// Maximum ground velocity (m/s), from rest, exact for an acceleration that is linear
     /// between samples.
     PeakGroundVelocity,
-    /// Geometric mean of pseudo-spectral accelerations (m/s2) over some periods: one
-    /// period is Sa(T); those of two buildings are their geometric mean; a band is the
-    /// average Sa of Eads, Miranda and Lignos (2015), Earthq. Eng. Struct. Dyn. 44, 2057.
+    /// Geometric mean of pseudo-spectral accelerations (m/s2) at some periods: one
+    /// period is Sa(T), those of several buildings are their geometric mean.
     SpectralAcceleration {
+        /// Periods (s).
+        periods: Vec<f64>,
+        /// Damping ratio (-).
+        damping: f64,
+    },
+    /// The same over a band, 30 periods from 0.2 to 3 times one, the average Sa of Eads,
+    /// Miranda and Lignos (2015), Earthq. Eng. Struct. Dyn. 44, 2057.
+    AverageSpectralAcceleration {
         /// Periods (s).
         periods: Vec<f64>,
         /// Damping ratio (-).
@@ -53,7 +60,8 @@ impl IntensityMeasure {
                     .peak_velocity(evaluation)
                     .value
             }
-            Self::SpectralAcceleration { periods, damping } => {
+            Self::SpectralAcceleration { periods, damping }
+            | Self::AverageSpectralAcceleration { periods, damping } => {
                 let spectrum = response_spectrum(record, periods, *damping, evaluation)?;
                 let values = &spectrum.pseudo_acceleration;
                 let sum: f64 = values.iter().map(|a| a.ln()).sum();
@@ -69,17 +77,15 @@ impl IntensityMeasure {
             Self::PeakGroundAcceleration => "peak ground acceleration".to_owned(),
             Self::PeakGroundVelocity => "peak ground velocity".to_owned(),
             Self::SpectralAcceleration { periods, damping } => {
-                let part = format!("{} % damping", damping * 100.0);
-                match periods.as_slice() {
-                    [one] => format!("Sa({one:.4} s), {part}"),
-                    [a, b] => format!("geometric mean of Sa({a:.4} s) and Sa({b:.4} s), {part}"),
-                    many => format!(
-                        "average Sa over {} periods from {:.4} to {:.4} s, {part}",
-                        many.len(),
-                        many.iter().copied().fold(f64::INFINITY, f64::min),
-                        many.iter().copied().fold(0.0, f64::max)
-                    ),
-                }
+                let sa = match periods.as_slice() {
+                    [one] => format!("Sa({one:.4} s)"),
+                    [a, b] => format!("geometric mean of Sa({a:.4} s) and Sa({b:.4} s)"),
+                    many => format!("geometric mean of Sa at {}", from_to(many)),
+                };
+                format!("{sa}, {}", damped(*damping))
+            }
+            Self::AverageSpectralAcceleration { periods, damping } => {
+                format!("average Sa over {}, {}", from_to(periods), damped(*damping))
             }
         }
     }
@@ -92,6 +98,19 @@ impl IntensityMeasure {
             _ => Dimension::ACCELERATION,
         }
     }
+}
+
+fn from_to(periods: &[f64]) -> String {
+    format!(
+        "{} periods from {:.4} to {:.4} s",
+        periods.len(),
+        periods.iter().copied().fold(f64::INFINITY, f64::min),
+        periods.iter().copied().fold(0.0, f64::max)
+    )
+}
+
+fn damped(damping: f64) -> String {
+    format!("{} % damping", damping * 100.0)
 }
 
 /// Intensity measure
@@ -157,14 +176,24 @@ impl IntensityKeys {
             }
             return Some(of_ground);
         }
+        let averages = measure
+            .as_ref()
+            .is_some_and(|m| m.value == Measure::AverageSpectralAcceleration);
+        let listed = self.period.span();
         let damping = self.damping.number_or(0.05);
         let periods = periods(reader, self.building, self.period, context)?;
-        Some(IntensityMeasure::SpectralAcceleration {
-            periods: match measure?.value {
-                Measure::AverageSpectralAcceleration => band(&periods),
-                _ => periods,
+        if let Some(place) = listed.filter(|_| averages && periods.len() > 1) {
+            let message = "`period` of average_spectral_acceleration is one: the average is over 30 periods from 0.2 to 3 times it, not over a list";
+            let help = "give one period, or take intensity = \"spectral_acceleration\" for the geometric mean over these periods";
+            return reader.refuse(place, message, help);
+        }
+        let damping = damping?;
+        measure.map(|_| match averages {
+            true => IntensityMeasure::AverageSpectralAcceleration {
+                periods: band(&periods),
+                damping,
             },
-            damping: damping?,
+            false => IntensityMeasure::SpectralAcceleration { periods, damping },
         })
     }
 }

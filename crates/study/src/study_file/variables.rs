@@ -37,11 +37,13 @@ table_with_range! {
         pub records: Optional<List<Record>>,
         /// Synthetic motions
         pub synthetic: Optional<SyntheticTable>,
-        /// Measure of the intensity to which the records are scaled
+        /// Measure of the intensity to which the records are scaled; average_spectral_acceleration is over 30
+        /// periods from 0.2 to 3 times one, for several buildings the geometric mean of their first periods
         intensity: Optional<Measure>,
         /// Buildings whose first periods a spectral acceleration is taken at, by default all
         building: Optional<OneOrEach<Located<String>>>,
-        /// Periods (s) that a spectral acceleration is taken at
+        /// Periods (s) that a spectral acceleration is taken at, or the one that a band of
+        /// average_spectral_acceleration is around
         period: Optional<OneOrEach<Positive<Time>>>,
         /// Damping ratio of a spectral acceleration, by default 0.05
         damping: Optional<Amount<Number, BelowOne>>,

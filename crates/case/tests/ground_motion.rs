@@ -180,7 +180,7 @@ fn scales() {
     let band = scale("{ target = \"s.csv\", from = \"0.2 s\", to = \"2 s\", damping = \"2 %\" }");
     assert!(matches!(
         band.unwrap(),
-        Scale::Band(BandSource { spectrum: SpectrumSource::File(target), from: Some(0.2), to: Some(2.0) })
+        Scale::Band(BandSource { spectrum: SpectrumSource::File(target), from: Some(0.2), to: Some(2.0), times: 1.0 })
             if target.file.value == Path::new("s.csv") && target.damping == 0.02
     ));
     let of_code = |text: &str| match scale(text).unwrap() {
@@ -188,6 +188,7 @@ fn scales() {
             spectrum: SpectrumSource::Code(code),
             from,
             to,
+            times: 1.0,
         }) => (code.value, from, to),
         other => panic!("{other:?}"),
     };

@@ -177,8 +177,7 @@ fn under(case: &PyCase, motions: &[(String, Record)]) -> Result<Vec<CaseUnderRec
     for (name, record) in motions {
         match record {
             Record::Path(path) => {
-                let mut read =
-                    under_records(&case.case, std::slice::from_ref(path)).map_err(of)?;
+                let mut read = under_records(&case.case, std::slice::from_ref(path)).map_err(of)?;
                 // A folder has the names of its files.
                 if let ([one], false) = (read.as_mut_slice(), name.is_empty()) {
                     one.name.clone_from(name);

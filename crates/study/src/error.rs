@@ -227,6 +227,7 @@ impl StudyError {
             Self::Several { errors } => return errors.first().and_then(Self::help),
             Self::Base(error) => return error.help(),
             Self::GroundMotion(error) => return error.help(),
+            Self::Records { count, of, .. } if count == of => "correct the paths or the files",
             Self::Records { .. } => {
                 "correct the paths or the files; with --keep-going their runs are recorded as failed and all others are computed"
             }

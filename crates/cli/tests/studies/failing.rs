@@ -119,6 +119,34 @@ fn an_unreadable_record_is_told_before_anything_is_run() {
     );
 }
 
+/// Without any record no run succeeds; asked to keep going, that is the result.
+#[test]
+fn all_records_unreadable_are_a_result_of_failures() {
+    let variable =
+        "[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.1 g\", \"0.2 g\"]\n";
+    for (command, more) in [("sweep", ""), ("ida", "[ida]\n")] {
+        let study = format!(
+            "case = \"case.toml\"\n[[variable]]\nrecords = [\"a.csv\", \"b.csv\"]\n{variable}{more}"
+        );
+        let bench = Bench::new(&study);
+        for name in ["a.csv", "b.csv"] {
+            std::fs::write(bench.path(name), "time_s,acceleration_g\n0.00,zero\n").unwrap();
+        }
+        let call = format!("{command} study.toml -o out.h5");
+        let told = bench.complaint(&call, 2);
+        assert!(told.contains("2 of the 2 records cannot be read"), "{told}");
+        assert!(!told.contains("--keep-going"), "{told}");
+        // Not readable, then not there.
+        for _ in 0..2 {
+            let told = bench.complaint(&format!("{call} --keep-going"), 3);
+            assert!(told.contains("all 4 runs failed; run 0: "), "{told}");
+            assert!(bench.path("out.h5").exists());
+            std::fs::remove_file(bench.path("out.h5")).unwrap();
+            let _ = std::fs::remove_file(bench.path("a.csv"));
+        }
+    }
+}
+
 /// Files that are not there are said at the names that the study gives them, before any run and
 /// together with what else is wrong in it.
 #[test]

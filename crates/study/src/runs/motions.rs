@@ -108,7 +108,7 @@ impl Motions {
         let failed: Vec<_> = pairs
             .filter_map(|(m, s)| Some((m.as_ref().err()?, s)))
             .collect();
-        if failed.is_empty() || (keep_failures && failed.len() < self.all.len()) {
+        if failed.is_empty() || keep_failures {
             return Ok(());
         }
         // Those that are not there at the places that name them.

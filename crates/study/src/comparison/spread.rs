@@ -5,8 +5,11 @@
 pub struct Spread {
     /// Standard deviation over mean between models, root mean square over records (-).
     pub between_models: f64,
-    /// The same between records, root mean square over models (-); NaN with one record.
+    /// The same between records, root mean square over models (-); NaN with one record. A model
+    /// whose values are all zero beside those of others, or zero but for round-off, has none.
     pub between_records: f64,
+    /// Models left out of the spread between records since theirs are zero.
+    pub models_of_zero: usize,
     /// Maximum over minimum between models, of the record where that is a maximum
     /// (-); NaN where a smallest value is zero, or zero but for round-off.
     pub greatest_ratio: f64,
@@ -67,16 +70,10 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
     let finite = |row: &Vec<f64>| row.iter().copied().filter(|x| x.is_finite()).collect();
     let rows: Vec<Vec<f64>> = values.iter().map(finite).collect();
     let most = rows.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-    // A model whose values are round-off beside those of the others has none.
-    let rows: Vec<Vec<f64>> = rows
-        .into_iter()
-        .map(
-            |row| match row.iter().all(|x| x.abs() <= ROUND_OFF * most) {
-                true => vec![0.0; row.len()],
-                false => row,
-            },
-        )
-        .collect();
+    let zero = |row: &Vec<f64>| {
+        most > 0.0 && !row.is_empty() && row.iter().all(|x| x.abs() <= ROUND_OFF * most)
+    };
+    let (zeros, rows): (Vec<Vec<f64>>, Vec<Vec<f64>>) = rows.into_iter().partition(zero);
     let ratio = |column: &Vec<f64>| {
         let low = column.iter().copied().fold(f64::INFINITY, f64::min);
         let high = column.iter().copied().fold(0.0, f64::max);
@@ -87,6 +84,7 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
         records: columns.iter().filter(|c| !c.is_empty()).count(),
         between_models: root_mean_square(columns.iter().filter_map(|c| variation(c))),
         between_records: root_mean_square(rows.iter().filter_map(|r| variation(r))),
+        models_of_zero: zeros.len(),
         greatest_ratio: columns.iter().filter_map(ratio).fold(f64::NAN, f64::max),
     }
 }
@@ -181,15 +179,27 @@ mod tests {
         );
     }
 
-    /// Nor has it a spread between records: that is of the other model alone, as if zeros stood
-    /// there.
+    /// Nor has it a spread between records: that is of the other models alone, and how many are
+    /// left out is counted. Where all are zero nothing varies.
     #[test]
     fn no_spread_of_round_off() {
-        let other = vec![4.0e3, 5.0e3];
-        let found = spread(&[vec![1.0e-12, -7.0e-12], other.clone()]);
-        let zeros = spread(&[vec![0.0, 0.0], other]);
-        assert_eq!(found.between_records, zeros.between_records);
-        assert!(found.between_records < 0.2);
+        let others = [vec![4.0e3, 5.0e3], vec![2.0e3, 3.0e3]];
+        let alone = spread(&others);
+        assert_eq!(alone.models_of_zero, 0);
+        for zero in [
+            vec![1.0e-12, -7.0e-12],
+            vec![0.0, 0.0],
+            vec![3.0e-6, 1.0e-6],
+        ] {
+            let found = spread(&[&[zero][..], &others[..]].concat());
+            assert_eq!(found.between_records, alone.between_records);
+            assert_eq!(found.models_of_zero, 1);
+        }
+        let none = spread(&[vec![0.0, 0.0], vec![0.0, 0.0]]);
+        assert_eq!((none.between_records, none.models_of_zero), (0.0, 0));
+        // Small in one record alone is a value.
+        let some = spread(&[vec![1.0e-12, 1.0], vec![1.0, 1.0]]);
+        assert_eq!(some.models_of_zero, 0);
     }
 
     #[test]

@@ -258,6 +258,8 @@ struct Quantity<'c> {
 struct Spread {
     between_models: f64,
     between_records: f64,
+    /// Models left out of the spread between records, since the quantity is zero in all.
+    models_of_zero: usize,
     greatest_ratio: f64,
     records: usize,
     records_left_out: usize,
@@ -286,6 +288,7 @@ impl<'c> Quantity<'c> {
             spread: Spread {
                 between_models: spread.between_models,
                 between_records: spread.between_records,
+                models_of_zero: spread.models_of_zero,
                 greatest_ratio: spread.greatest_ratio,
                 records: spread.records,
                 records_left_out: c.records.len() - spread.records,

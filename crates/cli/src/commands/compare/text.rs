@@ -202,9 +202,26 @@ fn spreads(c: &Comparison) -> String {
         ]);
     }
     format!(
-        "\nSpread, standard deviation over mean, over the records with a value\n{table}\n{}",
+        "\nSpread, standard deviation over mean, over the records with a value\n{table}\n{}{}",
+        of_zero(c),
         without_contact(c)
     )
+}
+
+/// Quantities that some models have not, such as the impact energy of elastic ones.
+fn of_zero(c: &Comparison) -> String {
+    let mut text = String::new();
+    for (q, s) in c.quantities.iter().zip(&c.spreads) {
+        if s.models_of_zero > 0 && !s.between_records.is_nan() {
+            text.push_str(&format!(
+                "{}: zero with {} of {}, left out of the spread between records\n",
+                q.label().replace('_', " "),
+                s.models_of_zero,
+                counted(c.complete().len(), "model"),
+            ));
+        }
+    }
+    text
 }
 
 /// Records under which some or all models leave a gap open.

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
+use crate::direction::Orientation;
 use crate::error::{GroundMotionError, bound};
 use crate::recording::unusual_step;
 use crate::start_times::later;
@@ -48,6 +49,8 @@ pub struct Origin {
     pub mean_removed: bool,
     /// Time of the first sample as printed, with its zone; empty if not stated.
     pub start_time: String,
+    /// Where its positive values point, where header or metadata say it in degrees.
+    pub orientation: Option<Orientation>,
     /// Corner frequency (Hz) of the low-cut filter.
     pub low_corner: Option<f64>,
     /// Corner frequency (Hz) of the high-cut filter.
@@ -214,6 +217,14 @@ impl Accelerogram {
     pub(crate) fn starting_later(mut self, by: f64) -> Self {
         if let Some(origin) = &mut self.origin {
             origin.start_later(by);
+        }
+        self
+    }
+
+    /// The same record with positive values in another direction; `None`: not known.
+    pub(crate) fn pointing(mut self, orientation: Option<Orientation>) -> Self {
+        if let Some(origin) = &mut self.origin {
+            origin.orientation = orientation;
         }
         self
     }

@@ -11,6 +11,72 @@ pub(crate) enum Direction {
     Down,
 }
 
+/// Where the positive values of a component point, as header or metadata state it.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Orientation {
+    /// Azimuth (degrees), from north over east.
+    pub azimuth: f64,
+    /// Dip (degrees), below the horizontal: -90 is upwards.
+    pub dip: f64,
+}
+
+impl Orientation {
+    /// Of angles (degrees) that can be those of a component.
+    pub(crate) fn of(azimuth: f64, dip: f64) -> Option<Self> {
+        let inside = (-360.0..=360.0).contains(&azimuth) && (-90.0..=90.0).contains(&dip);
+        inside.then_some(Self { azimuth, dip })
+    }
+
+    /// The other way.
+    pub(crate) fn reversed(self) -> Self {
+        Self {
+            azimuth: (self.azimuth + 180.0).rem_euclid(360.0),
+            dip: 0.0 - self.dip,
+        }
+    }
+
+    /// The direction; what is not horizontal counts as vertical.
+    pub(crate) fn direction(self) -> Direction {
+        if self.dip.abs() <= OFF_NAME {
+            Direction::Azimuth(self.azimuth.rem_euclid(360.0))
+        } else if self.dip < 0.0 {
+            Direction::Up
+        } else {
+            Direction::Down
+        }
+    }
+
+    /// What is to be said where a component's name says another direction.
+    pub(crate) fn against_name(self, name: &str) -> Option<String> {
+        let named = Direction::of_name(name)?;
+        let stated = self.direction();
+        let opposite = match (named, stated) {
+            (Direction::Azimuth(a), Direction::Azimuth(b)) => {
+                let apart = (a - b).rem_euclid(360.0);
+                if apart.min(360.0 - apart) <= OFF_NAME {
+                    return None;
+                }
+                (apart - 180.0).abs() <= OFF_NAME
+            }
+            (Direction::Azimuth(_), _) | (_, Direction::Azimuth(_)) => false,
+            (a, b) if a == b => return None,
+            _ => true,
+        };
+        let what = if opposite {
+            "points the other way than its name says: its samples are used as they stand, with reversed sign against the name"
+        } else {
+            "points elsewhere than its name says: it is taken to point there"
+        };
+        Some(format!(
+            "component {name} has azimuth {} and dip {} degrees, and {what}",
+            self.azimuth, self.dip
+        ))
+    }
+}
+
+/// Degrees by which a component may miss the direction of its code (SEED manual, appendix A).
+const OFF_NAME: f64 = 5.0;
+
 /// Degrees within which two azimuths are the same.
 const SAME: f64 = 0.01;
 
@@ -43,6 +109,59 @@ impl Direction {
                 let rest = plain.strip_prefix(['L', 'T', 'H', 'R'])?;
                 Self::of_degrees(rest)
             })
+    }
+
+    /// The direction that a component's name says, also by its code (`HNE`: SEED manual, appendix
+    /// A) or number (`NS2` of KiK-net). `H1` and `2` are numbers of components.
+    pub(crate) fn of_name(name: &str) -> Option<Self> {
+        let name = name.split('(').next()?.trim();
+        // `10.HNE`: the code of a location goes before.
+        let name = match name.rsplit_once('.') {
+            Some((_, code)) if Self::of_code(code).is_some() => code,
+            _ => name,
+        };
+        if let Some((direction, _)) = Self::of_borehole(name) {
+            return Some(direction);
+        }
+        let number = name.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+        if matches!(number.trim(), "1" | "2" | "3") {
+            return None;
+        }
+        Self::of_code(name).or_else(|| Self::parse(name))
+    }
+
+    /// Third letter of a code of band, instrument and direction.
+    fn of_code(name: &str) -> Option<Self> {
+        let upper = name.to_ascii_uppercase();
+        let [band, instrument, direction] = upper.as_bytes() else {
+            return None;
+        };
+        if !(band.is_ascii_uppercase() && b"HLGMN".contains(instrument)) {
+            return None;
+        }
+        match direction {
+            b'N' => Some(Self::Azimuth(0.0)),
+            b'E' => Some(Self::Azimuth(90.0)),
+            b'Z' => Some(Self::Up),
+            _ => None,
+        }
+    }
+
+    /// Direction and number of the instrument of `NS1` (in the borehole) or `UD2` (at the surface).
+    pub(crate) fn of_borehole(name: &str) -> Option<(Self, u8)> {
+        let (direction, instrument) = name.trim().split_at_checked(2)?;
+        let instrument = match instrument {
+            "1" => 1,
+            "2" => 2,
+            _ => return None,
+        };
+        let direction = match direction.to_ascii_uppercase().as_str() {
+            "NS" => Self::Azimuth(0.0),
+            "EW" => Self::Azimuth(90.0),
+            "UD" => Self::Up,
+            _ => return None,
+        };
+        Some((direction, instrument))
     }
 
     fn of_degrees(text: &str) -> Option<Self> {

@@ -1,6 +1,7 @@
 //! From what a reader found to a series in SI, held against the header.
 
 use crate::accelerogram::{Origin, Processing};
+use crate::direction::Orientation;
 use crate::error::{GroundMotionError, bound};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::{HeaderPeak, Sampling, Series, unusual_step};
@@ -133,6 +134,7 @@ pub(crate) struct Draft {
     pub processing: Processing,
     pub title: String,
     pub start_time: String,
+    pub orientation: Option<Orientation>,
     /// Low and high corner frequency (Hz).
     pub corners: (Option<f64>, Option<f64>),
     pub warnings: Vec<String>,
@@ -166,6 +168,7 @@ impl Draft {
             processing: Processing::Unstated,
             title: String::new(),
             start_time: String::new(),
+            orientation: None,
             corners: (None, None),
             warnings: Vec::new(),
             lines,
@@ -181,6 +184,9 @@ impl Draft {
         self.count(source)?;
         self.samples.shrink_to_fit();
         self.missing();
+        let name = &self.component;
+        let other = self.orientation.and_then(|o| o.against_name(name));
+        self.warnings.extend(other);
         let (factor, quantity, symbol, unit_text) = self.unit(source)?;
         self.agrees_in_words(source, quantity, symbol)?;
         // Counts are of no unit: they stand for values in one.
@@ -221,6 +227,7 @@ impl Draft {
                 header_count: self.header_count,
                 processing: self.processing,
                 start_time: std::mem::take(&mut self.start_time),
+                orientation: self.orientation,
                 low_corner: self.corners.0,
                 high_corner: self.corners.1,
                 ..Origin::default()

@@ -41,11 +41,12 @@ mod volume_1;
 mod volume_2;
 
 pub use accelerogram::{Accelerogram, Origin, Peak, Processing};
+pub use direction::Orientation;
 pub use error::GroundMotionError;
 pub use formats::{Format, read, read_all, read_all_bytes, read_bytes};
 pub use options::{Offset, ReadOptions};
 pub use quantity::Quantity;
-pub use recording::{HeaderPeak, Recording, Sampling, Series};
+pub use recording::{HeaderPeak, Recording, Sampling, Series, WithoutSensitivity};
 pub use station_xml::{ResponseFile, responses_beside};
 pub use step_record::{StepNumber, StepRecord};
 pub use unit::AccelerationUnit;

@@ -160,6 +160,17 @@ impl Series {
 pub struct Recording {
     /// Series in the order of the file; at least one.
     pub series: Vec<Series>,
+    /// Channels of counts that were passed over, as nothing says how many make a unit.
+    pub without: Vec<WithoutSensitivity>,
+}
+
+/// A channel of counts that cannot be read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct WithoutSensitivity {
+    /// Component as the file names it.
+    pub component: String,
+    /// Why its sensitivity is not known.
+    pub reason: String,
 }
 
 #[cfg(test)]

@@ -1,11 +1,11 @@
 //! The series that excites the buildings.
 
 use crate::accelerogram::{Accelerogram, Processing};
-use crate::direction::Direction;
+use crate::direction::{Direction, Orientation};
 use crate::error::GroundMotionError;
 use crate::options::{Offset, ReadOptions};
 use crate::quantity::Quantity;
-use crate::recording::{Recording, Sampling, Series};
+use crate::recording::{Recording, Sampling, Series, WithoutSensitivity};
 use crate::unit::AccelerationUnit;
 
 /// Ratio of mean to peak from which a mean that is kept is named.
@@ -36,7 +36,7 @@ pub(crate) fn excitation(
     if possible.is_empty() {
         return Err(not(other));
     }
-    let series = choose(file, possible, options)?;
+    let series = choose(file, possible, &recording.without, options)?;
     ready(file, series, options)
 }
 
@@ -65,7 +65,7 @@ impl Recording {
                 available: self.series.iter().map(Series::label).collect(),
             });
         }
-        choose(&file, possible, options)
+        choose(&file, possible, &self.without, options)
     }
 }
 
@@ -89,13 +89,43 @@ impl Series {
 fn choose(
     file: &str,
     possible: Vec<Series>,
+    without: &[WithoutSensitivity],
     options: &ReadOptions,
 ) -> Result<Series, GroundMotionError> {
+    let passed_over = || {
+        let shown =
+            |other: &WithoutSensitivity| format!("{} (without sensitivity)", other.component);
+        without.iter().map(shown)
+    };
     let labels = |of: &[Series]| of.iter().map(Series::label).collect::<Vec<_>>();
     let mut chosen = match &options.component {
-        None => possible,
+        None if without.is_empty() => possible,
+        None => {
+            return Err(GroundMotionError::AmbiguousSeries {
+                file: file.to_owned(),
+                line: None,
+                available: labels(&possible).into_iter().chain(passed_over()).collect(),
+            });
+        }
         Some(wanted) => {
             let available = labels(&possible);
+            let is_it = |other: &&WithoutSensitivity| {
+                let name = other.component.as_str();
+                let code = name.rsplit_once('.').map_or(name, |(_, code)| code);
+                [name, code]
+                    .iter()
+                    .any(|n| n.eq_ignore_ascii_case(wanted.trim()))
+            };
+            if let Some(other) = without.iter().find(is_it) {
+                return Err(GroundMotionError::Unsupported {
+                    file: file.to_owned(),
+                    what: format!(
+                        "the sensitivity of component {} is not known: {}",
+                        other.component, other.reason
+                    ),
+                    remedy: "give the StationXML that has the channel by `response` (`--response` with `pounding motion`), or choose another component",
+                });
+            }
             let chosen = named(possible, wanted);
             if chosen.is_empty() {
                 return Err(GroundMotionError::NoSuchSeries {
@@ -126,6 +156,11 @@ fn choose(
 fn named(possible: Vec<Series>, wanted: &str) -> Vec<Series> {
     let wanted = wanted.trim();
     let full = |s: &Series| s.component.eq_ignore_ascii_case(wanted);
+    // `HNE` of `10.HNE`, behind the code of a location.
+    let code = |s: &Series| {
+        let behind = s.component.rsplit_once('.').map(|(_, code)| code);
+        behind.is_some_and(|c| c.len() == 3 && c.eq_ignore_ascii_case(wanted))
+    };
     let first = |s: &Series| {
         s.component
             .split_whitespace()
@@ -140,11 +175,13 @@ fn named(possible: Vec<Series>, wanted: &str) -> Vec<Series> {
     };
     let direction = Direction::parse(wanted);
     let points_there = |s: &Series| {
-        let own = Direction::parse(&s.component);
+        let stated = s.origin.orientation.map(Orientation::direction);
+        let own = stated.or_else(|| Direction::parse(&s.component));
         own.zip(direction)
             .is_some_and(|(own, wanted)| own.is(wanted))
     };
-    let tests: [&dyn Fn(&Series) -> bool; 5] = [&full, &first, &channel, &word, &points_there];
+    let tests: [&dyn Fn(&Series) -> bool; 6] =
+        [&full, &code, &first, &channel, &word, &points_there];
     let Some(test) = tests.into_iter().find(|t| possible.iter().any(t)) else {
         return Vec::new();
     };

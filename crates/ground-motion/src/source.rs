@@ -7,6 +7,7 @@ use crate::error::GroundMotionError;
 use crate::fortran::Layout;
 use crate::number::{self, Bare};
 use crate::options::ReadOptions;
+use crate::recording::WithoutSensitivity;
 use crate::text::{Line, Lines};
 
 /// Values that show how a file writes its values.
@@ -29,6 +30,8 @@ pub(crate) struct Source<'a> {
     pub path: Option<&'a Path>,
     /// What holds for the whole file.
     warnings: RefCell<Vec<String>>,
+    /// Channels that were passed over.
+    without: RefCell<Vec<WithoutSensitivity>>,
     /// Series finished so far.
     series: Cell<usize>,
     /// What the user said that was of use.
@@ -57,6 +60,7 @@ impl<'a> Source<'a> {
             options,
             path,
             warnings: RefCell::default(),
+            without: RefCell::default(),
             series: Cell::default(),
             used: Cell::default(),
         }
@@ -114,6 +118,15 @@ impl<'a> Source<'a> {
         if !warnings.iter().any(|w| w == text) {
             warnings.push(text.to_owned());
         }
+    }
+
+    /// Notes a channel that was passed over.
+    pub(crate) fn is_without(&self, channel: WithoutSensitivity) {
+        self.without.borrow_mut().push(channel);
+    }
+
+    pub(crate) fn without(&self) -> Vec<WithoutSensitivity> {
+        self.without.borrow().clone()
     }
 
     pub(crate) fn warnings(&self) -> Vec<String> {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use roxmltree::{Document, Node, ParsingOptions};
 use sha2::{Digest, Sha256};
 
+use crate::direction::Orientation;
 use crate::error::GroundMotionError;
 use crate::quantity::SeriesUnit;
 use crate::start_times::days_after_1900;
@@ -54,6 +55,8 @@ pub(crate) struct Sensitivity {
     pub unit: SeriesUnit,
     /// Frequency (Hz) for which it holds.
     pub frequency: Option<f64>,
+    /// Where its positive values point.
+    pub orientation: Option<Orientation>,
     /// Name of the file, and SHA-256 of its bytes.
     pub file: String,
     pub sha256: String,
@@ -167,14 +170,14 @@ impl Responses {
     /// The sensitivity of a channel. `Err` of the inner result says why there is none.
     ///
     /// # Errors
-    /// Files that contradict one another, and all that is wrong with a file that the user names.
+    /// Files that contradict one another.
     pub(crate) fn of(
         &self,
         record: &str,
         name: &ChannelName,
-    ) -> Result<Result<Sensitivity, String>, GroundMotionError> {
+    ) -> Result<Result<Sensitivity, GroundMotionError>, GroundMotionError> {
         let (files, wrong) = match self {
-            Self::Given(file) => return Ok(Ok(file.sensitivity(name)?)),
+            Self::Given(file) => return Ok(file.sensitivity(name)),
             Self::Beside(files, wrong) => (files, wrong),
         };
         let mut found: Option<Sensitivity> = None;
@@ -204,9 +207,15 @@ impl Responses {
                 (Ok(_), Some(_)) => {}
             }
         }
-        Ok(found.ok_or_else(|| match reasons.is_empty() {
-            true => "no StationXML lies beside it".to_owned(),
-            false => reasons.join("; "),
+        Ok(found.ok_or_else(|| {
+            let reason = match reasons.is_empty() {
+                true => "no StationXML lies beside it".to_owned(),
+                false => reasons.join("; "),
+            };
+            GroundMotionError::MissingSensitivity {
+                file: record.to_owned(),
+                searched: format!(": {reason}"),
+            }
         }))
     }
 }
@@ -342,7 +351,8 @@ impl StationFile {
             );
             self.refused(at, message, "use a channel that records the motion of the ground, or give `sensitivity`")
         })?;
-        if !output.to_ascii_lowercase().starts_with("count") {
+        // `count/V` is the digitizer's alone.
+        if !["count", "counts"].contains(&output.to_ascii_lowercase().as_str()) {
             let message = format!(
                 "the sensitivity of {} gives \"{output}\", not counts",
                 name.label()
@@ -354,6 +364,9 @@ impl StationFile {
             value,
             unit,
             frequency,
+            orientation: number(channel, "Azimuth")
+                .zip(number(channel, "Dip"))
+                .and_then(|(azimuth, dip)| Orientation::of(azimuth, dip)),
             file: self.file.clone(),
             sha256: self.sha256.clone(),
             warnings: self.doubts(channel, name, value, frequency),
@@ -370,12 +383,20 @@ impl StationFile {
     ) -> Vec<String> {
         let mut doubts = Vec::new();
         let gains = stage_gains(channel);
-        let product: f64 = gains.iter().product();
-        if !gains.is_empty() && !((product / value).abs() - 1.0).abs().le(&GAIN_TOLERANCE) {
+        let product: f64 = gains.iter().map(|(gain, _)| gain).product();
+        let ratio = product / value;
+        let message = format!(
+            "{}: the sensitivity of {} is {value}{}, the gains of its stages make {product}{}",
+            self.file,
+            name.label(),
+            frequency.map_or(String::new(), |f| format!(" at {f} Hz")),
+            at_frequencies(&gains)
+        );
+        if !gains.is_empty() && !(ratio.abs() - 1.0).abs().le(&GAIN_TOLERANCE) {
+            doubts.push(message);
+        } else if !gains.is_empty() && ratio < 0.0 {
             doubts.push(format!(
-                "{}: the sensitivity of {} is {value}, the gains of its stages make {product}",
-                self.file,
-                name.label()
+                "{message}: their signs are opposite, and that of the sensitivity is used"
             ));
         }
         let rate = number(channel, "SampleRate").filter(|rate| *rate > 0.0);
@@ -422,8 +443,8 @@ impl StationFile {
     }
 }
 
-/// Gains of the stages, if they all hold at one frequency; a digital stage's may hold at zero.
-fn stage_gains(channel: &Node<'_, '_>) -> Vec<f64> {
+/// Gains of the stages with the frequencies (Hz) at which they hold; none where one is no number.
+fn stage_gains(channel: &Node<'_, '_>) -> Vec<(f64, f64)> {
     let Some(response) = child(channel, "Response") else {
         return Vec::new();
     };
@@ -439,13 +460,19 @@ fn stage_gains(channel: &Node<'_, '_>) -> Vec<f64> {
             ))
         })
         .collect();
-    let pairs = pairs.unwrap_or_default();
-    let mut held: Vec<f64> = pairs.iter().map(|p| p.1).filter(|f| *f > 0.0).collect();
+    pairs.unwrap_or_default()
+}
+
+/// Frequencies of gains that do not all hold at one; a digital stage's may hold at zero.
+fn at_frequencies(gains: &[(f64, f64)]) -> String {
+    let mut held: Vec<f64> = gains.iter().map(|p| p.1).filter(|f| *f > 0.0).collect();
+    held.sort_by(f64::total_cmp);
     held.dedup();
-    if held.len() > 1 {
-        return Vec::new();
+    if held.len() < 2 {
+        return String::new();
     }
-    pairs.into_iter().map(|p| p.0).collect()
+    let shown: Vec<String> = held.iter().map(f64::to_string).collect();
+    format!(" at {} Hz", shown.join(" and "))
 }
 
 fn child<'a, 'd>(node: &Node<'a, 'd>, tag: &str) -> Option<Node<'a, 'd>> {

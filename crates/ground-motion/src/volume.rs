@@ -221,12 +221,7 @@ impl Label {
                 "the header has lines too many or too few: get the record again",
             ));
         };
-        let stated = lower
-            .rsplit_once(", in ")
-            .or_else(|| lower.rsplit_once("units: "))
-            .and_then(|(_, rest)| rest.split([' ', ')', '(']).next())
-            .and_then(SeriesUnit::parse);
-        let unit = stated.unwrap_or(usual);
+        let unit = unit_of_label(source, line, &lower)?.unwrap_or(usual);
         if unit.quantity != quantity {
             return Err(source.error(
                 line.number,
@@ -243,6 +238,58 @@ impl Label {
             layout: Layout::find(&lower).unwrap_or(REALS),
         })
     }
+}
+
+/// Words before the unit of a block.
+const BEFORE_UNIT: [&str; 6] = [
+    "units: ",
+    "units = ",
+    "units=",
+    "units of ",
+    "unit of ",
+    ", in ",
+];
+
+/// The unit that the line before a block states: `, in cm/sec2.`, `in units of g.`,
+/// `units: cm/sec2`. Two that differ are refused, and words that are no unit.
+fn unit_of_label(
+    source: &Source<'_>,
+    line: Line<'_>,
+    lower: &str,
+) -> Result<Option<SeriesUnit>, GroundMotionError> {
+    let refused = |message: String| {
+        let remedy = "the unit of the values must be certain: get the record again";
+        source.error(line.number, 0, message, remedy)
+    };
+    let mut found: Option<SeriesUnit> = None;
+    for key in BEFORE_UNIT {
+        let Some((_, rest)) = lower.rsplit_once(key) else {
+            continue;
+        };
+        let rest = rest.trim_start();
+        // What follows `, in ` is looked at under its own key.
+        if key == ", in " && rest.starts_with("unit") {
+            continue;
+        }
+        let word = rest
+            .split([' ', ')', '(', ',', ';'])
+            .next()
+            .unwrap_or_default();
+        let Some(unit) = SeriesUnit::parse(word) else {
+            if key == ", in " {
+                continue;
+            }
+            return Err(refused(format!("\"{word}\" is no unit that is known")));
+        };
+        if let Some(other) = found.filter(|other| *other != unit) {
+            return Err(refused(format!(
+                "two units, {} and {}, for one block",
+                unit.symbol, other.symbol
+            )));
+        }
+        found = Some(unit);
+    }
+    Ok(found)
 }
 
 /// The unit behind the number under a key: `cm/s/s` of `= 210.1 cm/s/s at 11.4 sec`.

@@ -4,7 +4,8 @@
 
 use crate::common::{COUNT, Fixture, fixtures};
 use pounding_ground_motion::{
-    GroundMotionError, Quantity, ReadOptions, Recording, Sampling, read_all_bytes, read_bytes,
+    GroundMotionError, Processing, Quantity, ReadOptions, Recording, Sampling, read_all_bytes,
+    read_bytes,
 };
 
 fn named(format: &'static str, name: &str) -> Fixture {
@@ -116,7 +117,10 @@ fn cosmos_words_and_codes() {
         &raw.replacen(first, "Corrected acceleration ", 1),
         &lenient(),
     );
-    warned(&taken.unwrap(), "stage 0");
+    let taken = taken.unwrap();
+    warned(&taken, "stage 0");
+    // The first of both is used, as the remedy says.
+    assert_eq!(taken.series[0].origin.processing, Processing::Corrected);
     // A sensor of velocity under a record of acceleration.
     let blank = format!("{:>8}{:>8}{:>8}", -999, -999, 90);
     assert!(raw.contains(&blank), "{raw}");
@@ -143,6 +147,9 @@ fn cosmos_words_and_codes() {
     let line = "Text line 9\n";
     let other = corrected.replacen(line, "Sta Chan   1: 180 Deg (Rcrdr Chan  1)\n", 1);
     refused(&other, "file:9:1: ", &["180 Deg", "90 deg", "integer 54"]);
+    let taken = read_with(&other, &lenient()).unwrap();
+    warned(&taken, "integer 54");
+    assert_eq!(taken.series[0].component, "180 Deg");
     read(&corrected.replacen(line, "Sta Chan   1: 90 Deg (Rcrdr Chan  1)\n", 1)).unwrap();
     // The peak in words.
     let line = "Text line 11\n";

@@ -174,6 +174,7 @@ fn titles_of_at2_say_nothing_of_the_values() {
             component: "N10E".to_owned(),
             initial: None,
             start_time: String::new(),
+            orientation: None,
             processing: Processing::Unstated,
             remarks: Vec::new(),
         };
@@ -208,4 +209,34 @@ fn rows_of_at2_that_stand_twice() {
         let error = read(file(4, last)).unwrap_err().to_string();
         assert!(error.contains("the header says 27 samples"), "{error}");
     }
+}
+
+/// The line before a block of Volume 2 may state another unit than cm and s.
+#[test]
+fn units_of_volume_2_blocks() {
+    let (fixture, text) = text_of("csmip_v2");
+    let no_peak = text.replace("Peak acceleration", "Most acceleration");
+    let label = "points of accel data equally spaced at 0.010 sec, in cm/sec2. (8f10.5)";
+    assert!(no_peak.contains(label));
+    let read = |words: &str| {
+        let text = no_peak.replace(label, &label.replace(", in cm/sec2.", words));
+        read_all_bytes("f", text.as_bytes(), &fixture.options)
+            .map_err(|e| format!("{e}; {}", e.help().unwrap_or_default()))
+    };
+    for (words, symbol) in [
+        (", in cm/sec2.", "cm/s2"),
+        (" in units of g.", "g"),
+        (", in units of g.", "g"),
+        (" (units: mm/sec2)", "mm/s2"),
+        (" units=g,", "g"),
+        ("", "cm/s2"),
+    ] {
+        assert_eq!(read(words).unwrap().series[0].unit, symbol, "{words}");
+    }
+    refused(
+        read(", in cm/sec2. in units of g."),
+        &["two units, cm/s2 and g"],
+    );
+    refused(read(" in units of furlongs"), &["\"furlongs\" is no unit"]);
+    refused(read(" in units of cm"), &["acceleration in cm"]);
 }

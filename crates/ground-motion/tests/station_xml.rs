@@ -5,8 +5,10 @@
 use std::path::{Path, PathBuf};
 
 use crate::common::binary::{Seed, record};
+use pounding_ground_motion::processing::rotate;
 use pounding_ground_motion::{
-    GroundMotionError, Quantity, ReadOptions, read, read_all, read_all_bytes, responses_beside,
+    GroundMotionError, Quantity, ReadOptions, read, read_all, read_all_bytes, read_bytes,
+    responses_beside,
 };
 
 const COUNTS: [i32; 5] = [100, -250, 400, 0, -50];
@@ -251,8 +253,11 @@ fn velocity_and_other_units() {
     }
     let pressure = refused(station(&[Epoch { input: "PA", ..HNE }]));
     assert!(pressure.contains("records \"PA\""), "{pressure}");
-    let volts = refused(station(&[Epoch { output: "V", ..HNE }]));
-    assert!(volts.contains("gives \"V\", not counts"), "{volts}");
+    for output in ["V", "count/V", "counts per volt"] {
+        let volts = refused(station(&[Epoch { output, ..HNE }]));
+        let words = format!("gives \"{output}\", not counts");
+        assert!(volts.contains(&words), "{volts}");
+    }
 }
 
 #[test]
@@ -328,6 +333,156 @@ fn doubts() {
             "{warnings:?}"
         );
     }
+}
+
+/// Gains of stages by their signs, and at the frequencies at which they hold.
+#[test]
+fn gains_of_stages() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    for (gains, words) in [
+        (["250", "1000"], &[][..]),
+        (
+            ["-250", "1000"],
+            &["at 1 and 5 Hz", "signs are opposite"][..],
+        ),
+        (["-250", "-1000"], &[][..]),
+        (
+            ["280", "1000"],
+            &["250000 at 1 Hz", "280000 at 1 and 5 Hz"][..],
+        ),
+        (["-280", "1000"], &["250000 at 1 Hz", "-280000"][..]),
+    ] {
+        let stages: String = gains
+            .iter()
+            .zip(["1", "5"])
+            .map(|(gain, at)| {
+                format!("<Stage><StageGain><Value>{gain}</Value><Frequency>{at}</Frequency></StageGain></Stage>")
+            })
+            .collect();
+        let epoch = Epoch {
+            more: ("", &stages),
+            ..HNE
+        };
+        let file = write(folder.path(), "station.xml", station(&[epoch]));
+        let recording = read_all(&record, &with(&file)).unwrap();
+        let warnings = recording.series[0].origin.warnings.join("; ");
+        assert_eq!(warnings.is_empty(), words.is_empty(), "{warnings}");
+        assert!(words.iter().all(|w| warnings.contains(w)), "{warnings}");
+    }
+}
+
+/// Azimuth and dip go before the code of the channel.
+#[test]
+fn directions_of_channels() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(
+        folder.path(),
+        "record.mseed",
+        [seed(b"HN1"), seed(b"HN2"), seed(b"HNE"), seed(b"HNZ")].concat(),
+    );
+    let angles = |azimuth: f64, dip: f64| {
+        format!("<Azimuth>{azimuth}</Azimuth><Dip>{dip}</Dip><SampleRate>100</SampleRate>")
+    };
+    let all = [
+        ("HN1", angles(30.0, 0.0)),
+        ("HN2", angles(90.0, 0.0)),
+        ("HNE", angles(270.0, 0.0)),
+        ("HNZ", angles(0.0, 90.0)),
+    ];
+    let epochs: Vec<Epoch<'_>> = all
+        .iter()
+        .map(|(channel, more)| Epoch {
+            channel,
+            more: (more, ""),
+            ..HNE
+        })
+        .collect();
+    let file = write(folder.path(), "station.xml", station(&epochs));
+    let chosen = |component: &str| {
+        let options = ReadOptions {
+            component: Some(component.to_owned()),
+            ..with(&file)
+        };
+        read(&record, &options).unwrap()
+    };
+    let error = rotate(&chosen("HN1"), &chosen("HN2"), 10.0).unwrap_err();
+    let shown = error.to_string();
+    assert!(
+        shown.contains("azimuth 30") && shown.contains("azimuth 90"),
+        "{shown}"
+    );
+    assert_eq!(chosen("90").origin().unwrap().component, "HN2");
+    for name in ["HNE", "HNZ"] {
+        let taken = chosen(name);
+        let warnings = &taken.origin().unwrap().warnings;
+        let words = format!("component {name} has azimuth");
+        assert!(
+            warnings
+                .iter()
+                .any(|w| w.contains(&words) && w.contains("the other way")),
+            "{warnings:?}"
+        );
+    }
+}
+
+/// Channels without metadata stand in no one's way, unless they are meant.
+#[test]
+fn channels_without_metadata() {
+    let folder = tempfile::tempdir().unwrap();
+    let both = [seed(b"HNE"), seed(b"HNN")].concat();
+    let record = write(folder.path(), "record.mseed", both);
+    let file = write(folder.path(), "station.xml", station(&[HNE]));
+    for options in [with(&file), ReadOptions::default()] {
+        let recording = read_all(&record, &options).unwrap();
+        assert_eq!(recording.series.len(), 1);
+        assert_eq!(recording.without[0].component, "HNN");
+        let warnings = &recording.series[0].origin.warnings;
+        assert!(
+            warnings.iter().any(|w| w.contains("HNN was passed over")),
+            "{warnings:?}"
+        );
+        let of = |component: &str| ReadOptions {
+            component: Some(component.to_owned()),
+            ..options.clone()
+        };
+        read(&record, &of("HNE")).unwrap();
+        let error = read(&record, &of("HNN")).unwrap_err().to_string();
+        assert!(error.contains("component HNN is not known"), "{error}");
+        assert!(error.contains("no channel XX.XXXXX..HNN"), "{error}");
+        // Which one is meant is not known.
+        let error = read(&record, &options).unwrap_err().to_string();
+        assert!(error.contains("HNN (without sensitivity)"), "{error}");
+    }
+}
+
+/// Channels that differ by their location alone have it in their names.
+#[test]
+fn locations_of_channels() {
+    let at = |location: &[u8; 2]| {
+        let mut bytes = seed(b"HNE");
+        bytes[13..15].copy_from_slice(location);
+        bytes
+    };
+    let options = |component: &str| ReadOptions {
+        sensitivity: Some(1.0),
+        component: Some(component.to_owned()),
+        ..ReadOptions::default()
+    };
+    let file = [at(b"10"), at(b"20"), seed(b"HNN")].concat();
+    for name in ["10.HNE", "20.HNE", "HNN"] {
+        let read = read_bytes("f", &file, &options(name)).unwrap();
+        assert_eq!(read.origin().unwrap().component, name);
+    }
+    let error = read_bytes("f", &file, &options("HNE"))
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("10.HNE") && error.contains("20.HNE"),
+        "{error}"
+    );
+    let plain = [at(b"10"), seed(b"HNE")].concat();
+    read_bytes("f", &plain, &options(".HNE")).unwrap();
 }
 
 #[test]

@@ -26,6 +26,7 @@ fn any_written() -> impl Strategy<Value = Written> {
         component: "N10E".to_owned(),
         initial: None,
         start_time: String::new(),
+        orientation: None,
         processing: Processing::Unstated,
         remarks: vec!["Step: made up".to_owned()],
     })
@@ -127,6 +128,7 @@ fn what_cannot_be_written() {
         component: String::new(),
         initial: None,
         start_time: String::new(),
+        orientation: None,
         processing: Processing::Unstated,
         remarks: Vec::new(),
     };

@@ -85,7 +85,7 @@ fn channel(
     );
     draft.header_count = Some(expected);
     draft.times = Times::Step(step(source, &integers, &reals)?);
-    draft.processing = match integers.get(1) {
+    draft.processing = match stage_agrees(source, first, &integers)? {
         Some(2.0) => Processing::Corrected,
         Some(s) if s < 2.0 => Processing::Raw,
         _ => Processing::Unstated,
@@ -99,7 +99,6 @@ fn channel(
         .chain(before(announcement, "units="))
         .chain(by_sensor(&integers))
         .collect();
-    stage_agrees(source, first, &integers)?;
     draft.component = component(source, &text, &integers)?;
     draft.title = format!(
         "{}; {}",
@@ -469,12 +468,12 @@ fn by_sensor(integers: &HeaderNumbers) -> Option<NamedQuantity> {
 }
 
 /// The stage of the processing in the first line, which integer 1 repeats: 0 raw, 1 uncorrected,
-/// 2 corrected.
+/// 2 corrected. The first of both is used.
 fn stage_agrees(
     source: &Source<'_>,
     first: Line<'_>,
     integers: &HeaderNumbers,
-) -> Result<(), GroundMotionError> {
+) -> Result<Option<f64>, GroundMotionError> {
     let lower = first.lower();
     let words = lower.trim_start();
     let in_words = ["raw", "uncorrected", "corrected"]
@@ -482,14 +481,17 @@ fn stage_agrees(
         .zip([0.0, 1.0, 2.0])
         .find(|(word, _)| words.starts_with(word));
     match (in_words, integers.get(1)) {
-        (Some((word, stage)), Some(code)) if stage != code => source.contradiction(
-            first.number,
-            format!(
-                "the record is {word} here, but of stage {code} (0 raw, 1 uncorrected, 2 corrected) in line {}",
-                integers.line_of(1)
-            ),
-        ),
-        _ => Ok(()),
+        (Some((word, stage)), Some(code)) if stage != code => {
+            source.contradiction(
+                first.number,
+                format!(
+                    "the record is {word} here, but of stage {code} (0 raw, 1 uncorrected, 2 corrected) in line {}",
+                    integers.line_of(1)
+                ),
+            )?;
+            Ok(Some(stage))
+        }
+        (_, code) => Ok(code),
     }
 }
 
@@ -544,6 +546,7 @@ fn component(
             integers.line_of(AZIMUTH)
         );
         source.contradiction(*line, message)?;
+        return Ok(words.clone());
     }
     Ok(numbers.clone())
 }

@@ -183,7 +183,10 @@ fn every_series(
         s.origin.warnings.extend(source.warnings());
         tracing::debug!(format = format.name, series = %s.label(), samples = s.samples.len(), unit = %s.origin.unit, time_step = %s.origin.time_step, "read");
     }
-    Ok(Recording { series })
+    Ok(Recording {
+        series,
+        without: source.without(),
+    })
 }
 
 /// Refuses options that say nothing of this record: who gives them takes them for heard.

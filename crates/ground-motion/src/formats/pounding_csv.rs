@@ -1,6 +1,7 @@
 //! Our CSV layout: `# Key: value` lines, a header `time_s,acceleration_g`, rows.
 
 use crate::accelerogram::{Origin, Processing};
+use crate::direction::Orientation;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
@@ -14,6 +15,9 @@ use crate::unit::AccelerationUnit;
 
 const REMEDY: &str = "the layout is in ground_motions/README.md; decimal commas need semicolons or tabs between the columns, also in the header";
 const START: &str = "time_s,acceleration_";
+/// Keys of the direction of positive values.
+pub(crate) const AZIMUTH: &str = "Azimuth";
+pub(crate) const DIP: &str = "Dip";
 /// Key of the time of the first sample.
 pub(crate) const START_TIME: &str = "Start";
 /// Keys of velocity and displacement at the first sample.
@@ -26,6 +30,9 @@ pub(super) struct Keys {
     title: Vec<String>,
     component: String,
     start_time: String,
+    /// Azimuth and dip (degrees).
+    azimuth: Option<f64>,
+    dip: Option<f64>,
     history: Vec<String>,
     /// Units and their lines.
     units: Vec<(usize, String)>,
@@ -184,6 +191,10 @@ impl Keys {
         origin.title = self.title.join("; ");
         origin.history.clone_from(&self.history);
         origin.start_time.clone_from(&self.start_time);
+        origin.orientation = self
+            .azimuth
+            .zip(self.dip)
+            .and_then(|(azimuth, dip)| Orientation::of(azimuth, dip));
         if let Some(stage) = self.stage {
             origin.processing = stage;
         }
@@ -198,6 +209,8 @@ impl Keys {
         match key.trim() {
             "Event" | "Station" => self.title.push(value.to_owned()),
             "Component" => value.clone_into(&mut self.component),
+            AZIMUTH => self.azimuth = degrees(value),
+            DIP => self.dip = degrees(value),
             START_TIME => value.clone_into(&mut self.start_time),
             "Source" | "Step" | "Read" | "Note" => self.history.push(text.trim().to_owned()),
             "Stage" => {
@@ -239,6 +252,11 @@ impl Keys {
         }
         Ok(())
     }
+}
+
+/// `120 degrees`; other words behind these keys mean nothing.
+fn degrees(value: &str) -> Option<f64> {
+    value.strip_suffix("degrees")?.trim().parse().ok()
 }
 
 /// A velocity (m/s) or a displacement (m) of a key line: a number and its unit.

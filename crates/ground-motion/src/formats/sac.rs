@@ -2,6 +2,7 @@
 //! reliable, so the user states it.
 
 use crate::accelerogram::Processing;
+use crate::direction::Orientation;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
@@ -13,6 +14,12 @@ use crate::text::latin_1;
 
 const HEADER: usize = 632;
 const VERSION: usize = 76;
+/// Word of the kind of the values, and first byte of the component's name.
+const KIND: usize = 86;
+const COMPONENT: usize = 600;
+/// Azimuth of the component, and its angle from upwards (degrees).
+const AZIMUTH: usize = 57;
+const INCIDENCE: usize = 58;
 /// Time of the first sample after the reference time (s).
 const BEGIN: usize = 5;
 const UNDEFINED: f32 = -12345.0;
@@ -100,17 +107,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             remedy: "use the time series (iftype ITIME) of the same record",
         });
     }
-    let quantity = match words.integer(86) {
-        6 => Quantity::Displacement,
-        7 => Quantity::Velocity,
-        _ => Quantity::Acceleration,
-    };
-    if quantity != Quantity::Acceleration {
-        return Err(GroundMotionError::NotAcceleration {
-            file: source.file.to_owned(),
-            quantity: quantity.name(),
-        });
-    }
+    acceleration(source, &words)?;
     let count = usize::try_from(words.integer(79)).unwrap_or(0);
     let uneven = words.integer(105) == 0;
     // Version 7 has 22 doubles after the data.
@@ -159,6 +156,45 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     Ok(vec![draft.finish(source)?])
 }
 
+/// Refuses what the header says to be no acceleration: by IDEP (word 87), or where that says
+/// nothing, by the code of the instrument in the component's name.
+fn acceleration(source: &Source<'_>, words: &Words<'_>) -> Result<(), GroundMotionError> {
+    let of_other = |quantity: Quantity| GroundMotionError::NotAcceleration {
+        file: source.file.to_owned(),
+        quantity: quantity.name(),
+    };
+    let unsupported = |what: String, remedy: &'static str| GroundMotionError::Unsupported {
+        file: source.file.to_owned(),
+        what,
+        remedy,
+    };
+    match words.integer(KIND) {
+        8 => Ok(()),
+        6 => Err(of_other(Quantity::Displacement)),
+        7 => Err(of_other(Quantity::Velocity)),
+        5 | -12345 => {
+            let name = words.text(COMPONENT);
+            match name.as_bytes() {
+                [_, b'H' | b'L', _] => Err(unsupported(
+                    format!("channel {name} is that of a seismometer, which records velocity"),
+                    "use the channel of an accelerograph, or set IDEP to IACC where the values are accelerations",
+                )),
+                _ => Ok(()),
+            }
+        }
+        50 => Err(unsupported(
+            "the header says that the values are volts (IDEP is IVOLTS)".to_owned(),
+            "use the file of the accelerations (IDEP IACC)",
+        )),
+        other => Err(unsupported(
+            format!(
+                "the header says that the values are of kind {other} (IDEP), not accelerations"
+            ),
+            "use the file of the accelerations (IDEP IACC)",
+        )),
+    }
+}
+
 fn values(
     source: &Source<'_>,
     words: &Words<'_>,
@@ -196,7 +232,11 @@ fn start_time(words: &Words<'_>) -> String {
 }
 
 fn fill(words: &Words<'_>, draft: &mut Draft) {
-    draft.component = words.text(600);
+    draft.component = words.text(COMPONENT);
+    draft.orientation = words
+        .float(AZIMUTH)
+        .zip(words.float(INCIDENCE))
+        .and_then(|(azimuth, incidence)| Orientation::of(azimuth, incidence - 90.0));
     draft.title = format!("{} {}", words.text(608), words.text(440))
         .trim()
         .to_owned();

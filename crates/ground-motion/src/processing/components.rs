@@ -1,7 +1,7 @@
 //! Two horizontal components.
 
 use crate::accelerogram::Accelerogram;
-use crate::direction::Direction;
+use crate::direction::{Direction, Orientation};
 use crate::error::{GroundMotionError, bound, within};
 use crate::start_times;
 use crate::step_record::StepRecord;
@@ -87,13 +87,25 @@ fn direction(of: &Accelerogram) -> Option<Direction> {
     if of.steps().iter().any(|s| turns(s.step)) || origin.history.iter().any(before) {
         return None;
     }
-    // `H1` and `2` are numbers of components.
-    let name = origin.component.split('(').next()?.trim();
-    let number = name.trim_start_matches(|c: char| c.is_ascii_alphabetic());
-    if matches!(number.trim(), "1" | "2" | "3") {
-        return None;
+    let stated = origin.orientation.map(Orientation::direction);
+    stated.or_else(|| Direction::of_name(&origin.component))
+}
+
+/// Refuses components of two instruments, one in the borehole and one at the surface.
+fn at_one_depth(first: &Accelerogram, second: &Accelerogram) -> Result<(), GroundMotionError> {
+    let name = |of: &Accelerogram| of.origin().map_or(String::new(), |o| o.component.clone());
+    let (first, second) = (name(first), name(second));
+    let instrument = |name: &str| Direction::of_borehole(name).map(|(_, number)| number);
+    match (instrument(&first), instrument(&second)) {
+        (Some(a), Some(b)) if a != b => Err(GroundMotionError::NotPossible {
+            step: STEP,
+            reason: format!(
+                "the components \"{first}\" and \"{second}\" are of two depths: 1 is in the borehole, 2 at the surface"
+            ),
+            remedy: "give the two horizontal components of one depth, NS2 and EW2 at the surface",
+        }),
+        _ => Ok(()),
     }
-    Direction::parse(name)
 }
 
 /// Refuses components whose names say that they are not horizontal, or not at right angles.
@@ -101,6 +113,7 @@ pub(crate) fn at_right_angles(
     first: &Accelerogram,
     second: &Accelerogram,
 ) -> Result<(), GroundMotionError> {
+    at_one_depth(first, second)?;
     let directions = [direction(first), direction(second)];
     let is_vertical = |d: &Option<Direction>| matches!(d, Some(Direction::Up | Direction::Down));
     let apart = match directions {
@@ -116,7 +129,10 @@ pub(crate) fn at_right_angles(
             Some(Direction::Azimuth(azimuth)) => {
                 format!("\"{name}\" (azimuth {} degrees)", bound(azimuth))
             }
-            Some(_) => format!("\"{name}\" (vertical)"),
+            Some(_) => match of.origin().and_then(|o| o.orientation) {
+                Some(stated) => format!("\"{name}\" (dip {} degrees)", bound(stated.dip)),
+                None => format!("\"{name}\" (vertical)"),
+            },
             None => format!("\"{name}\""),
         }
     };
@@ -144,7 +160,8 @@ fn combine(
             .zip(&second.samples()[..count])
             .map(|(a, b)| w[0] * a + w[1] * b)
             .collect();
-        of.with_samples(sum, first.time_step())
+        let turned = of.with_samples(sum, first.time_step())?;
+        Ok::<_, GroundMotionError>(turned.pointing(None))
     };
     let step = step.number("samples used", count as f64, "-");
     let mut pair = RotatedPair {

@@ -9,6 +9,7 @@ mod scaling;
 mod window;
 
 use crate::accelerogram::Accelerogram;
+use crate::direction::Orientation;
 use crate::error::{GroundMotionError, within};
 use crate::measures::GroundMotion;
 use crate::step_record::StepRecord;
@@ -159,7 +160,12 @@ impl ProcessingStep {
                 corrected.read_in(unit.in_si());
                 Ok((corrected, step))
             }
-            Self::Sign => Ok((times(record, -1.0)?, StepRecord::new("sign"))),
+            Self::Sign => {
+                let orientation = record.origin().and_then(|o| o.orientation);
+                let turned = times(record, -1.0)?;
+                let turned = turned.pointing(orientation.map(Orientation::reversed));
+                Ok((turned, StepRecord::new("sign")))
+            }
             Self::Offset(offset) => remove_offset(record, *offset),
             Self::Filter(filter) => filter.apply(record),
             Self::Baseline(baseline) => baseline.apply(record),

@@ -6,6 +6,7 @@ mod plain_columns;
 mod pounding_csv;
 
 use crate::accelerogram::{Accelerogram, Processing};
+use crate::direction::Orientation;
 use crate::error::GroundMotionError;
 use crate::quantity::Quantity;
 use crate::recording::{Sampling, Series};
@@ -32,6 +33,8 @@ pub struct Written {
     pub initial: Option<(f64, f64)>,
     /// Time of the first sample as printed; empty if not known.
     pub start_time: String,
+    /// Where its positive values point, if known in degrees.
+    pub orientation: Option<Orientation>,
     /// What the agency did to it, if nothing was done to it since.
     pub processing: Processing,
     /// What else the header says: source, steps of processing.
@@ -59,6 +62,7 @@ impl Written {
             title: origin.map_or(String::new(), |o| o.title.clone()),
             component: origin.map_or(String::new(), |o| o.component.clone()),
             initial: record.initial(),
+            orientation: origin.and_then(|o| o.orientation),
             start_time: origin.map_or(String::new(), |o| o.start_time.clone()),
             processing: as_read.map_or(Processing::Unstated, |o| o.processing),
             remarks,
@@ -88,6 +92,7 @@ impl Written {
             title: origin.title.clone(),
             component: series.component.clone(),
             initial: series.initial,
+            orientation: origin.orientation,
             start_time: origin.start_time.clone(),
             processing: origin.processing,
             remarks: origin

@@ -4,7 +4,9 @@ use std::fmt::Write as _;
 
 use crate::accelerogram::Processing;
 use crate::error::GroundMotionError;
-use crate::formats::pounding_csv::{INITIAL_DISPLACEMENT, INITIAL_VELOCITY, START_TIME};
+use crate::formats::pounding_csv::{
+    AZIMUTH, DIP, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, START_TIME,
+};
 use crate::writers::{Written, acceleration_only, line, number, time};
 
 /// The text of a file in our CSV layout: a comment header that says where the motion
@@ -21,6 +23,10 @@ pub fn write_pounding_csv(series: &Written) -> Result<String, GroundMotionError>
     }
     if !series.component.is_empty() {
         let _ = writeln!(text, "# Component: {}", line(&series.component));
+    }
+    if let Some(to) = series.orientation {
+        let _ = writeln!(text, "# {AZIMUTH}: {} degrees", number(to.azimuth));
+        let _ = writeln!(text, "# {DIP}: {} degrees", number(to.dip));
     }
     if !series.start_time.is_empty() {
         let _ = writeln!(text, "# {START_TIME}: {}", line(&series.start_time));

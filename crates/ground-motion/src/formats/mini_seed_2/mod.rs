@@ -6,7 +6,7 @@ use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
-use crate::recording::Series;
+use crate::recording::{Series, WithoutSensitivity};
 use crate::source::Source;
 use crate::station_xml::{ResponseFile, Responses, Sensitivity};
 
@@ -41,53 +41,93 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     // The file's order among equal times, for messages.
     records.sort_by_key(|r| (r.name, r.start, r.at));
     let responses = responses(source, &records)?;
+    let channels: Vec<&[Record]> = records.chunk_by(|a, b| a.name == b.name).collect();
     let mut series = Vec::new();
     let mut velocity = None;
-    for channel in records.chunk_by(|a, b| a.name == b.name) {
-        let name = channel[0].label();
+    let mut without = Vec::new();
+    let mut number = 0;
+    for channel in &channels {
+        let first = &channel[0];
         let known = match &responses {
-            Some(responses) => responses.of(source.file, &channel[0].channel_name())?,
-            None => Err(String::new()),
+            Some(responses) => Some(responses.of(source.file, &first.channel_name())?),
+            // The user gives the sensitivity.
+            None => None,
         };
-        if known.is_err() && channel[0].is_velocity() {
+        let is_given = matches!(responses, Some(Responses::Given(_)));
+        if !matches!(known, Some(Ok(_))) && first.is_velocity() && !is_given {
+            let label = first.label();
             source.warn(&format!(
-                "channel {name} records velocity and was passed over"
+                "channel {label} records velocity and was passed over"
             ));
-            velocity = Some(name);
+            velocity = Some(label);
             continue;
         }
+        number += 1;
+        let name = component(first, &channels);
+        let known = match known {
+            Some(Ok(known)) => Some(known),
+            Some(Err(error)) => {
+                without.push((name, first.label(), error));
+                continue;
+            }
+            None => None,
+        };
         let mut draft = draft(source, channel)?;
-        draft.channel = series.len() + 1;
+        draft.component = name;
+        draft.channel = number;
         let mut response = None;
-        match known {
-            Ok(known) => {
-                draft.unit = unit(&known);
-                draft.warnings.extend(known.warnings);
-                response = Some(ResponseFile {
-                    file: known.file,
-                    sha256: known.sha256,
-                });
-            }
-            Err(reason) if responses.is_some() => {
-                return Err(GroundMotionError::MissingSensitivity {
-                    file: source.file.to_owned(),
-                    searched: format!(": {reason}"),
-                });
-            }
-            // The user gives the sensitivity.
-            Err(_) => {}
+        if let Some(known) = known {
+            draft.unit = unit(&known);
+            draft.orientation = known.orientation;
+            draft.warnings.extend(known.warnings);
+            response = Some(ResponseFile {
+                file: known.file,
+                sha256: known.sha256,
+            });
         }
         let mut finished = draft.finish(source)?;
         finished.origin.response = response;
         series.push(finished);
     }
-    if series.is_empty() && velocity.is_some() {
-        return Err(GroundMotionError::NotAcceleration {
-            file: source.file.to_owned(),
-            quantity: "velocity",
-        });
+    if series.is_empty() {
+        if let Some((_, _, error)) = without.into_iter().next() {
+            return Err(error);
+        }
+        if velocity.is_some() {
+            return Err(GroundMotionError::NotAcceleration {
+                file: source.file.to_owned(),
+                quantity: "velocity",
+            });
+        }
+        return Ok(series);
+    }
+    for (component, label, error) in without {
+        let reason = error.to_string();
+        source.warn(&format!(
+            "channel {label} was passed over, as its sensitivity is not known: {reason}"
+        ));
+        source.is_without(WithoutSensitivity { component, reason });
     }
     Ok(series)
+}
+
+/// The code of a channel, with that of its location where another one differs by it alone.
+fn component(of: &Record, channels: &[&[Record]]) -> String {
+    let name = of.channel_name();
+    let differs_by_location = channels.iter().any(|other| {
+        let other = other[0].channel_name();
+        other.location != name.location
+            && (other.network, other.station, other.channel)
+                == (
+                    name.network.clone(),
+                    name.station.clone(),
+                    name.channel.clone(),
+                )
+    });
+    match differs_by_location {
+        true => format!("{}.{}", name.location, name.channel),
+        false => name.channel,
+    }
 }
 
 /// Where the sensitivities of the channels stand; `None` where the user gives one number.
@@ -167,7 +207,6 @@ fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionE
         record.decode(source, &mut samples)?;
     }
     let mut draft = Draft::new(samples, DraftUnit::Counts, (1, 1, 1));
-    draft.component = first.channel();
     draft.title = first.label();
     draft.start_time = first.start_text.to_string();
     draft.times = Times::Step(Some(1.0 / first.rate));

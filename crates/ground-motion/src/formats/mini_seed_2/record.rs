@@ -191,10 +191,6 @@ impl Record {
         }
     }
 
-    pub(super) fn channel(&self) -> String {
-        latin_1(&self.name[7..10]).trim().to_owned()
-    }
-
     /// Instrument codes H and L are seismometers (SEED manual, appendix A).
     pub(super) fn is_velocity(&self) -> bool {
         matches!(self.name[8], b'H' | b'L')

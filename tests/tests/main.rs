@@ -7,6 +7,7 @@ mod event_driven;
 mod every_model;
 mod floors_in_touch;
 mod free_motion;
+mod high_exponents;
 mod impact_counts;
 mod isolated_demand;
 mod long_rows;

@@ -185,15 +185,30 @@ impl ImpactModel for AdamsImpact {
         }
         self.uncut(phase, delta, velocity)
     }
-    /// The force over `delta^n`, which has no zero at closure: up to the exponent
-    /// two the dashpot's share grows like `delta^(2 - n)` there. Of a contact that has let go it is
+    /// The force over `delta^n`, and over `delta^2` for exponents above two: no zero at closure and
+    /// no pole, as the dashpot's share grows like `delta^2` there. Of a contact that has let go it is
     /// taken no nearer to the end than [`NEAR_END`].
     fn raw_force(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64, velocity: f64) -> f64 {
         let delta = match phase {
             Phase::Released => delta.max(NEAR_END * self.depth),
-            _ if delta <= 0.0 => return self.stiffness,
             _ => delta,
         };
+        let full = phase == FULL || delta >= self.depth;
+        if self.exponent > 2.0 {
+            // STEP over delta^2, from its polynomial where it is one.
+            let coefficient = match full {
+                true => self.damping / (delta * delta),
+                false => {
+                    let s = (delta / self.depth).max(0.0);
+                    self.damping * (3.0 - 2.0 * s) / (self.depth * self.depth)
+                }
+            };
+            let spring = libm::pow(delta.max(0.0), self.exponent - 2.0);
+            return self.stiffness * spring + coefficient * velocity;
+        }
+        if delta <= 0.0 {
+            return self.stiffness;
+        }
         let (coefficient, _) = self.step(phase, delta);
         self.stiffness + coefficient / libm::pow(delta, self.exponent) * velocity
     }

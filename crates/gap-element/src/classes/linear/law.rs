@@ -140,7 +140,16 @@ impl ImpactModel for LinearClass {
         delta: f64,
         velocity: f64,
     ) -> f64 {
-        self.law(collision, Phase::Approach, delta, velocity).value
+        if self.exponent == 1.0 {
+            return self.law(collision, Phase::Approach, delta, velocity).value;
+        }
+        // Over `delta^((n - 1) / 2)`: no zero of a high order at closure.
+        let dashpot = collision.constants[2];
+        if dashpot == 0.0 {
+            return self.stiffness;
+        }
+        let spring = libm::pow(delta.max(0.0), 0.5 * (self.exponent + 1.0));
+        self.stiffness * spring + dashpot * velocity
     }
     fn is_affine(&self, _: &Collision, phase: Phase) -> bool {
         self.exponent == 1.0 || phase == Phase::Released

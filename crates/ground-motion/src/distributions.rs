@@ -86,6 +86,12 @@ pub(crate) fn gamma_quantile(shape: f64, probability: f64) -> f64 {
     argument_at(probability, 0.0, high, |x| gamma_lr(shape, x))
 }
 
+/// Probability that a gamma variable with this positive shape and unit rate exceeds this number;
+/// one for zero and below.
+pub(crate) fn gamma_exceedance(shape: f64, x: f64) -> f64 {
+    if x > 0.0 { gamma_ur(shape, x) } else { 1.0 }
+}
+
 /// Where an increasing function reaches a value between two bounds, by bisection down to
 /// rounding; it is called strictly between them.
 #[must_use]

@@ -324,3 +324,25 @@ fn usual_parameters_are_those_of_the_documentation() {
     assert_eq!(usual, expected);
     assert_eq!(TimeGrid::USUAL_TIME_STEP, 0.01);
 }
+
+/// A duration that ends before D5-95 does is said, with the part of the Arias intensity that is lost:
+/// by hand for an envelope whose square falls as an exponential of rate r, D5-95 = ln(19)/r.
+#[test]
+fn motions_that_their_duration_cuts_off_are_named() {
+    let remarks = |duration: f64| {
+        let motion = RezaeianDerKiureghian2010::usual(10.0, 10.000_01 * 0.597_837 / 2.944_439, 3.5);
+        let made = motion.generate(grid(0.01, duration), 1).unwrap();
+        made.steps[0].remarks.join("; ")
+    };
+    assert!(!remarks(10.4).contains("warning"), "{}", remarks(10.4));
+    // exp(-r 4), r = ln(19)/10: 30.8 %; 99.9 % after ln(1000)/r = 23.5 s.
+    let short = remarks(4.0);
+    for words in [
+        "warning",
+        "the duration of 4 s",
+        "30.8 %",
+        "24 s hold 99.9 %",
+    ] {
+        assert!(short.contains(words), "{words}: {short}");
+    }
+}

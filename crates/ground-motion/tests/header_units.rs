@@ -240,3 +240,26 @@ fn units_of_volume_2_blocks() {
     refused(read(" in units of furlongs"), &["\"furlongs\" is no unit"]);
     refused(read(" in units of cm"), &["acceleration in cm"]);
 }
+
+/// Units of midas files in words and in the labels of the axes.
+#[test]
+fn units_of_midas() {
+    let line = "*UNIT&TYPE, GRAV, ACCEL";
+    for unit in ["CM", "M"] {
+        let to = format!("*UNIT&TYPE, {unit}, ACCEL");
+        refused(
+            read("midas_sgs", line, &to),
+            &["f:6:1: ", "a unit of displacement"],
+        );
+    }
+    let label = "Ground Accel. (g)";
+    let other = read("midas_sgs", label, "Ground Accel. (gal)");
+    refused(other, &["f:5:1: ", "cm/s2", "*UNIT&TYPE g"]);
+    for times in ["msec", "ms"] {
+        let other = read("midas_sgs", "Time(sec)", &format!("Time ({times})"));
+        refused(other, &["f:4:1: ", times, "seconds"]);
+    }
+    for to in ["Ground Accel.", "Ground Accel. (whatever)"] {
+        assert_eq!(read("midas_sgs", label, to).unwrap().series[0].unit, "g");
+    }
+}

@@ -238,3 +238,76 @@ fn conversions_use_every_option() {
         refused(2, &[&velocity[..], option].concat(), &wanted);
     }
 }
+
+/// The remedy does not lead into the next error.
+#[test]
+fn parameters_of_a_motion_do_not_go_with_an_earthquake() {
+    let folder = Folder::new();
+    let out = folder.name("o.csv");
+    for (option, given) in [
+        ("--arias-intensity", "1 m/s"),
+        ("--frequency-rate", "-0.1"),
+        ("--filter-damping", "0.3"),
+        ("--middle-time", "8 s"),
+        ("--middle-frequency", "3 Hz"),
+    ] {
+        let arguments = [
+            "synth",
+            "rezaeian_der_kiureghian_2010",
+            "--magnitude",
+            "7",
+            "--distance",
+            "20 km",
+            "--shear-velocity",
+            "760 m/s",
+            "--duration",
+            "30 s",
+            "--seed",
+            "1",
+            "-o",
+            &out,
+            option,
+            given,
+        ];
+        refused(
+            2,
+            &arguments,
+            &["cannot be used with", "--magnitude", option],
+        );
+    }
+}
+
+/// Frequencies of the ground are printed in rad/s and in Hz, of which a plain number is one.
+#[test]
+fn frequencies_of_the_ground_have_both_units() {
+    let folder = Folder::new();
+    let out = folder.name("o.csv");
+    let shown = text(&[
+        "synth",
+        "clough_penzien_1975",
+        "--peak-acceleration",
+        "0.3 g",
+        "--ground-frequency",
+        "2",
+        "--duration",
+        "20 s",
+        "--seed",
+        "1",
+        "-o",
+        &out,
+    ]);
+    let lines: Vec<String> = shown
+        .lines()
+        .map(|l| l.split_whitespace().collect::<Vec<_>>().join(" "))
+        .collect();
+    for line in [
+        "ground frequency 12.5664 rad/s",
+        "ground frequency in Hz 2 Hz",
+        "filter frequency 1.25664 rad/s",
+        "filter frequency in Hz 0.2 Hz",
+    ] {
+        assert!(lines.iter().any(|l| l == line), "{line}: {shown}");
+    }
+    let help = text(&["synth", "kanai_tajimi_1960", "--help"]);
+    assert!(help.contains("a plain number is in Hz"), "{help}");
+}

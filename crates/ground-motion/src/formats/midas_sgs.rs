@@ -4,10 +4,13 @@
 use crate::draft::{Draft, DraftUnit};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
-use crate::quantity::SeriesUnit;
+use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::Source;
+use crate::text::Line;
 use crate::time_column::TimeColumn;
+
+const REMEDY: &str = "the header contradicts itself: correct it, or get the file again";
 
 pub(super) static FORMAT: Format = Format {
     name: "midas_sgs",
@@ -22,10 +25,43 @@ fn matches(source: &Source<'_>) -> bool {
     source.first_line().trim_start().starts_with("*sgs")
 }
 
+/// What stands in the last brackets of a label, `Ground Accel. (g)`.
+fn in_brackets(label: &str) -> Option<&str> {
+    let (_, rest) = label.rsplit_once('(')?;
+    Some(rest.split(')').next().unwrap_or(rest).trim())
+}
+
+/// Refuses a label of the times that says another unit than seconds.
+fn time_in_seconds(
+    source: &Source<'_>,
+    line: Line<'_>,
+    label: &str,
+) -> Result<(), GroundMotionError> {
+    let others = [
+        "ms",
+        "msec",
+        "msecs",
+        "millisecond",
+        "milliseconds",
+        "min",
+        "minutes",
+        "hz",
+    ];
+    match in_brackets(label).filter(|unit| others.contains(&unit.trim_end_matches('.'))) {
+        Some(unit) => Err(source.error(
+            line.number,
+            0,
+            format!("the label of the times says \"{unit}\", where the format has seconds"),
+            REMEDY,
+        )),
+        None => Ok(()),
+    }
+}
+
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut title = String::new();
-    let mut unit = DraftUnit::Unstated;
+    let (mut unit, mut label) = (None, None);
     loop {
         let line = source.expect(&mut lines, "*DATA")?;
         let lower = line.lower();
@@ -45,11 +81,54 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
                 });
             }
             unit = match word {
-                "grav" => DraftUnit::Stated(SeriesUnit::G),
-                other => SeriesUnit::parse(other).map_or(DraftUnit::Unstated, DraftUnit::Stated),
+                "grav" => Some(SeriesUnit::G),
+                other => SeriesUnit::parse(other),
             };
+            if let Some(other) = unit.filter(|u| u.quantity != Quantity::Acceleration) {
+                return Err(source.error(
+                    line.number,
+                    0,
+                    format!(
+                        "accelerations in {}, a unit of {}",
+                        other.symbol, other.quantity
+                    ),
+                    REMEDY,
+                ));
+            }
+        } else if start.starts_with("*x-axis") {
+            time_in_seconds(source, line, start)?;
+        } else if start.starts_with("*y-axis") {
+            label = in_brackets(start)
+                .and_then(SeriesUnit::parse)
+                .map(|unit| (line, unit));
         }
     }
+    let unit = match (unit, label) {
+        (Some(unit), Some((line, other))) if unit != other => {
+            return Err(source.error(
+                line.number,
+                0,
+                format!(
+                    "the label of the values says {}, but *UNIT&TYPE {}",
+                    other.symbol, unit.symbol
+                ),
+                REMEDY,
+            ));
+        }
+        (Some(unit), _) => DraftUnit::Stated(unit),
+        (None, Some((line, other))) if source.options.unit.is_some_and(|u| !other.is(u)) => {
+            return Err(source.error(
+                line.number,
+                0,
+                format!(
+                    "the label of the values says {}, which the unit that is given is not",
+                    other.symbol
+                ),
+                REMEDY,
+            ));
+        }
+        (None, _) => DraftUnit::Unstated,
+    };
     let data = lines.number();
     let mut times = TimeColumn::with_capacity(lines.remaining() / 4 + 1);
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);

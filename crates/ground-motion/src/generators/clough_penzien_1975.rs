@@ -1,7 +1,7 @@
 //! Clough and Penzien (1975), Dynamics of Structures, 26-2: the spectrum of Kanai and
 //! Tajimi without the displacements that grow for ever.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::random_phases::intensity_for_peak;
@@ -113,6 +113,7 @@ impl PowerSpectrum for CloughPenzien1975 {
             .retain(|n| n.name != "variance of the spectrum");
         Ok(step
             .number("filter frequency", self.filter_frequency, "rad/s")
+            .number("filter frequency in Hz", self.filter_frequency / TAU, "Hz")
             .number("filter damping", self.filter_damping, "-")
             .number("variance of the spectrum", self.variance(), "m2/s4"))
     }

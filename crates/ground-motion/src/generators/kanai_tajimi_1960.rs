@@ -1,7 +1,7 @@
 //! Tajimi (1960), Proc. 2nd World Conf. Earthq. Eng. 2, 781, after Kanai (1957): white
 //! noise of the rock through one layer of ground.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
 
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::random_phases::intensity_for_peak;
@@ -74,6 +74,7 @@ impl PowerSpectrum for KanaiTajimi1960 {
         Ok(StepRecord::new(STEP)
             .number("intensity S0", self.intensity, "m2/s3")
             .number("ground frequency", self.ground_frequency, "rad/s")
+            .number("ground frequency in Hz", self.ground_frequency / TAU, "Hz")
             .number("ground damping", self.ground_damping, "-")
             .number("variance of the spectrum", self.variance(), "m2/s4"))
     }

@@ -180,7 +180,7 @@ pub struct GroundArguments {
     /// Peak over standard deviation of the strong part
     #[arg(long, default_value = "3")]
     pub peak_factor: String,
-    /// Frequency of the ground [default: of firm ground]
+    /// Frequency of the ground, such as "2.5 Hz" or "15.6 rad/s"; a plain number is in Hz [default: 15.6 rad/s, of firm ground]
     #[arg(long)]
     pub ground_frequency: Option<String>,
     /// Damping ratio of the ground
@@ -211,7 +211,7 @@ pub struct CloughPenzienArguments {
     /// Ground
     #[command(flatten)]
     pub ground: GroundArguments,
-    /// Frequency of the second filter [default: a tenth of that of the ground]
+    /// Frequency of the second filter, such as "0.25 Hz" or "1.56 rad/s"; a plain number is in Hz [default: a tenth of that of the ground]
     #[arg(long)]
     pub filter_frequency: Option<String>,
     /// Damping ratio of the second filter
@@ -257,22 +257,27 @@ pub struct RezaeianDerKiureghianArguments {
     #[arg(long, requires = "magnitude")]
     pub median: bool,
     /// Arias intensity, such as "0.5 m/s" [default: 1 m/s]
-    #[arg(long, requires = "significant_duration")]
+    #[arg(long, requires = "significant_duration", conflicts_with = "magnitude")]
     pub arias_intensity: Option<String>,
     /// Duration from 5 to 95 % of the Arias intensity, instead of an earthquake
     #[arg(long, conflicts_with = "magnitude", requires_all = ["middle_time", "middle_frequency"])]
     pub significant_duration: Option<String>,
     /// Time at which 45 % of it is reached
-    #[arg(long, requires = "significant_duration")]
+    #[arg(long, requires = "significant_duration", conflicts_with = "magnitude")]
     pub middle_time: Option<String>,
     /// Frequency of the filter at that time
-    #[arg(long, requires = "significant_duration")]
+    #[arg(long, requires = "significant_duration", conflicts_with = "magnitude")]
     pub middle_frequency: Option<String>,
     /// Change of that frequency, such as "-0.06 1/s^2"; a plain number is in Hz/s [default: -0.1]
-    #[arg(long, requires = "significant_duration", allow_hyphen_values = true)]
+    #[arg(
+        long,
+        requires = "significant_duration",
+        conflicts_with = "magnitude",
+        allow_hyphen_values = true
+    )]
     pub frequency_rate: Option<String>,
     /// Damping ratio of the filter [default: 0.3]
-    #[arg(long, requires = "significant_duration")]
+    #[arg(long, requires = "significant_duration", conflicts_with = "magnitude")]
     pub filter_damping: Option<String>,
     /// Corner of the high-pass at the end [default: 0.15 Hz]
     #[arg(long)]

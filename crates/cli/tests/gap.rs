@@ -370,6 +370,25 @@ fn codes_are_marked_where_buildings_yield() {
 }
 
 #[test]
+fn a_list_takes_no_option_of_a_check() {
+    for more in [
+        "--points=5",
+        "--code=ntc",
+        "--probability=0.1",
+        "--csv=a.csv",
+        "--all",
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .args(["gap", "--list", more])
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(2), "{more}");
+        let said = text(&output.stderr);
+        assert!(said.contains("cannot be used with"), "{more}: {said}");
+    }
+}
+
+#[test]
 fn provisions_are_listed_with_their_status() {
     let list = |more: &[&str]| {
         let output = Command::new(env!("CARGO_BIN_EXE_pounding"))

@@ -4,7 +4,7 @@ use super::{DealArguments, InputPath, OutputPath};
 
 use clap::ValueEnum;
 
-use super::figure::{FIGURES, FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, csv_file, figure_file};
 use super::quantities::{number, positive_velocity};
 
 /// Arguments of `compare`.
@@ -31,7 +31,7 @@ pub struct CompareArguments {
     #[arg(long, value_name = "V", value_parser = positive_velocity, allow_hyphen_values = true)]
     pub approach_velocity: Option<f64>,
     /// Write every value, of storeys and levels too, into this CSV file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_parser = csv_file(), value_name = "FILE")]
     pub csv: Option<OutputPath>,
     /// Draw peaks over the models into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), group = FIGURES, value_name = "FILE")]

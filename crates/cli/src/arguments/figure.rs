@@ -58,3 +58,18 @@ pub fn figure_file() -> impl TypedValueParser<Value = OutputPath> {
         }
     })
 }
+
+/// A file for a table that is written as CSV alone, whatever its name ends in.
+pub fn csv_file() -> impl TypedValueParser<Value = OutputPath> {
+    OsStringValueParser::new().try_map(|name| {
+        let path = OutputPath::from(name);
+        if path.as_os_str().is_empty() {
+            return Err("the name of a file is empty");
+        }
+        let ending = path.extension().unwrap_or_default();
+        match ending.eq_ignore_ascii_case("parquet") {
+            true => Err("this table is written as CSV: give a name that ends otherwise"),
+            false => Ok(path),
+        }
+    })
+}

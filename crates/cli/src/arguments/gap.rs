@@ -2,7 +2,7 @@
 
 use super::{DealArguments, InputPath, OutputFolder, OutputPath};
 
-use super::figure::{FIGURES, FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, csv_file, figure_file};
 use super::quantities::number;
 
 /// Arguments of `gap`.
@@ -12,7 +12,10 @@ pub struct GapArguments {
     #[arg(required_unless_present = "list")]
     pub case: Option<InputPath>,
     /// List the provisions and what each needs, instead of a check
-    #[arg(long, conflicts_with_all = ["case", "records"])]
+    #[arg(long, conflicts_with_all = [
+        "case", "records", "code", "country", "date", "rules", "provisions", "set", "probability", "confidence", "points", "from",
+        "to", "gap", "csv", "codes_csv", "plot", "spectra", "output", "report", "threads", "all", "shard", "into", "merge",
+    ])]
     pub list: bool,
     /// Write the documentation's page of the provisions into this folder
     #[arg(
@@ -63,10 +66,10 @@ pub struct GapArguments {
     #[arg(long, value_name = "NAME")]
     pub gap: Option<String>,
     /// Write every width, record, building and storey of the sweep into this CSV file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_parser = csv_file(), value_name = "FILE")]
     pub csv: Option<OutputPath>,
     /// Write demand, code gaps and their ratios for every record and level into this CSV file
-    #[arg(long, value_name = "FILE")]
+    #[arg(long, value_parser = csv_file(), value_name = "FILE")]
     pub codes_csv: Option<OutputPath>,
     /// Draw amplification over the width into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), group = FIGURES, value_name = "FILE")]

@@ -2,7 +2,7 @@
 
 use super::{InputPath, OutputFolder, OutputPath};
 
-use super::figure::{FIGURES, FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, csv_file, figure_file};
 
 /// Arguments of `hysteresis`.
 #[derive(Debug, clap::Args)]
@@ -71,7 +71,7 @@ pub struct HysteresisArguments {
     pub fit: Vec<InputPath>,
 
     /// Write the loop, or else the dissipation curve or the fit, into this CSV file
-    #[arg(long, requires = "law")]
+    #[arg(long, value_parser = csv_file(), requires = "law")]
     pub csv: Option<OutputPath>,
     /// Draw the loop and the dissipation curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), group = FIGURES, requires = "law")]

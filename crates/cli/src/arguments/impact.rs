@@ -2,7 +2,7 @@
 
 use super::{InputPath, OutputPath};
 
-use super::figure::{FIGURES, FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, csv_file, figure_file};
 
 use super::ImpactCommand;
 
@@ -73,7 +73,7 @@ pub struct ImpactArguments {
     #[arg(long)]
     pub table: bool,
     /// Write the histories, or the table, into this CSV file
-    #[arg(long)]
+    #[arg(long, value_parser = csv_file())]
     pub csv: Option<OutputPath>,
     /// Draw the histories, or the table, into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), group = FIGURES)]

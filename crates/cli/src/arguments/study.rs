@@ -4,7 +4,7 @@ use clap::ValueEnum;
 
 use super::{InputPath, OutputFolder, OutputPath};
 
-use super::figure::{FIGURES, FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, csv_file, figure_file};
 
 /// Arguments of `sweep`.
 #[derive(Debug, clap::Args)]
@@ -62,9 +62,9 @@ pub struct PlanArguments {
     /// Tasks that run at the same time at most
     #[arg(long, value_name = "N", requires = "plan", value_parser = clap::value_parser!(u32).range(1..))]
     pub at_once: Option<u32>,
-    /// MaxArraySize of the Slurm cluster, one more than the tasks that an array can have
-    #[arg(long, value_name = "N", default_value_t = 1001, requires = "plan", value_parser = clap::value_parser!(u32).range(2..))]
-    pub array_limit: u32,
+    /// MaxArraySize of the Slurm cluster, one more than the tasks that an array can have [default: 1001]
+    #[arg(long, value_name = "N", requires = "plan", value_parser = clap::value_parser!(u32).range(2..))]
+    pub array_limit: Option<u32>,
 }
 
 /// What hands out the shards of a study.
@@ -113,6 +113,9 @@ pub struct RunningArguments {
 
 /// Arguments of `merge`.
 #[derive(Debug, clap::Args)]
+#[command(
+    override_usage = "pounding merge [OPTIONS] --output <OUTPUT> <SHARDS>...\n       pounding merge [OPTIONS] --check <SHARDS>..."
+)]
 pub struct MergeArguments {
     /// Results of all shards of a study, or folders of them
     #[arg(required = true)]
@@ -187,7 +190,7 @@ pub struct IdaArguments {
     #[command(flatten)]
     pub planning: PlanArguments,
     /// Write the counts of every state at every intensity as a CSV table
-    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
+    #[arg(long, value_name = "FILE", value_parser = csv_file(), conflicts_with = "shard")]
     pub table: Option<OutputPath>,
     /// Draw fragilities and frequencies into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), group = FIGURES, value_name = "FILE", conflicts_with = "shard")]

@@ -82,6 +82,9 @@ pub fn print_plan(
     json: bool,
 ) -> Result<(), Failure> {
     let plan = Plan::of(study, planned)?;
+    if !json {
+        has_effect(planned.planning, scheduler)?;
+    }
     if json {
         return print(&pretty(&Scripts {
             runs: plan.runs,
@@ -106,6 +109,30 @@ pub fn print_plan(
     }
 }
 
+/// `MaxArraySize` of a cluster that does not say another.
+const ARRAY_LIMIT: u32 = 1001;
+
+/// Refuses options that the script that is printed does not carry.
+fn has_effect(planning: &PlanArguments, scheduler: Option<Scheduler>) -> Result<(), Failure> {
+    let refused = |option: &str, of: &str, help: &str| {
+        Err(Failure::input(
+            format!("--{option} has no meaning for {of}"),
+            Some(help.to_owned()),
+        ))
+    };
+    let overview = "the overview of --plan";
+    let a_script = "name what hands the shards out, such as --plan=slurm, or leave it away";
+    match scheduler {
+        None if planning.time.is_some() => refused("time", overview, a_script),
+        None if planning.at_once.is_some() => refused("at-once", overview, a_script),
+        Some(other) if other != Scheduler::Slurm && planning.array_limit.is_some() => {
+            let of = "a script that is not for Slurm";
+            refused("array-limit", of, "leave it away, or take --plan=slurm")
+        }
+        _ => Ok(()),
+    }
+}
+
 impl Plan {
     fn of(study: &Study, planned: &Planned<'_>) -> Result<Self, Failure> {
         let (running, planning) = (planned.running, planned.planning);
@@ -124,13 +151,14 @@ impl Plan {
                 counted(chunks, "chunk")
             ));
         }
-        let most = planning.array_limit as usize - 1;
+        let limit = planning.array_limit.unwrap_or(ARRAY_LIMIT);
+        let most = limit as usize - 1;
         let tasks = shards.min(most);
         if tasks < shards {
             notes.push(format!(
                 "for Slurm, {shards} shards in {tasks} tasks of {} or fewer, one after another: an array has {most} tasks at most where MaxArraySize is {} (`scontrol show config`), which --array-limit says",
                 shards.div_ceil(tasks),
-                planning.array_limit
+                limit
             ));
         }
         let time = planning.time.as_deref();

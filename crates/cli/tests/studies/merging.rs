@@ -229,3 +229,16 @@ fn a_merge_replaces_no_runs_that_it_does_not_hold() {
     );
     assert!(bench.bytes("other.h5") == whole);
 }
+
+/// One of the two has to be there.
+#[test]
+fn the_help_of_a_merge_shows_what_it_needs() {
+    let output = super::pounding().args(["merge", "-h"]).output().unwrap();
+    let help = String::from_utf8(output.stdout).unwrap();
+    for usage in [
+        "pounding merge [OPTIONS] --output <OUTPUT> <SHARDS>...",
+        "pounding merge [OPTIONS] --check <SHARDS>...",
+    ] {
+        assert!(help.contains(usage), "{help}");
+    }
+}

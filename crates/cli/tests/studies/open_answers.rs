@@ -16,6 +16,8 @@ fn a_gap_that_intensities_leave_open_is_a_bound() {
     let bench = Bench::new(&study("\"3 g\", \"4 g\"", hazard));
     let text = bench.text("ida study.toml -o out.h5 --report page.html");
     assert!(text.contains("0.002100: at most "), "{text}");
+    // Two records give no bounds, and none are explained.
+    assert!(!text.contains("Bounds of mean annual"), "{text}");
     assert!(text.contains("the least gap may be as small as"), "{text}");
     let told: serde_json::Value =
         serde_json::from_str(&bench.text("ida study.toml -o out.h5 --resume --json")).unwrap();

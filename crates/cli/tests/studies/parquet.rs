@@ -21,11 +21,11 @@ fn in_csv(field: &Field) -> String {
 fn parquet_says_what_csv_says() {
     let bench = Bench::new(MIXED);
     bench.text("sweep study.toml -o a.h5 --csv runs.csv");
-    bench.text("sweep study.toml -o b.h5 --export runs.parquet");
+    bench.text("sweep study.toml -o b.h5 --export runs.PARQUET");
     let text = String::from_utf8(bench.bytes("runs.csv")).unwrap();
     let mut csv = csv::Reader::from_reader(text.as_bytes());
     let names: Vec<String> = csv.headers().unwrap().iter().map(str::to_owned).collect();
-    let file = std::fs::File::open(bench.path("runs.parquet")).unwrap();
+    let file = std::fs::File::open(bench.path("runs.PARQUET")).unwrap();
     let reader = SerializedFileReader::new(file).unwrap();
     let rows: Vec<Row> = reader
         .get_row_iter(None)
@@ -45,6 +45,21 @@ fn parquet_says_what_csv_says() {
         );
     }
     bench.no_part_file();
+}
+
+/// A table that is written as CSV alone does not take such a name.
+#[test]
+fn tables_of_csv_refuse_the_name() {
+    let bench = Bench::new(MIXED);
+    for command in [
+        "ida study.toml --table t.parquet",
+        "gap case.toml --csv t.Parquet",
+        "gap case.toml --codes-csv t.parquet",
+        "compare case.toml --csv t.parquet",
+    ] {
+        let told = bench.complaint(command, 2);
+        assert!(told.contains("written as CSV"), "{command}: {told}");
+    }
 }
 
 /// More runs than a row group, chunks small enough that groups are written before the end.

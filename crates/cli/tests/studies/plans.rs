@@ -91,10 +91,26 @@ fn the_overview_says_how_the_study_is_dealt() {
         ("--plan --time 10s", "no time limit"),
         ("--plan --shard 1/2", "cannot be used with"),
         ("--time 2h", "--plan"),
+        ("--plan --time 2h", "--time has no meaning"),
+        ("--plan --at-once 3", "--at-once has no meaning"),
+        (
+            "--plan=shell --array-limit 9",
+            "--array-limit has no meaning",
+        ),
+        (
+            "--plan=dask --array-limit 9",
+            "--array-limit has no meaning",
+        ),
+        (
+            "--plan=hyper-queue --array-limit 9",
+            "--array-limit has no meaning",
+        ),
     ] {
         let told = bench.complaint(&format!("sweep study.toml {words}"), 2);
         assert!(told.contains(why), "{words}: {told}");
     }
+    // All scripts at once carry all.
+    bench.text("sweep study.toml --plan --time 2h --at-once 3 --array-limit 9 --json");
 }
 
 #[test]

@@ -43,7 +43,10 @@ impl RunTable {
         let refused = |e| failed(path, e);
         let part = PartFile::beside(path).map_err(refused)?;
         let names = header(description);
-        let writer = if path.extension().is_some_and(|e| e == "parquet") {
+        let writer = if path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("parquet"))
+        {
             let kinds = kinds(description);
             let table = ParquetTable::create(part.path(), &names, &kinds).map_err(refused)?;
             Writer::Parquet(Box::new(table))

@@ -10,7 +10,7 @@ use clap::{Subcommand, ValueEnum};
 pub use generators::*;
 pub use steps::StepArguments;
 
-use super::figure::{FIGURES, FigureArguments, figure_file};
+use super::figure::{FIGURES, FigureArguments, csv_file, figure_file};
 
 /// What to do with recorded and synthetic motions.
 #[derive(Debug, Subcommand)]
@@ -101,7 +101,7 @@ pub struct InfoArguments {
     #[arg(long)]
     pub at_samples: bool,
     /// Write a row of measures for each series into this CSV file, in SI units
-    #[arg(long)]
+    #[arg(long, value_parser = csv_file())]
     pub csv: Option<OutputPath>,
     /// Draw acceleration, velocity, displacement and Husid curve into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), group = FIGURES)]
@@ -179,7 +179,7 @@ pub struct SpectrumArguments {
     #[arg(long, conflicts_with = "fourier")]
     pub at_samples: bool,
     /// Write the spectra into this CSV file, in SI units
-    #[arg(long)]
+    #[arg(long, value_parser = csv_file())]
     pub csv: Option<OutputPath>,
     /// Draw the spectra into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), group = FIGURES)]

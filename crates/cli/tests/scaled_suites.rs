@@ -248,6 +248,20 @@ fn a_mean_spectrum_below_that_of_the_code() {
         assert!(code["spectrum"]["is_reached"].is_null(), "{code}");
         assert_eq!(code["spectrum"]["at_least"], 0.9);
     }
+    // ASCE 7-10 asks for all of its spectrum, up to 1.5 T alone, and for no peak.
+    let american = "code = \"asce_7_2016\", s_ds = \"1 g\", s_d1 = \"0.6 g\", t_l = \"8 s\"";
+    let asked = options.replace("eurocode_8_2004", "asce_7_2010");
+    let path = case(folder.path(), [25.0, 1000.0], american);
+    let spectrum = answer(&path, &asked)["gaps"][0]["code"]["spectrum"].clone();
+    assert!(
+        spectrum["is_reached"].is_boolean() && spectrum["at_least"] == 1.0,
+        "{spectrum}"
+    );
+    let to = number(&spectrum["band"][1]) / period(25e3, 3.46e6);
+    assert!(
+        (to - 1.5).abs() < 1e-9 && spectrum["ratio_of_peaks"].is_null(),
+        "{spectrum}"
+    );
     let path = case(folder.path(), [25.0, 1000.0], &scale(""));
     let told = run("gap", &format!("{} --points 0 {options}", path.display()));
     let told = String::from_utf8_lossy(&told.stdout).into_owned();

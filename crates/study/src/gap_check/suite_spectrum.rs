@@ -106,14 +106,11 @@ impl SuiteSpectrum {
         });
         let from = (condition.band.0 * shortest).clamp(range.0, range.1);
         let to = (condition.band.1 * longest).clamp(range.0, range.1);
-        if from >= to {
-            let scaled_to = None;
-            return Ok(Self::NotCompared {
-                condition,
-                scaled_to,
-            });
-        }
-        let periods = logarithmic_periods(from, to, BAND_PERIODS).map_err(wrong(first))?;
+        let periods = match from < to {
+            true => logarithmic_periods(from, to, BAND_PERIODS).map_err(wrong(first))?,
+            // Of a band beyond the spectrum its end is left.
+            false => vec![from],
+        };
         let mean = mean(
             &of_records(records, &periods, DAMPING, threads)?,
             periods.len(),

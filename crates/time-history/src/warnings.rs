@@ -33,6 +33,8 @@ pub(crate) const APPROACH_VELOCITY: f64 = 0.5;
 const ISOLATOR: (f64, f64) = (0.2, 0.7);
 /// Steps times floors from which a run takes long enough to say so.
 const LONG_RUN: f64 = 1.0e9;
+/// Part of the largest input energy up to which what contacts give is the error of a method.
+const ROUND_OFF: f64 = 1.0e-4;
 
 /// Something that is possible, but more often a mistake.
 #[derive(Debug, Clone, PartialEq)]
@@ -132,6 +134,13 @@ pub enum Warning {
         duration: f64,
         /// When the peak ground acceleration comes (s).
         peak: f64,
+    },
+    /// Contacts of a level have lost less than nothing.
+    EnergyFromContacts {
+        /// Gap and level.
+        place: String,
+        /// What they gave (J).
+        energy: f64,
     },
     /// No ground motion, no force and no initial state.
     NothingMoves,
@@ -266,6 +275,11 @@ impl fmt::Display for Warning {
             } => write!(
                 f,
                 "the run ends at {duration} s, before the peak ground acceleration at {peak} s{place}, and what follows is left out: take a longer `duration`, or leave it out; where a filter puts zeros before the record, `keep_pads = false` in the filter leaves them out"
+            ),
+            Self::EnergyFromContacts { place, energy } => write!(
+                f,
+                "gap {place}: its contacts gave {} J to the buildings, which no law of contacts does: the result is not to be used; take method = \"adaptive\", and report the case",
+                short(*energy)
             ),
             Self::NothingMoves => f.write_str(
                 "nothing moves: the ground motion is zero throughout, no force acts, and the buildings start at rest in place; correct the record or its `process`, or add [[building.force]] or an initial displacement or velocity"
@@ -494,6 +508,7 @@ impl Warning {
         system: &System,
         options: &RunOptions,
         (buildings, levels): (&[BuildingOutcome], &[LevelOutcome]),
+        largest_input: f64,
     ) -> Vec<Self> {
         let mut warnings = standing(system, options);
         let event_driven = matches!(options.method, MethodChoice::EventDriven { .. });
@@ -507,6 +522,15 @@ impl Warning {
         };
         warnings.extend(coarse_step(system, &options.method, (met, true)));
         warnings.extend(unseated(system, levels));
+        for (l, level) in levels.iter().enumerate() {
+            let given = -level.energy_dissipated;
+            if given > ROUND_OFF * largest_input {
+                warnings.push(Self::EnergyFromContacts {
+                    place: system.name_of_level(l),
+                    energy: given,
+                });
+            }
+        }
         for (outcome, building) in buildings.iter().zip(system.buildings()) {
             let ratios = outcome.storeys.iter().map(|s| s.drift_ratio.value);
             // Isolators are there to be displaced, and have a height that means nothing.

@@ -89,7 +89,10 @@ impl Driver<'_> {
                 capacity: row.given.capacity,
             });
         }
-        let warnings = Warning::after(self.system, self.options, (&buildings, &levels));
+        let warnings = {
+            let found = (&buildings[..], &levels[..]);
+            Warning::after(self.system, self.options, found, self.ledger.largest_input)
+        };
         let gaps = self
             .system
             .gaps()

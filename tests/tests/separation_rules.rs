@@ -207,3 +207,65 @@ fn ends_found_twice(model: &Arc<dyn ImpactModel>) -> usize {
     }
     parted
 }
+
+/// A law that pushes harder on the way out than on the way in.
+#[derive(Debug)]
+struct Giving(Returning);
+
+impl ImpactModel for Giving {
+    fn descriptor(&self) -> &'static ModelDescriptor {
+        self.0.descriptor()
+    }
+    fn separation(&self) -> SeparationRule {
+        self.0.separation()
+    }
+    fn begin(&self, approach_velocity: f64, effective_mass: f64) -> Collision {
+        self.0.begin(approach_velocity, effective_mass)
+    }
+    fn force(&self, c: &Collision, m: &Memory, phase: Phase, delta: f64, velocity: f64) -> Force {
+        let force = self.0.force(c, m, phase, delta, velocity);
+        let more = if velocity < 0.0 { 1.1 } else { 1.0 };
+        Force {
+            value: more * force.value,
+            by_penetration: more * force.by_penetration,
+            ..force
+        }
+    }
+    fn stored_energy(&self, c: &Collision, m: &Memory, phase: Phase, delta: f64) -> f64 {
+        self.0.stored_energy(c, m, phase, delta)
+    }
+    fn transitions(&self, phase: Phase) -> &'static [Transition] {
+        self.0.transitions(phase)
+    }
+    fn closed_form(&self, _: f64, _: f64) -> Option<ClosedForm> {
+        None
+    }
+    fn smooth_at_closure(&self) -> bool {
+        self.0.smooth_at_closure()
+    }
+}
+
+/// The ledger closes over contacts that give energy, as their loss is what it leaves over: a warning says it.
+#[test]
+fn contacts_that_give_energy_are_told() {
+    let spring = ModelParameters::from_pairs(&[("stiffness", 2.75e9)]);
+    let build =
+        || -> Arc<dyn ImpactModel> { registry::build("hertz_1882", &spring).unwrap().into() };
+    let told = |model: Arc<dyn ImpactModel>| {
+        let body = single_storey("body", 26_459.0, 2.4e6);
+        let mut system = System::new(vec![body], synthetic_motion().unwrap());
+        let pair = (Floor::Storey(0, 0), Floor::Wall, 5.0e-3, model);
+        let names = ["body".to_owned(), "wall".to_owned()];
+        system.add_gap("body-wall", names, vec![pair]).unwrap();
+        let relative_tolerance = 1.0e-8;
+        let outcome = outcome_by(&system, MethodChoice::Adaptive { relative_tolerance }, 20.0);
+        let outcome = outcome.unwrap();
+        assert!(outcome.impacts.len() > 10);
+        let warnings = outcome.warnings.iter().map(ToString::to_string);
+        warnings
+            .filter(|w| w.contains("J to the buildings"))
+            .count()
+    };
+    assert_eq!(told(build()), 0);
+    assert_eq!(told(Arc::new(Giving(Returning(build())))), 1);
+}

@@ -21,6 +21,7 @@ mod rigid_accumulation;
 mod rigid_held;
 mod rigid_impacts;
 mod separation_rules;
+mod simultaneous_rigid_impacts;
 mod sine_case;
 mod stiff_contacts;
 mod structures;

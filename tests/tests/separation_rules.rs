@@ -178,6 +178,76 @@ fn ends_of_contacts_with_adams_impact_are_located() {
     }
 }
 
+/// Where the dashpot lets go beyond `full_damping_penetration`, the force returns at a seventh of it, as its dashpot
+/// fades faster than its spring. Restitution of two free bodies against a Runge-Kutta integration with steps of 50 ns,
+/// of the bare formula.
+#[test]
+fn a_force_that_returns_as_its_dashpot_fades_is_found() {
+    let (depth, mass) = (1.0e-4, 25.0e3 * 40.0e3 / 65.0e3);
+    for (exponent, stiffness, damping, speed) in [
+        (1.0, 93.5e6, 122.0e3, 0.22),
+        (1.0, 93.5e6, 122.0e3, 0.1),
+        (1.0, 93.5e6, 400.0e3, 0.3),
+        (1.2, 5.0e8, 122.0e3, 0.22),
+        (1.5, 2.75e9, 3.0e5, 0.3),
+    ] {
+        let acceleration = |[delta, rate]: [f64; 2]| {
+            if delta <= 0.0 {
+                return 0.0;
+            }
+            let s = (delta / depth).min(1.0);
+            let dashpot = damping * s * s * (3.0 - 2.0 * s);
+            -(stiffness * delta.powf(exponent) + dashpot * rate).max(0.0) / mass
+        };
+        let expected = free_restitution(acceleration, speed, 5.0e-8);
+        let law: Arc<dyn ImpactModel> = registry::build(
+            "adams_impact",
+            &ModelParameters::from_pairs(&[
+                ("exponent", exponent),
+                ("stiffness", stiffness),
+                ("damping", damping),
+            ]),
+        )
+        .unwrap()
+        .into();
+        let bodies = vec![
+            single_storey("left", 25.0e3, 1.0e-6),
+            single_storey("right", 40.0e3, 1.0e-6),
+        ];
+        let mut system = System::new(bodies, constant_ground(0.0, 0.5));
+        let names = ["left".to_owned(), "right".to_owned()];
+        let pair = (Floor::Storey(0, 0), Floor::Storey(1, 0), 1.0e-3, law);
+        system.add_gap("gap", names, vec![pair]).unwrap();
+        let system = system
+            .with_initial_state(&[0.0, 0.0], &[speed, 0.0])
+            .unwrap();
+        let relative_tolerance = 1.0e-10;
+        for method in [
+            MethodChoice::EventDriven { relative_tolerance },
+            MethodChoice::Adaptive { relative_tolerance },
+        ] {
+            let impact = &outcome_by(&system, method, 0.5).unwrap().impacts[0];
+            let error = (impact.achieved_restitution - expected).abs();
+            assert!(error < 2.0e-6, "{exponent}, {speed}, {method:?}: {error:e}");
+        }
+    }
+}
+
+/// Restitution of a free collision with this acceleration, by the classical Runge-Kutta method.
+fn free_restitution(acceleration: impl Fn([f64; 2]) -> f64, speed: f64, step: f64) -> f64 {
+    let mut state = [0.0, speed];
+    while state[0] >= 0.0 {
+        let rate = |[u, v]: [f64; 2]| [v, acceleration([u, v])];
+        let moved = |by: [f64; 2], part: f64| [0, 1].map(|i| state[i] + part * step * by[i]);
+        let a = rate(state);
+        let b = rate(moved(a, 0.5));
+        let c = rate(moved(b, 0.5));
+        let d = rate(moved(c, 1.0));
+        state = [0, 1].map(|i| state[i] + step / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]));
+    }
+    -state[1] / speed
+}
+
 /// Impacts of four bodies with a wall, whose ends both methods found at the same places.
 fn ends_found_twice(model: &Arc<dyn ImpactModel>) -> usize {
     let mut parted = 0;

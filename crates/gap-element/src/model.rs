@@ -263,7 +263,7 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
     }
 
     /// Recoverable energy (J) at penetration `delta` (m): the part of the work
-    /// done on the contact that its spring would give back.
+    /// done on the contact that its spring would give back. Zero in [`Phase::Released`].
     fn stored_energy(
         &self,
         collision: &Collision,

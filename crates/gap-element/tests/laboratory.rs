@@ -97,6 +97,42 @@ fn a_collision_is_like_its_own_force() {
     assert!(difference.window.is_nan() && difference.impulse_error_percent.is_finite());
 }
 
+/// A force sampled up to a hundred times as densely begins and ends where it did: below the threshold
+/// lie many samples then.
+#[test]
+fn dense_samples_are_aligned_as_coarse_ones() {
+    for name in ["hertz_1882", "hunt_crossley_1975", "linear_elastic"] {
+        let mut one = specimen(name, &[]);
+        one.fill_from_example();
+        let computed = collide(one.build().unwrap().as_ref(), &EXAMPLE_BODIES).unwrap();
+        let history = &computed.history;
+        let force = |t: f64| {
+            let after = history.partition_point(|s| s.time <= t);
+            match (after, history.get(after)) {
+                (1.., Some(next)) => {
+                    let last = &history[after - 1];
+                    let part = (t - last.time) / (next.time - last.time);
+                    last.force + part * (next.force - last.force)
+                }
+                _ => 0.0,
+            }
+        };
+        for samples in [40, 400, 4000] {
+            let step = computed.duration / f64::from(samples);
+            let times = (-10..samples + 10).map(|i| (f64::from(i) + 0.37) * step);
+            let raw: Vec<_> = times.map(|t| (t, force(t))).collect();
+            let found = MeasuredForce::align(name.to_owned(), &raw, 0.01, None).unwrap();
+            let difference = found.difference(&computed, one.exponent());
+            let rms = difference.rms_force_difference_percent_of_peak;
+            assert!(rms < 0.15, "{name}, {samples}: {difference:?}");
+            let late = found.first_contact_of(one.exponent()) / computed.duration;
+            assert!(late.abs() < 2e-3, "{name}, {samples}: {late}");
+            let end = (found.first_contact + found.contact_time) / computed.duration;
+            assert!((end - 1.0).abs() < 0.02, "{name}, {samples}: {end}");
+        }
+    }
+}
+
 /// Chung and Ooi 2011, test 1, two glass spheres: their curve, as read off the figure (us, kN), has
 /// 22 samples. With the line of F^(2/3) a right law is 0.2 % of the peak off it, with one of F 5 %.
 #[test]

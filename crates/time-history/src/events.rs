@@ -2,7 +2,8 @@
 //!
 //! Every event is a function that starts on a known side and fires when it
 //! becomes positive. Penetrations and velocities are the step's own polynomials;
-//! forces are fitted by a polynomial of the same degree at Chebyshev points. The
+//! forces are fitted by a polynomial of the same degree at Chebyshev points, over parts of the step where
+//! one for the whole does not follow them. The
 //! search is certified by Bernstein coefficients (`polynomial`), so two crossings
 //! inside one step are found as surely as one.
 
@@ -12,7 +13,9 @@ use pounding_hysteresis::Guard as LawGuard;
 use crate::dynamics::{Dynamics, Instant, Layout};
 use crate::elements::guard_function;
 use crate::methods::{Context, Method};
-use crate::polynomial::{COEFFICIENTS, Polynomial, difference, first_rise, fit, fit_nodes, value};
+use crate::polynomial::{
+    COEFFICIENTS, Polynomial, difference, first_rise, first_rise_of, fit, fit_nodes, value,
+};
 
 /// What happens at a level, or to an element.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,6 +29,9 @@ pub(crate) enum EventKind {
     /// An element leaves its branch.
     Branch(LawGuard),
 }
+
+/// Precision (of theta) of an event, as the search has it of polynomials.
+const PRECISION: f64 = 1.0e-15;
 
 /// An event inside a trial step.
 #[derive(Debug, Clone, Copy)]
@@ -72,8 +78,12 @@ impl Finder {
             let mut first: Option<Candidate> = None;
             let kinds = kinds(context, level);
             for kind in kinds.into_iter().flatten() {
-                let guard = self.guard(context, method, level, kind, tau, step);
-                let found = first_rise(&guard).map(|theta| Candidate { level, kind, theta });
+                let of_law = law_guard(context, method, level, kind);
+                let of_law = of_law.map(|function| first_rise_of(function, PRECISION));
+                let rise = of_law.unwrap_or_else(|| {
+                    first_rise(&self.guard(context, method, level, kind, tau, step))
+                });
+                let found = rise.map(|theta| Candidate { level, kind, theta });
                 if let Some(found) = found.filter(|found| !muted(*found))
                     && first.is_none_or(|f| found.theta < f.theta)
                 {
@@ -131,6 +141,9 @@ impl Finder {
         tau: f64,
         step: f64,
     ) -> Polynomial {
+        if let Some(function) = law_guard(context, method, level, kind) {
+            return fit(&self.nodes.map(function));
+        }
         match kind {
             EventKind::Close => penetration(context, method, level),
             EventKind::Open => negated(penetration(context, method, level)),
@@ -148,31 +161,9 @@ impl Finder {
                 };
                 let transition = system.levels()[level].model.transitions(contact.phase)[index];
                 let function = match transition.guard {
-                    Guard::Velocity => velocity(context, method, level),
-                    Guard::RawForce => {
-                        let (delta, rate) = (
-                            penetration(context, method, level),
-                            velocity(context, method, level),
-                        );
-                        fit(&self.nodes.map(|x| {
-                            contact.raw_force(
-                                &system.levels()[level],
-                                value(&delta, x),
-                                value(&rate, x),
-                            )
-                        }))
-                    }
-                    Guard::Model(index) => {
-                        let delta = penetration(context, method, level);
-                        let rate = velocity(context, method, level);
-                        fit(&self.nodes.map(|x| {
-                            contact.guard(
-                                &system.levels()[level],
-                                index,
-                                value(&delta, x),
-                                value(&rate, x),
-                            )
-                        }))
+                    // Those of the law are above.
+                    Guard::Velocity | Guard::RawForce | Guard::Model(_) => {
+                        velocity(context, method, level)
                     }
                     Guard::StickLower | Guard::StickUpper => {
                         let upper = transition.guard == Guard::StickUpper;
@@ -234,6 +225,37 @@ impl Finder {
         }
         context.dynamics.forces[level]
     }
+}
+
+/// The function of an event that is one of the law's own, of penetration and velocity; `None` of others.
+fn law_guard<'a>(
+    context: &'a Context<'_, '_>,
+    method: &dyn Method,
+    level: usize,
+    kind: EventKind,
+) -> Option<impl Fn(f64) -> f64 + 'a> {
+    let EventKind::Transition(index) = kind else {
+        return None;
+    };
+    let contact = context.contacts.contact(level)?;
+    let place = &context.dynamics.system.levels()[level];
+    let transition = place.model.transitions(contact.phase)[index];
+    if !matches!(transition.guard, Guard::RawForce | Guard::Model(_)) {
+        return None;
+    }
+    let delta = penetration(context, method, level);
+    let rate = velocity(context, method, level);
+    Some(move |x: f64| {
+        let (delta, rate) = (value(&delta, x), value(&rate, x));
+        let function = match transition.guard {
+            Guard::Model(index) => contact.guard(place, index, delta, rate),
+            _ => contact.raw_force(place, delta, rate),
+        };
+        match transition.direction {
+            Direction::Rising => function,
+            Direction::Falling => -function,
+        }
+    })
 }
 
 /// A guard without what round-off of the velocity adds at a turning point.

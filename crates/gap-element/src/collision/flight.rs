@@ -162,13 +162,24 @@ impl<'a> Flight<'a> {
         if velocity > CREEP * self.collision.approach_velocity {
             return false;
         }
+        // The spring of floors that have let go acts again once they are pressed together.
+        let phase = match self.phase {
+            Phase::Released => Phase::Approach,
+            other => other,
+        };
         let stored = self
             .model
-            .stored_energy(&self.collision, &self.memory, self.phase, delta);
+            .stored_energy(&self.collision, &self.memory, phase, delta);
         let unread = self.read_at.is_some_and(|t| t > self.time);
-        pressing > 0.0
-            && !unread
-            && 0.5 * mass * velocity * velocity + stored - mass * pressing * delta < 0.0
+        let least = if pressing > 0.0 {
+            mass * pressing * delta
+        } else {
+            // Without a pressing force too slow a parting is none: a damping at or above the critical
+            // one lets them creep apart without end.
+            let creep = CREEP * self.collision.approach_velocity;
+            0.5 * mass * creep * creep
+        };
+        !unread && 0.5 * mass * velocity * velocity + stored < least
     }
 
     /// Changes the phase at a located transition; tells if that ends the contact.

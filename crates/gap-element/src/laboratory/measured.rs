@@ -28,8 +28,8 @@ pub struct MeasuredForce {
     pub samples_in_contact: usize,
     /// Time (s) and force (N) as in the history.
     raw: Vec<(f64, f64)>,
-    /// The first sample in contact among them.
-    first: usize,
+    /// The first sample in contact among them, and the highest.
+    first_and_top: (usize, usize),
     /// Whether the first contact was given.
     is_given: bool,
     /// What makes the numbers doubtful.
@@ -122,7 +122,7 @@ impl MeasuredForce {
         let level = threshold * raw[top].1;
         let percent = significant(100.0 * threshold);
         let first = raw.iter().position(|(_, f)| *f > level).unwrap_or(top);
-        let first_contact = shift.unwrap_or_else(|| closure(raw, first, 1.0));
+        let first_contact = shift.unwrap_or_else(|| closure(raw, (first, top), 1.0));
         let step = raw.get(1).map_or(0.0, |second| second.0 - raw[0].0);
         if !(first_contact >= raw[0].0 - step && first_contact <= raw[top].0) {
             return Err(MeasuredForceError::FirstContact {
@@ -134,7 +134,7 @@ impl MeasuredForce {
         let mut warnings = Vec::new();
         let released = (top..raw.len()).find(|i| raw[*i].1 <= level);
         let end = match released {
-            Some(i) => opening(raw, i),
+            Some(i) => opening(raw, i, top),
             None => {
                 warnings.push(
                     "the measured history ends in contact: its impulse and contact time are cut short"
@@ -169,7 +169,7 @@ impl MeasuredForce {
         contact.push((contact_time, last));
         Ok(Self {
             raw: raw.to_vec(),
-            first,
+            first_and_top: (first, top),
             is_given: shift.is_some(),
             name,
             first_contact,
@@ -189,7 +189,7 @@ impl MeasuredForce {
     pub fn first_contact_of(&self, exponent: f64) -> f64 {
         match self.is_given {
             true => self.first_contact,
-            false => closure(&self.raw, self.first, exponent),
+            false => closure(&self.raw, self.first_and_top, exponent),
         }
     }
 
@@ -261,31 +261,45 @@ impl serde::Serialize for MeasuredForce {
     }
 }
 
-/// Time of zero force on the line through the first sample in contact and the next, of forces
-/// to the power `1/exponent`, at most as many samples earlier as the exponent rounded up, since
-/// a force that begins slowly has samples below the threshold; where the force does not rise any
-/// more, the time of the sample before.
-fn closure(raw: &[(f64, f64)], first: usize, exponent: f64) -> f64 {
+/// Time of zero force on the line through the first sample in contact and one of twice its height,
+/// or the next where it is higher, of forces to the power `1/exponent`. A force that begins slowly
+/// has samples below the threshold: closure may be earlier by as many samples as the exponent rounded
+/// up, or by as many times the time between the two, but not before the last sample without a force that
+/// pushes. Where the force does not rise any more, the time of the sample before.
+fn closure(raw: &[(f64, f64)], (first, top): (usize, usize), exponent: f64) -> f64 {
     let root = |force: f64| libm::pow(force, 1.0 / exponent);
     let (time, force) = raw[first];
     let samples = (1..=first).take_while(|i| (*i as f64) < exponent + 1.0);
     let earliest = raw[first - samples.last().unwrap_or(0)].0;
-    match raw.get(first + 1) {
-        Some((next_time, next_force)) if *next_force > force => {
-            let (force, next_force) = (root(force), root(*next_force));
-            let back = force * (next_time - time) / (next_force - force);
-            let without = time - (next_time - time);
-            (time - back).max(if first > 0 { earliest } else { without })
+    let higher = (first + 1..=top).find(|i| raw[*i].1 >= 2.0 * force);
+    let force = root(force);
+    match raw.get(higher.unwrap_or(first + 1)) {
+        Some((later, higher)) if root(*higher) > force => {
+            let apart = later - time;
+            let back = force * apart / (root(*higher) - force);
+            let open = raw[..first].iter().rev().find(|(_, f)| *f <= 0.0);
+            let without = time - apart;
+            let bound = match (first, open) {
+                (0, _) => without,
+                (_, Some((open, _))) => earliest.min(time - (exponent + 1.0) * apart).max(*open),
+                (_, None) => earliest.min(time - (exponent + 1.0) * apart),
+            };
+            (time - back).max(bound)
         }
         _ => raw[first.saturating_sub(1)].0,
     }
 }
 
-/// Time of zero force on the line through the last sample in contact and the first
-/// after it, at most one sample later.
-fn opening(raw: &[(f64, f64)], after: usize) -> f64 {
-    let ((t0, f0), (t1, f1)) = (raw[after - 1], raw[after]);
-    t1 + (f1 * (t1 - t0) / (f0 - f1)).min(t1 - t0)
+/// Time of zero force on the line through the last sample of twice the height of the first one
+/// after the contact, or the last in contact where that is higher, and that one: at most as much
+/// later as they are apart, and no later than a sample without a force that pushes.
+fn opening(raw: &[(f64, f64)], after: usize, top: usize) -> f64 {
+    let (t1, f1) = raw[after];
+    let higher = (top..after).rev().find(|i| raw[*i].1 >= 2.0 * f1);
+    let (t0, f0) = raw[higher.unwrap_or(after - 1)];
+    let crossing = t1 + (f1 * (t1 - t0) / (f0 - f1)).min(t1 - t0);
+    let open = raw[after..].iter().find(|(_, f)| *f <= 0.0);
+    open.map_or(crossing, |(open, _)| crossing.min(*open))
 }
 
 /// Linear between points, zero beyond the last.

@@ -185,8 +185,8 @@ impl ImpactModel for AdamsImpact {
         }
         self.uncut(phase, delta, velocity)
     }
-    /// The force over `delta^n`, and over `delta^2` for exponents above two: no zero at closure and
-    /// no pole, as the dashpot's share grows like `delta^2` there. Of a contact that has let go it is
+    /// The force over `delta^n`, and over `delta^2` for exponents from two on: no zero at closure and
+    /// no pole or jump, as the dashpot's share grows like `delta^2` there. Of a contact that has let go it is
     /// taken no nearer to the end than [`NEAR_END`].
     fn raw_force(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64, velocity: f64) -> f64 {
         let delta = match phase {
@@ -194,7 +194,7 @@ impl ImpactModel for AdamsImpact {
             _ => delta,
         };
         let full = phase == FULL || delta >= self.depth;
-        if self.exponent > 2.0 {
+        if self.exponent >= 2.0 {
             // STEP over delta^2, from its polynomial where it is one.
             let coefficient = match full {
                 true => self.damping / (delta * delta),
@@ -212,7 +212,10 @@ impl ImpactModel for AdamsImpact {
         let (coefficient, _) = self.step(phase, delta);
         self.stiffness + coefficient / libm::pow(delta, self.exponent) * velocity
     }
-    fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
+    fn stored_energy(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64) -> f64 {
+        if phase == Phase::Released {
+            return 0.0;
+        }
         hunt_crossley::stored_energy(self.stiffness, self.exponent, delta)
     }
     fn transitions(&self, phase: Phase) -> &'static [Transition] {

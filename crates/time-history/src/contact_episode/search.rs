@@ -12,7 +12,7 @@ use super::touch_series::TouchSeries;
 use crate::bernstein::first_rise_of_series;
 use crate::contact::Contacts;
 use crate::events::{Candidate, EventKind};
-use crate::polynomial::{COEFFICIENTS, Polynomial, first_rise_near, fit, fit_nodes, value};
+use crate::polynomial::{Polynomial, first_rise_near, first_rise_of, fit, value};
 use crate::system::System;
 
 /// A function that passes its root by less than this part of its size only touches it: as
@@ -21,9 +21,12 @@ const ROUND_OFF: f64 = 1.0e-13;
 /// Corrections of a root at most.
 const CORRECTIONS: usize = 12;
 
+/// Precision (of theta) of a root that only leads near the event.
+const NEAR: f64 = 1.0e-6;
+
 /// First rise of a polynomial that only leads near the root.
 fn near(p: &Polynomial) -> Option<f64> {
-    first_rise_near(p, 1.0e-6)
+    first_rise_near(p, NEAR)
 }
 
 /// Transitions of a closed level in its phase.
@@ -221,18 +224,14 @@ fn passage(
         (Guard::Velocity, Direction::Rising) => rise(series, &motion.rate, zeros()),
         (Guard::Velocity, Direction::Falling) => fall(series, &motion.rate, zeros()),
         _ => {
-            let delta = series.at_nodes(&motion.delta);
-            let rate = series.at_nodes(&motion.rate);
-            let samples =
-                std::array::from_fn(|i| guard(system, touch, transition, delta[i], rate[i]));
-            let theta = near(&fit(&samples))?;
-            if theta <= 0.0 {
-                return Some(theta);
-            }
             let at = |x: f64| {
                 let (delta, rate) = (series.at(&motion.delta, x).0, series.at(&motion.rate, x).0);
                 guard(system, touch, transition, delta, rate)
             };
+            let theta = first_rise_of(at, NEAR)?;
+            if theta <= 0.0 {
+                return Some(theta);
+            }
             Some(secant(theta, at))
         }
     }
@@ -348,12 +347,11 @@ fn fires(
         (Guard::Velocity, Direction::Rising) => near(rate),
         (Guard::Velocity, Direction::Falling) => near(&rate.map(|c| -c)),
         _ => {
-            let nodes = fit_nodes();
-            let samples: [f64; COEFFICIENTS] = std::array::from_fn(|i| {
-                let (d, r) = (value(delta, nodes[i]), value(rate, nodes[i]));
+            let at = |x: f64| {
+                let (d, r) = (value(delta, x), value(rate, x));
                 guard(system, touch, transition, d, r)
-            });
-            near(&fit(&samples))
+            };
+            first_rise_of(at, NEAR)
         }
     }
 }

@@ -4,7 +4,9 @@
 //! as a linear complementarity problem: impulses `P >= 0`, and every pair of floors
 //! that an impulse acts on parts with `e` times its approach velocity (Newton's
 //! restitution in every contact; Jean and Moreau 1992, Brogliato, Nonsmooth
-//! Mechanics, 3rd edition 2016, section 5.3). Which of them stay together afterwards is
+//! Mechanics, 3rd edition 2016, section 5.3). Floors that touch but part take no part in it:
+//! they have not met, and an impulse upon them could give energy. Where it lets them approach,
+//! they meet next, at the same instant. Which of them stay together afterwards is
 //! decided by their accelerations (`held_contacts`).
 
 use pounding_gap_element::{Memory, Phase};
@@ -28,6 +30,11 @@ const ROUND_OFF: f64 = 1.0e-14;
 
 /// Longest time (s) for which a level is let be.
 const LONGEST_QUIET: f64 = 1.0e-4;
+
+/// Solutions of one instant, each of which may let other floors approach, before it is given up. A
+/// light body between heavy ones that lose much is thrown to and fro without end, ever more slowly,
+/// until round-off is left.
+const JUMPS_AT_ONCE: usize = 100_000;
 
 /// Open floors closer than this (m) take part in an impact of their neighbours.
 pub(super) const TOUCHING: f64 = 1.0e-12;
@@ -131,17 +138,26 @@ impl Driver<'_> {
         let mut work = std::mem::take(&mut self.rigid);
         let time = segment.start + tau;
         self.gather(&mut work, segment, tau);
-        if !self.solve_impacts(&mut work) {
-            return Err(self.wedged(time));
+        // Floors that parted without a gap yet may be thrown back by the impact of others.
+        for _ in 0..JUMPS_AT_ONCE {
+            if !self.solve_impacts(&mut work) {
+                return Err(self.wedged(time));
+            }
+            self.begin_impacts(&work, time);
+            self.jump(&work.active, &work.impulses);
+            for k in 0..work.active.len() {
+                self.settle(&work, k, time);
+            }
+            self.follow_jump(time);
+            work.closing.clear();
+            self.gather(&mut work, segment, tau);
+            let approaches = |v: &f64| *v > work.round_off;
+            if !work.before.iter().any(approaches) {
+                self.rigid = work;
+                return Ok(());
+            }
         }
-        self.begin_impacts(&work, time);
-        self.jump(&work.active, &work.impulses);
-        for k in 0..work.active.len() {
-            self.settle(&work, k, time);
-        }
-        self.follow_jump(time);
-        self.rigid = work;
-        Ok(())
+        Err(self.wedged(time))
     }
 
     /// Contacts that leave nothing to part with.
@@ -161,11 +177,14 @@ impl Driver<'_> {
         for l in 0..self.dynamics.layout.levels {
             let in_touch = self.contacts.contact(l).is_some()
                 || self.contacts.penetration(self.system, l, &self.state[..n]) > -TOUCHING;
-            if self.is_rigid(l) && in_touch {
+            if !(self.is_rigid(l) && in_touch) {
+                continue;
+            }
+            let level = &self.system.levels()[l];
+            let approach = level.relative(&self.state[n..2 * n]);
+            let held = self.contacts.contact(l).is_some();
+            if held || approach >= -TOUCH_VELOCITY {
                 work.active.push(l);
-                let level = &self.system.levels()[l];
-                let approach = level.relative(&self.state[n..2 * n]);
-                let held = self.contacts.contact(l).is_some();
                 work.before.push(if held { 0.0 } else { approach });
             }
         }
@@ -236,8 +255,7 @@ impl Driver<'_> {
     /// rest that impulses of others press together.
     fn begin_impacts(&mut self, work: &RigidImpacts, time: f64) {
         for (k, &l) in work.active.iter().enumerate() {
-            let at_rest = work.before[k] >= -TOUCH_VELOCITY;
-            let meets = work.before[k] > 0.0 || (at_rest && work.impulses[k] > 0.0);
+            let meets = work.before[k] > 0.0 || work.impulses[k] > 0.0;
             let closing = work.closing.contains(&l) || meets;
             if self.contacts.contact(l).is_some() || !closing {
                 continue;
@@ -266,8 +284,6 @@ impl Driver<'_> {
             for &b in &work.active {
                 work.matrix.push(coupling(&levels[a], &levels[b], mass));
             }
-            // Also of floors that part already, as in Moreau's law: they may approach after it,
-            // for another impact. Brought to rest they would gain energy.
             let restored = work.restitution[k] * work.before[k];
             work.right.push(-(work.before[k] + restored));
         }

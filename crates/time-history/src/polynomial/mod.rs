@@ -8,9 +8,11 @@
 //! for CAGD, 5th edition, 2002, chapters 4 and 5 (hull property, de Casteljau).
 
 mod remainder;
+mod sampled;
 mod through;
 
 pub(crate) use remainder::hermite_range;
+pub(crate) use sampled::first_rise_of;
 pub(crate) use through::{fit, fit_nodes, hermite, septic};
 
 /// Number of power-basis coefficients (degree 7).

@@ -55,7 +55,8 @@ impl System {
                 [Some(left), Some(right)] => Some(UnequalFloors {
                     between: gap.between.clone(),
                     place: l.place,
-                    difference: decimal((left - right).abs()),
+                    // To the nanometre: that of two decimal numbers is one only so far.
+                    difference: decimal(((left - right).abs() * 1.0e9).round() / 1.0e9),
                 }),
                 _ => None,
             })

@@ -244,6 +244,54 @@ fn records_of_buildings_and_across_the_row_are_said_and_have_their_line() {
     bench.refused("run bad.toml", &["gone.csv", &format!("bad.toml:{line}:")]);
 }
 
+/// Two components of one file, turned by 30 degrees: `a cos + b sin` along the row and `b cos - a sin` across it.
+/// That of one of them alone is refused.
+#[test]
+fn both_components_of_a_file_turn() {
+    let bench = example(
+        "pair_that_turns",
+        "duration = \"20 s\"",
+        "duration = \"1 s\"",
+    );
+    // Without a mean, which would be taken off.
+    let sample = |i: usize| [0.3, 0.5].map(|rate| (rate * (i as f64 - 50.0)).sin());
+    let lines = (0..101).map(|i| {
+        let [a, b] = sample(i);
+        format!("{:.3},{a:.12},{b:.12}\n", 0.02 * i as f64)
+    });
+    let lines: String = lines.collect();
+    bench.write("two.csv", &format!("time (s),NS (m/s2),EW (m/s2)\n{lines}"));
+    let case = bench.read("case.toml");
+    let start = case.find("[ground_motion]").unwrap();
+    let end = start + case[start..].find("\n\n").unwrap();
+    let along = "[ground_motion]\nfile = \"two.csv\"\ncomponent = \"NS\"\nsecond_component = \"EW\"\nrotate = 30\n";
+    let with = |across: &str| [&case[..start], along, across, &case[end..]].concat();
+    bench.write(
+        "one.toml",
+        &with("across = { file = \"two.csv\", component = \"EW\" }"),
+    );
+    bench.refused(
+        "check one.toml",
+        &["not at right angles", "one.toml:", "rotate = -30"],
+    );
+    bench.write(
+        "both.toml",
+        &with("across = { file = \"two.csv\", component = \"EW\", second_component = \"NS\", rotate = -30 }"),
+    );
+    bench.text("run both.toml -o case.h5");
+    let along = history(&bench, "ground/acceleration");
+    let across = history(&bench, "building/low/ground_acceleration_across");
+    let (sine, cosine) = 30.0_f64.to_radians().sin_cos();
+    let times = history(&bench, "time");
+    assert!(times.len() > 40, "{}", times.len());
+    // Every second row is at a sample.
+    for ((time, along), across) in times.iter().zip(along).zip(across).step_by(2) {
+        let [a, b] = sample((time / 0.02).round() as usize);
+        assert!((along - (a * cosine + b * sine)).abs() < 1e-9, "{time}");
+        assert!((across - (b * cosine - a * sine)).abs() < 1e-9, "{time}");
+    }
+}
+
 /// The record across the row belongs to the case's own record: beside others it is said.
 #[test]
 fn records_beside_that_across_the_row_are_said() {

@@ -6,7 +6,9 @@ use pounding_hysteresis::LawParameters;
 use pounding_shear_building::{Damping, ShearBuilding, StoreyLaw};
 use pounding_time_history::{Outcome, RunOptions, System, TimeHistoryError, run};
 
-use super::setup::{ADAPTIVE, el_centro, go, law, newmark};
+use verification::constant_ground;
+
+use super::setup::{ADAPTIVE, EVENT_DRIVEN, el_centro, go, law, newmark};
 
 const GRAVITY: f64 = 9.80665;
 const MASS: f64 = 25.0e3;
@@ -15,10 +17,15 @@ const STIFFNESS: f64 = 1.0e6;
 const YIELD_FORCE: f64 = 5.0e4;
 
 fn oscillator(stiffness: f64, gravity: f64, stored: StoreyLaw) -> System {
+    let building = storey((stiffness, 1.5e4), gravity, stored);
+    System::new(vec![Arc::new(building)], el_centro())
+}
+
+fn storey((stiffness, dashpot): (f64, f64), gravity: f64, stored: StoreyLaw) -> ShearBuilding {
     let damping = Damping::Dashpots {
-        coefficients: vec![1.5e4],
+        coefficients: vec![dashpot],
     };
-    let building = ShearBuilding::under_gravity(
+    ShearBuilding::under_gravity(
         "frame".to_owned(),
         vec![MASS],
         vec![stiffness],
@@ -28,8 +35,7 @@ fn oscillator(stiffness: f64, gravity: f64, stored: StoreyLaw) -> System {
     )
     .unwrap()
     .with_laws(vec![Some(stored)])
-    .unwrap();
-    System::new(vec![Arc::new(building)], el_centro())
+    .unwrap()
 }
 
 fn end(outcome: &Outcome) -> (f64, f64) {
@@ -101,6 +107,53 @@ fn a_collapse_is_told_with_time_and_storey() {
         panic!("{error}");
     };
     assert!(storey == 1 && time > 2.0 && time < 20.0, "{time}");
+}
+
+/// Where the drift passes the height is found inside the step: a storey thrown at 1 m/s, which
+/// yields at once, against its solution `A cosh(q t) + B sinh(q t) + C` beyond yielding, whatever the
+/// length of the record's steps.
+#[test]
+fn the_time_of_a_collapse_is_located() {
+    let (force, speed) = (1.0e4, 1.0);
+    let parameters = LawParameters::from_pairs(&[("stiffness", STIFFNESS), ("yield_force", force)]);
+    // Up to yielding a stiff spring, then u'' = (P / h u - F) / m.
+    let lateral = STIFFNESS / MASS - GRAVITY / HEIGHT;
+    let (omega, yielding) = (lateral.sqrt(), force / STIFFNESS);
+    let until = (yielding * omega / speed).asin() / omega;
+    let rate = speed * (omega * until).cos();
+    let q = (GRAVITY / HEIGHT).sqrt();
+    let level = force * HEIGHT / (MASS * GRAVITY);
+    let drift = |t: f64| (yielding - level) * (q * t).cosh() + rate / q * (q * t).sinh() + level;
+    let (mut low, mut high) = (0.0, 60.0);
+    for _ in 0..200 {
+        let middle = 0.5 * (low + high);
+        if drift(middle) > HEIGHT {
+            high = middle;
+        } else {
+            low = middle;
+        }
+    }
+    let expected = until + high;
+    for duration in [5.0, 20.0, 500.0] {
+        let law = law("elastic_perfectly_plastic", &parameters);
+        let building = storey((STIFFNESS, 0.0), GRAVITY, law);
+        let system = System::new(vec![Arc::new(building)], constant_ground(0.0, duration));
+        let system = system.with_initial_state(&[0.0], &[speed]).unwrap();
+        for method in [ADAPTIVE, EVENT_DRIVEN] {
+            let options = RunOptions {
+                method,
+                ..RunOptions::default()
+            };
+            let error = run(&system, &options, &mut [], &mut |_| {}).unwrap_err();
+            let TimeHistoryError::Collapse { time, .. } = error else {
+                panic!("{error}");
+            };
+            assert!(
+                (time - expected).abs() < 1.0e-7,
+                "{method:?}, {duration}: {time}, not {expected}"
+            );
+        }
+    }
 }
 
 /// A storey whose weight over its height exceeds its stiffness cannot stand.

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pounding_case::Case;
+use pounding_case::{Case, Located};
 use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
@@ -16,6 +16,30 @@ pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
     GroundAcceleration {
         samples: accelerogram.shared_samples(),
         time_step: accelerogram.time_step(),
+    }
+}
+
+/// Refuses components of one file of which only that along the row is turned: they are not at right
+/// angles, but for quarters of a turn.
+fn refuse_one_turned_component(
+    case: &Case,
+    across: &Located<Box<pounding_case::GroundMotion>>,
+) -> Result<(), AssemblyError> {
+    let along = &case.ground_motion;
+    let of_one_file = across.value.file.value == along.file.value;
+    match (&along.rotation, &across.value.rotation) {
+        (Some(turned), None) if of_one_file && turned.angle % 90.0 != 0.0 => {
+            let first = along.component.as_deref().unwrap_or("...");
+            let (second, angle) = (&turned.second_component.value, turned.angle);
+            let message = "`rotate` turns the component along the row, and that across it, of the same file, is not turned: they are not at right angles";
+            let help = format!(
+                "turn both: across = {{ file = ..., component = \"{second}\", second_component = \"{first}\", rotate = {} }}",
+                -angle
+            );
+            let error = case.error(across.span.clone(), message.to_owned(), Some(help));
+            Err(error.into())
+        }
+        _ => Ok(()),
     }
 }
 
@@ -42,6 +66,7 @@ pub(super) fn on_their_ground(
             return Err(error.into());
         }
         Some(given) => {
+            refuse_one_turned_component(case, given)?;
             let record = further_record(case, &given.value)?;
             Some((ground(&record), record.echo()))
         }

@@ -91,6 +91,11 @@ pub(super) struct GroundTable {
     unit: Optional<String>,
     /// Component to use: its name in the file, its azimuth, or its channel number
     component: Optional<String>,
+    /// The other component of the file, for `rotate`
+    second_component: Optional<String>,
+    /// Angle (degrees, a plain number) by which two components at right angles are turned,
+    /// first towards second; the first is used
+    rotate: Optional<Degrees>,
     /// What is done to this record, in this order, before it is scaled
     process: Optional<Process>,
     /// A factor for this record, or a table such as { pga = "0.35 g" }
@@ -133,6 +138,8 @@ impl GroundTable {
             ("time_step", self.time_step.is_some()),
             ("unit", self.unit.is_some()),
             ("component", self.component.is_some()),
+            ("second_component", self.second_component.is_some()),
+            ("rotate", self.rotate.is_some()),
             ("process", self.process.is_some()),
             ("scale", self.scale.is_some()),
         ];
@@ -155,6 +162,8 @@ impl GroundTable {
             time_step: self.time_step,
             unit: self.unit,
             component: self.component,
+            second_component: self.second_component,
+            rotate: self.rotate,
             process: self.process,
             scale: self.scale,
             ..MotionTable::default()

@@ -9,7 +9,7 @@ mod width;
 use comfy_table::{CellAlignment, Row};
 use pounding_assembly::Assembly;
 use pounding_case::Case;
-use pounding_catalogue::numbers::{fixed, shown_unit};
+use pounding_catalogue::numbers::{fixed, shown_unit, six_digits};
 use pounding_catalogue::wording::counted;
 use pounding_gap_element::Verification;
 use pounding_time_history::{ContactLevel, LevelOutcome, NamedPeak, Outcome, Peak, System};
@@ -451,8 +451,10 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
         .unwrap_or(assembly.system.record_duration());
     let steps = elements::in_place_of_exact_steps(case, &assembly.system);
     text.push_str(&format!(
-        "\nMethod {}{steps}, duration {duration} s, output every {} s\n",
-        case.analysis.method.value, assembly.output_step
+        "\nMethod {}{steps}, duration {} s, output every {} s\n",
+        case.analysis.method.value,
+        six_digits(duration),
+        assembly.output_step
     ));
     text
 }

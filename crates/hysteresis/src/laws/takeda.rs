@@ -13,7 +13,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         citation: "common name of the bilinear form",
     }],
     title: "Modified Takeda law",
-    formula: "bilinear backbone; unloading with k (xy / xm)^a; reloading aims at xm - b (xm - xy) on the backbone of its side",
+    formula: "bilinear backbone; unloading with k (xy / xm)^a, retraced if it turns before zero force; reloading aims at xm - b (xm - xy) on the backbone of its side",
     citation: "Takeda, Sozen and Nielsen, Journal of the Structural Division 96 (1970) 2557; Otani, Journal of the Structural Division 100 (1974) 1433; Litton, dissertation, University of California, Berkeley (1975)",
     parameters: &[
         STIFFNESS,

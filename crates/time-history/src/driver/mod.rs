@@ -554,6 +554,7 @@ impl<'a> Driver<'a> {
             (tau, step),
         );
         self.show_step((segment, tau, step), last, recorders)?;
+        self.stands(segment, tau, step)?;
         if let Some(exact) = &mut self.exact {
             exact.interrupt();
         }
@@ -578,7 +579,6 @@ impl<'a> Driver<'a> {
         );
         self.contacts
             .commit(self.system, &self.state[..n], &self.state[n..2 * n]);
-        self.stands(segment.start + tau + step)?;
         self.balance(segment.start + tau + step)
     }
 }

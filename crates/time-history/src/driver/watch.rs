@@ -2,33 +2,48 @@
 //! how places are named in messages.
 
 use super::Driver;
+use crate::dynamics::Segment;
 use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
 use crate::ledger;
+use crate::polynomial::{Polynomial, first_rise};
 
 impl Driver<'_> {
-    /// Ends the run where gravity has overturned a building: in a storey that yields, since
-    /// an elastic one stands or is refused from the start.
-    pub(super) fn stands(&self, time: f64) -> Result<(), TimeHistoryError> {
+    /// Ends the run where gravity has overturned a building in the trial step: in a storey that
+    /// yields, since an elastic one stands or is refused from the start.
+    pub(super) fn stands(
+        &self,
+        segment: &Segment,
+        tau: f64,
+        step: f64,
+    ) -> Result<(), TimeHistoryError> {
+        let mut first: Option<(f64, usize, usize)> = None;
         for element in self.system.elements() {
             let (ElementPlace::Storey { building, storey }, Some(dof)) =
                 (element.place, element.far)
             else {
                 continue;
             };
-            let building = &self.system.buildings()[building];
-            let drift = self.peaks.storeys[dof].drift_ratio.value;
-            if building.geometric_stiffness()[storey] > 0.0 && drift > 1.0 {
-                return Err(TimeHistoryError::Collapse {
-                    time,
-                    building: building.name().to_owned(),
-                    storey: storey + 1,
-                    height: building.height()[storey],
-                });
+            let own = &self.system.buildings()[building];
+            let ratio = self.peaks.storeys[dof].drift_ratio.value;
+            if own.geometric_stiffness()[storey] > 0.0 && ratio > 1.0 {
+                let drift = element.polynomial(|k| *self.method.polynomial(k), 0);
+                let theta = first_beyond(&drift, own.height()[storey]);
+                if first.is_none_or(|(earlier, ..)| theta < earlier) {
+                    first = Some((theta, building, storey));
+                }
             }
         }
-        Ok(())
+        first.map_or(Ok(()), |(theta, building, storey)| {
+            let building = &self.system.buildings()[building];
+            Err(TimeHistoryError::Collapse {
+                time: segment.start + tau + theta * step,
+                building: building.name().to_owned(),
+                storey: storey + 1,
+                height: building.height()[storey],
+            })
+        })
     }
 
     /// Takes the ledger at the present state; a motion that is not finite ends the run.
@@ -79,4 +94,14 @@ impl Driver<'_> {
             places.join(", ")
         }
     }
+}
+
+/// Where in a step a drift first exceeds this height to either side: at its end, if round-off hides it.
+fn first_beyond(drift: &Polynomial, height: f64) -> f64 {
+    let to_side = |sign: f64| {
+        let mut beyond = drift.map(|c| sign * c);
+        beyond[0] -= height;
+        first_rise(&beyond).unwrap_or(1.0)
+    };
+    to_side(1.0).min(to_side(-1.0))
 }

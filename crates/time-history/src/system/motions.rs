@@ -473,10 +473,16 @@ impl GroundMotion {
         Arc::ptr_eq(&self.acceleration.samples, &record.samples)
     }
 
-    /// Acceleration at an instant (m/s2).
+    /// Acceleration at an instant (m/s2); at that of the last sample its value, after which there is
+    /// none.
     #[must_use]
     pub fn at(&self, time: f64) -> f64 {
-        self.line(time, time, 0.0)[0]
+        let since_last = time - (self.delay + self.acceleration.duration());
+        match self.acceleration.samples.last() {
+            // Rows stand at multiples of a step, beside the sample by round-off.
+            Some(last) if since_last.abs() <= SAME * self.acceleration.time_step => *last,
+            _ => self.line(time, time, 0.0)[0],
+        }
     }
 
     /// Acceleration at an instant, which is a sample if it is as near to it as that, and slope
@@ -884,5 +890,32 @@ impl System {
         self.initial.push(0.0);
         self.moving_ground.push(motion);
         n
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_last_sample_counts_at_its_time() {
+        let motion = GroundMotion {
+            acceleration: GroundAcceleration {
+                samples: vec![0.5, 1.0, 2.0].into(),
+                time_step: 0.1,
+            },
+            delay: 0.3,
+            origin: Vec::new(),
+        };
+        // 0.1 + 0.1 + 0.3 is beside 0.3 + 2 * 0.1.
+        for (time, expected) in [
+            (0.2, 0.0),
+            (0.35, 0.75),
+            (0.5, 2.0),
+            (0.1 + 0.1 + 0.3, 2.0),
+            (0.501, 0.0),
+        ] {
+            assert!((motion.at(time) - expected).abs() < 1e-12, "{time}");
+        }
     }
 }

@@ -189,7 +189,7 @@ impl Motion {
         Ok(arrays)
     }
 
-    /// Intensity measures, as JSON: what `pounding motion measures --json` prints of them.
+    /// Intensity measures, as JSON: what `pounding motion info --json` prints of them.
     fn measures_json(&self, py: Python<'_>, damping: f64) -> Result<String, Problem> {
         let options = MeasureOptions {
             damping,

@@ -222,7 +222,7 @@ def spectrum(
 def measures(motion: Motion | str | os.PathLike[str], damping: float = 0.05) -> dict[str, Any]:
     """Intensity measures: peaks, durations, Arias intensity, CAV, spectral intensities.
 
-    Values are SI; names are those that ``pounding motion measures --json`` prints.
+    Values are SI; names are those that ``pounding motion info --json`` prints.
     """
     answer: dict[str, Any] = json.loads(_as_motion(motion)._native.measures_json(damping))
     return answer

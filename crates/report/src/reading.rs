@@ -60,6 +60,7 @@ impl RunResult {
             warnings.push(format!("the result file {ABSENT}"));
         }
         let time = reader.column(file, "time")?;
+        let ground_acceleration = reader.column(&ground, "acceleration")?;
         Ok(Self {
             title: reader.text(file, "title")?,
             version: reader.text(file, "version")?,
@@ -73,8 +74,10 @@ impl RunResult {
             steps: reader.scalar(&run, "steps")?,
             wall_time: reader.scalar(&run, "wall_time")?,
             residual_ratio: reader.scalar(&energy, "residual_ratio")?,
-            ground_acceleration: reader.column(&ground, "acceleration")?,
-            buildings: reader.members(file, "building", |g, name| reader.building(g, name))?,
+            buildings: reader.members(file, "building", |g, name| {
+                reader.building(g, name, &ground_acceleration)
+            })?,
+            ground_acceleration,
             gaps: reader.members(file, "gap", |g, name| reader.gap(g, name))?,
             links: reader.members(file, "link", |g, name| reader.link(g, name))?,
             energy: EnergyHistory {
@@ -176,7 +179,9 @@ impl Reader {
         names.into_iter().map(one).collect()
     }
 
-    fn building(&self, group: &Group, name: String) -> Outcome<BuildingResult> {
+    /// A building; `ground` is the acceleration of the ground under those without a motion of
+    /// their own.
+    fn building(&self, group: &Group, name: String, ground: &[f64]) -> Outcome<BuildingResult> {
         let peaks = self.group(group, "peak")?;
         let of = |quantity: &str| -> Outcome<StoreyPeaks> {
             let part = |name: String| self.column(&peaks, &name);
@@ -191,6 +196,8 @@ impl Reader {
         let building = BuildingResult {
             name,
             elevation: self.column(group, "storey")?,
+            on_moving_ground: self.moves(group, ground)?,
+            pushed: group.link_exists("applied_force"),
             displacement: self.table(group, "displacement")?,
             displacement_peaks: of("displacement")?,
             drift_peaks: of("drift_ratio")?,
@@ -215,6 +222,18 @@ impl Reader {
             storeys > 0 && building.displacement.columns == storeys && peaks.iter().all(whole);
         self.fits(group, fits)?;
         Ok(building)
+    }
+
+    /// Whether the ground under a building moves, along the row or across it.
+    fn moves(&self, building: &Group, common: &[f64]) -> Outcome<bool> {
+        let own = |name: &str| {
+            let known = building.link_exists(name);
+            known.then(|| self.column(building, name)).transpose()
+        };
+        let along = own("ground_acceleration")?;
+        let across = own("ground_acceleration_across")?.unwrap_or_default();
+        let mut both = along.as_deref().unwrap_or(common).iter().chain(&across);
+        Ok(both.any(|a| *a != 0.0))
     }
 
     /// The isolators, of a building that has some.

@@ -99,6 +99,10 @@ pub struct BuildingResult {
     pub name: String,
     /// Elevation of every floor (m), bottom first.
     pub elevation: Vec<f64>,
+    /// Whether the ground under it moves.
+    pub on_moving_ground: bool,
+    /// Whether forces act on its floors.
+    pub pushed: bool,
     /// Floor displacement relative to the ground (m).
     pub displacement: Table,
     /// Peak displacement (m).

@@ -51,6 +51,8 @@ fn result() -> RunResult {
     let building = |name: &str| BuildingResult {
         name: name.to_owned(),
         elevation: vec![3.0, 6.0],
+        on_moving_ground: true,
+        pushed: false,
         displacement: table(&wave),
         displacement_peaks: peaks([0.05, 0.1], [0.06, 0.08]),
         drift_peaks: peaks([0.016, 0.017], [0.02, 0.01]),
@@ -171,6 +173,44 @@ fn the_answers_stand_in_the_page() {
     }
     // Nothing yields: no curve and no share of it.
     assert!(!html.contains("yielding"));
+}
+
+/// The energy is that of what acts: the ground, forces on floors, the motion at the start.
+#[test]
+fn energy_has_the_sources_of_the_case() {
+    for (moving, pushed, started, words) in [
+        (true, false, false, "The ground motion brings"),
+        (false, true, false, "The forces on floors bring"),
+        (false, false, true, "The initial motion brings"),
+        (
+            true,
+            true,
+            false,
+            "The ground motion and forces on floors bring",
+        ),
+        (
+            false,
+            true,
+            true,
+            "The forces on floors and initial motion bring",
+        ),
+        (
+            true,
+            true,
+            true,
+            "The ground motion, forces on floors and initial motion bring",
+        ),
+    ] {
+        let mut result = result();
+        for building in &mut result.buildings {
+            building.on_moving_ground = moving;
+        }
+        result.buildings[1].pushed = pushed;
+        result.energy.strain[0] = f64::from(u8::from(started));
+        let html = is_whole(&page(&result, "pair.h5").unwrap());
+        let sentence = format!("<p>{words} 9.980 kJ relative to the ground");
+        assert!(html.contains(&sentence), "{sentence}\n{html}");
+    }
 }
 
 /// Of a building with a stiffness matrix alone.

@@ -246,6 +246,28 @@ pub(super) fn gap(gap: &GapResult) -> String {
     out
 }
 
+/// What brings the energy, with its verb.
+fn sources(result: &RunResult) -> String {
+    let buildings = &result.buildings;
+    let moving = buildings.iter().any(|b| b.on_moving_ground);
+    let pushed = buildings.iter().any(|b| b.pushed);
+    let of_start = [&result.energy.kinetic, &result.energy.strain];
+    let of_start = of_start.iter().filter_map(|e| e.first());
+    let started = of_start.into_iter().any(|e| *e != 0.0);
+    let all = [
+        ("ground motion", moving),
+        ("forces on floors", pushed),
+        ("initial motion", started),
+    ];
+    let names = all.iter().filter(|(_, given)| *given).map(|(name, _)| *name);
+    match names.collect::<Vec<_>>()[..] {
+        [] => "The excitation brings".to_owned(),
+        ["forces on floors"] => "The forces on floors bring".to_owned(),
+        [one] => format!("The {one} brings"),
+        [ref others @ .., last] => format!("The {} and {last} bring", others.join(", ")),
+    }
+}
+
 /// Where the energy went.
 pub(super) fn energy(result: &RunResult) -> String {
     let e = &result.energy;
@@ -267,16 +289,12 @@ pub(super) fn energy(result: &RunResult) -> String {
                 format!("{name} {}", number(&from, 1.0e2, &percent(value, whole)))
             });
     let parts: Vec<String> = parts.collect();
-    let still = result.ground_acceleration.iter().all(|a| *a == 0.0);
-    let source = match still {
-        true => "The initial motion brings",
-        false => "The ground motion, with any initial motion, brings",
-    };
     let Some(time) = result.time.last().filter(|_| !parts.is_empty()) else {
         return "<p>There is no energy on the output grid.</p>\n".to_owned();
     };
     format!(
-        "<p>{source} {} kJ relative to the ground by {} s, the last output time. Then it is in: {}.</p>\n",
+        "<p>{} {} kJ relative to the ground by {} s, the last output time. Then it is in: {}.</p>\n",
+        sources(result),
         number("energy/input[-1]", 1.0e-3, &figures(1.0e-3 * whole)),
         number("time[-1]", 1.0, &figures(*time)),
         parts.join(", ")

@@ -290,4 +290,14 @@ fn a_page_says_what_collapses_leave_out() {
     let page = String::from_utf8(bench.bytes("part.html")).unwrap();
     let said = "<strong>A part of the study</strong>, shard 2/2: 4 of its 8 runs";
     assert!(page.contains(said));
+    // Where nothing stands, nothing is counted.
+    bench.study(
+        "case = \"case.toml\"\n[[variable]]\nintensity = \"peak_ground_acceleration\"\n\
+         values = [\"3 g\", \"4 g\"]\n",
+    );
+    bench.text("sweep study.toml -o none.h5 --report none.html");
+    let page = String::from_utf8(bench.bytes("none.html")).unwrap();
+    assert!(page.contains("<strong>2 runs</strong>: 0 failed and 2 collapsed."));
+    assert!(page.contains("No run stood: peaks and impacts are not known."));
+    assert!(!page.contains("NaN"));
 }

@@ -157,7 +157,16 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
     }
     let ended = runs.failed.len() + runs.collapsed.len();
     let impacts = columns(layout, "impacts");
-    if !impacts.is_empty() {
+    if ended == result.rows {
+        points.push(
+            match (runs.failed.len(), runs.collapsed.len()) {
+                (0, 0) => "There is no run.",
+                (0, _) => "No run stood: peaks and impacts are not known.",
+                _ => "No run was completed without a collapse: peaks and impacts are not known.",
+            }
+            .to_owned(),
+        );
+    } else if !impacts.is_empty() {
         let touches = |row: &usize| impacts.iter().any(|c| runs.values[*c][*row] > 0.0);
         let closed = (0..result.rows).filter(touches).count();
         points.push(format!(

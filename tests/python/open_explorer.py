@@ -140,6 +140,16 @@ def named(page):
     assert not nameless, nameless
 
 
+def prints(page):
+    """On paper there are the answer, the pictures and what the case has, and nothing to press."""
+    page.call("Emulation.setEmulatedMedia", media="print")
+    for what in ("[data-result=impacts]", "[data-part=elevation]", "[data-part=sweep]", "[data-part=storeys] table", "fieldset input[type=number]"):
+        assert page.value(f"document.querySelector('{what}').getBoundingClientRect().height > 0"), what
+    for what in ("[data-part=reset]", "[data-part=play]", "input[type=range]", "[data-part=overlays]"):
+        assert page.value(f"document.querySelector('{what}').getBoundingClientRect().height === 0"), what
+    page.call("Emulation.setEmulatedMedia", media="screen")
+
+
 def in_chromium(arguments, pictures):
     page_file, pounding, record, broken, components, rules = arguments
     url = pathlib.Path(page_file).resolve().as_uri()
@@ -162,6 +172,7 @@ def in_chromium(arguments, pictures):
             if pictures:
                 time.sleep(0.5)
                 page.picture(f"{pictures}/explorer-{width}{'-dark' if dark else ''}.png")
+        prints(page)
         # An address holds the state.
         state = page.value("location.hash")
         shared = browser.open(url + "#" + "%7B%22entries%22%3A%7B%22gap.0.width%22%3A%22118%20mm%22%7D%7D")

@@ -285,7 +285,7 @@
     if (location.hash !== written) restore(location.hash);
   });
   if (await open(data.name, encoder.encode(data.case), false)) {
-    for (const element of document.querySelectorAll(".live")) element.hidden = false;
+    part("explorer").hidden = false;
     part("loading").hidden = true;
     if (given) await useRules(given);
     await restore(location.hash);

@@ -259,7 +259,10 @@ fn sources(result: &RunResult) -> String {
         ("forces on floors", pushed),
         ("initial motion", started),
     ];
-    let names = all.iter().filter(|(_, given)| *given).map(|(name, _)| *name);
+    let names = all
+        .iter()
+        .filter(|(_, given)| *given)
+        .map(|(name, _)| *name);
     match names.collect::<Vec<_>>()[..] {
         [] => "The excitation brings".to_owned(),
         ["forces on floors"] => "The forces on floors bring".to_owned(),

@@ -106,6 +106,25 @@ def chooses(page, record, rules):
     until(page, f"!{chosen} && document.querySelector('[data-result=impacts]').textContent === '45'")
 
 
+def types(page, name, text):
+    """Types into the field of an entry of the gap."""
+    field = f"document.getElementById('control-gap.0.{name}')"
+    page.value(f"(() => {{ {field}.value = '{text}'; {field}.dispatchEvent(new Event('change', {{ bubbles: true }})); }})()")
+    return page.value(f"{field}.value")
+
+
+def clears(page):
+    """A parameter that is cleared is left out, so that another takes its place; a width stays."""
+    assert types(page, "damping_ratio", "") == ""
+    until(page, "document.querySelector('[data-part=faults]').textContent.includes('damping_ratio')")
+    types(page, "restitution", "0.6")
+    until(page, "document.querySelector('[data-part=faults]').textContent === ''")
+    assert types(page, "width", "") == "20"
+    page.value("document.querySelector('[data-part=reset]').click()")
+    until(page, "document.getElementById('control-gap.0.damping_ratio').value === '0.35' && document.querySelector('[data-part=faults]').textContent === ''")
+    until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
+
+
 def words(text):
     return " ".join(text.replace("│", " ").split())
 
@@ -161,6 +180,7 @@ def in_chromium(arguments, pictures):
         repeats(page, pounding, folder)
         drops(page, pounding, record, broken)
         chooses(page, components, rules)
+        clears(page)
         named(page)
         started = time.monotonic()
         until(page, "(({ done, all }) => done === all && Number(all) === 400)(document.querySelector('[data-part=sweep]').dataset)", 600)

@@ -142,6 +142,11 @@ fn settings() -> Vec<Value> {
             { "path": "gap.0.stiffness", "value": 1.0e9 },
             { "path": "gap.0.damping_ratio", "value": 0.2 },
         ]),
+        // One parameter in the place of another.
+        json!([
+            { "absent": "gap.0.damping_ratio" },
+            { "path": "gap.0.restitution", "value": 0.6 },
+        ]),
         model("linear_elastic", json!([["stiffness", 9.35e7]])),
         model(
             "anagnostopoulos_2004",

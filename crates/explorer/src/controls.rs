@@ -12,6 +12,8 @@ use crate::explorer::Prepared;
 
 /// Where keys of the case file are explained.
 const CASE_FILE: &str = "reference/case-file.md";
+/// Where the factor of the motion stands.
+const SCALE: &str = "ground_motion.scale";
 /// Widest range of a parameter that a slider has as it is.
 const WIDEST: f64 = 10.0;
 /// Ends of a slider of a quantity without such a range, as parts of its value.
@@ -38,6 +40,10 @@ struct Control {
     slider: Option<[f64; 2]>,
     /// Whether equal ways of the slider are equal ratios.
     logarithmic: bool,
+    /// Whether the case may leave it out.
+    optional: bool,
+    /// Value where the case leaves it out (SI).
+    default: Option<f64>,
     /// What values are allowed, in words.
     allowed: String,
     /// What it is, in a line.
@@ -127,6 +133,8 @@ fn of_gap(schema: &Value, index: usize, gap: &Gap) -> Vec<Control> {
             value: json!(width),
             slider: Some([0.0, (3.0 * width).max(0.05)]),
             logarithmic: false,
+            optional: false,
+            default: None,
             allowed: "zero or more".to_owned(),
             explanation: explained(schema, "gap", "width"),
             page: CASE_FILE.to_owned(),
@@ -143,6 +151,8 @@ fn of_gap(schema: &Value, index: usize, gap: &Gap) -> Vec<Control> {
         value: json!(descriptor.map_or(gap.model.value.as_str(), |d| d.name)),
         slider: None,
         logarithmic: false,
+        optional: false,
+        default: None,
         allowed: "one of the impact models".to_owned(),
         explanation: explained(schema, "gap", "model"),
         page: descriptor.map_or_else(|| "reference/models/README.md".to_owned(), page),
@@ -202,6 +212,8 @@ fn of_parameter(
         value: json!(value),
         slider,
         logarithmic: !bounded,
+        optional: !parameter.required,
+        default: parameter.default,
         allowed: match symbol {
             "" => parameter.range(),
             symbol => format!("{} {symbol}", parameter.range()),
@@ -229,6 +241,8 @@ fn of_motion(schema: &Value, case: &Case) -> Vec<Control> {
         value: json!(file.display().to_string()),
         slider: None,
         logarithmic: false,
+        optional: false,
+        default: None,
         allowed: format!("a record in the page, or one dropped on it{stays}"),
         explanation: explained(schema, "ground_motion", "file"),
         page: "reference/ground-motions.md".to_owned(),
@@ -243,6 +257,8 @@ fn of_motion(schema: &Value, case: &Case) -> Vec<Control> {
         value: json!(value),
         slider: Some([value / 10.0, value * 5.0]),
         logarithmic: true,
+        optional: path == SCALE,
+        default: (path == SCALE).then_some(1.0),
         allowed: "greater than zero".to_owned(),
         explanation: explained(schema, "ground_motion", "scale"),
         page: CASE_FILE.to_owned(),
@@ -250,8 +266,8 @@ fn of_motion(schema: &Value, case: &Case) -> Vec<Control> {
     let given = case.ground_motion.scale.as_ref().map(|scale| &scale.value);
     let gravity = pounding_catalogue::STANDARD_GRAVITY;
     let scale = match given {
-        None => Some(scale("scale", "ground_motion.scale", ("", 1.0), 1.0)),
-        Some(Scale::Factor(x)) => Some(scale("scale", "ground_motion.scale", ("", 1.0), *x)),
+        None => Some(scale("scale", SCALE, ("", 1.0), 1.0)),
+        Some(Scale::Factor(x)) => Some(scale("scale", SCALE, ("", 1.0), *x)),
         Some(Scale::PeakAcceleration(x)) => {
             let path = "ground_motion.scale.pga";
             Some(scale("scale: pga", path, ("g", gravity), *x))
@@ -288,6 +304,8 @@ fn of_building(schema: &Value, index: usize, building: &Building) -> Vec<Control
         value: json!(values),
         slider: Some([0.25, 4.0]),
         logarithmic: true,
+        optional: false,
+        default: None,
         allowed: "greater than zero".to_owned(),
         explanation: explained(schema, "building", label),
         page: CASE_FILE.to_owned(),

@@ -71,8 +71,8 @@ impl Explorer {
     /// - `calibrate`: the parameters with which `model` is like the model of `gap`;
     /// - `sweep`: runs at `widths` (m) of `gap`, or of all gaps.
     ///
-    /// All but the first three take `changes` of the case, each `{path, value}`, `{gap, keys}` or
-    /// `{record}`; nothing of them is kept. What is wrong is an answer too, see [`Answer::text`].
+    /// All but the first three take `changes` of the case, each `{path, value}`, `{absent}` (the path
+    /// of what is left out), `{gap, keys}` or `{record}`; nothing of them is kept. What is wrong is an answer too, see [`Answer::text`].
     #[must_use]
     pub fn answer(&mut self, request: &str, bytes: &[u8]) -> Answer {
         let length = request.len().saturating_add(bytes.len());
@@ -264,7 +264,7 @@ fn components(name: &str, bytes: &[u8]) -> Vec<String> {
 fn reads_the_record(change: &Change) -> bool {
     match change {
         Change::Record { .. } => true,
-        Change::Entry { path, .. } => {
+        Change::Entry { path, .. } | Change::Absent { path } => {
             path.starts_with("ground_motion") && !path.starts_with("ground_motion.scale")
         }
         Change::Model { .. } => false,

@@ -45,6 +45,8 @@ pub(crate) enum Request {
 pub(crate) enum Changed {
     /// An entry has this value.
     Entry { path: String, value: Word },
+    /// An entry is left out.
+    Absent { absent: String },
     /// A gap has this model.
     Model {
         gap: String,
@@ -95,6 +97,9 @@ pub(crate) fn changes(changed: &[Changed]) -> Result<Vec<Change>, Refused> {
             Changed::Entry { path, value } => Change::Entry {
                 path: path.clone(),
                 value: value.written()?,
+            },
+            Changed::Absent { absent } => Change::Absent {
+                path: absent.clone(),
             },
             Changed::Model { gap, keys: new } => Change::Model {
                 gap: gap.clone(),

@@ -1,6 +1,6 @@
 //! A case with some of its entries replaced, as a text that `pounding run` takes.
 
-use crate::case_text::{Edit, KEPT, Path, apply, entry, with_model, with_motion};
+use crate::case_text::{Edit, KEPT, Path, apply, entry, with_model, with_motion, without};
 
 /// What is changed in a case; values are TOML.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -11,6 +11,11 @@ pub enum Change {
         path: String,
         /// The new value.
         value: String,
+    },
+    /// An entry that the case leaves out; what it has of it is taken away.
+    Absent {
+        /// Where it would stand.
+        path: String,
     },
     /// The impact model of a gap with all that belongs to it.
     Model {
@@ -59,6 +64,7 @@ fn one(text: &str, change: &Change) -> Result<String, (String, String)> {
         Change::Entry { path: place, value } => {
             vec![Edit::new(&entry(text, &path(place)?)?, value.clone())]
         }
+        Change::Absent { path: place } => without(text, &path(place)?)?,
         Change::Model { gap, keys } => with_model(text, &path(gap)?, keys.clone())?,
         Change::Record { keys } => {
             with_motion(text, &[&["scale"][..], &KEPT].concat(), keys.clone())?
@@ -99,6 +105,15 @@ mod tests {
         assert_eq!(
             text,
             "[[gap]]\nmodel = \"linear_elastic\"\nstiffness = 2e8\nwidth = \"118 mm\" # as built\n\n\n\n[ground_motion]\nfile = \"b.csv\"\n\n\nscale = 2\n"
+        );
+        // What the case leaves out already is left out.
+        let absent = |path: &str| Change::Absent {
+            path: path.to_owned(),
+        };
+        let changes_of_gap = [absent("gap.0.stiffness"), absent("gap.0.restitution")];
+        assert_eq!(
+            edited(CASE, &changes_of_gap).unwrap(),
+            CASE.replace("stiffness = 1e9", "")
         );
         // What acts on every record stays, wherever it stands.
         for across in [

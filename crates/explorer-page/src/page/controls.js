@@ -25,7 +25,7 @@ const controlsOf = (state, documentation, actions) => {
       logarithmic ? Number((low * (high / low) ** (Number(input.value) / 1000)).toPrecision(3)) : Number(input.value) * factor;
     const stand = (x) => {
       if (Number.isFinite(x)) input.value = String(to(x));
-      input.setAttribute("aria-valuetext", `${shown(x / factor, 6)} ${control.unit}`.trim());
+      input.setAttribute("aria-valuetext", Number.isFinite(x) ? `${shown(x / factor, 6)} ${control.unit}`.trim() : "left out");
     };
     stand(now);
     return { input, from, stand };
@@ -39,6 +39,9 @@ const controlsOf = (state, documentation, actions) => {
       field.value = x === null || !Number.isFinite(x) ? "" : written(clean(x / control.factor));
     };
     show(control.value);
+    // What holds where the case leaves it out stands in the empty field.
+    if (control.default !== null) field.placeholder = written(clean(control.default / control.factor));
+    let inForce = control.value;
     const ends = control.slider && [control.slider[0], Math.max(control.slider[1], widened.get(control.path) || 0)];
     const moved = ends && slider(control, ends, control.value === null ? NaN : control.value, {
       "aria-label": `${control.group}, ${control.label}`,
@@ -46,14 +49,19 @@ const controlsOf = (state, documentation, actions) => {
       "data-control": control.path,
     });
     field.addEventListener("change", () => {
-      // An empty field leaves out what the case leaves out.
-      const x = field.value === "" ? null : Number(field.value) * control.factor;
-      if (moved && x !== null) moved.stand(x);
-      state.set(control.path, x === null ? null : word(control, x));
+      // An empty field leaves out what the case may leave out.
+      if (field.value === "" && !control.optional) {
+        show(inForce);
+        return;
+      }
+      inForce = field.value === "" ? null : Number(field.value) * control.factor;
+      if (moved) moved.stand(inForce ?? control.default ?? NaN);
+      state.set(control.path, inForce === null ? null : word(control, inForce));
     });
     if (moved) {
       moved.input.addEventListener("input", () => {
         const x = moved.from();
+        inForce = x;
         show(x);
         moved.input.setAttribute("aria-valuetext", `${shown(x / control.factor, 6)} ${control.unit}`.trim());
         actions.dragged();

@@ -2,7 +2,7 @@
 // What was changed of the case: values of entries, models with their keys, the record. It is all
 // that an address holds, and all that `changes` of a request say.
 const stateOf = (changed) => {
-  const empty = () => ({ entries: {}, models: {}, record: null, overlays: [], quantity: "impacts", gap: 0 });
+  const empty = () => ({ entries: {}, absent: [], models: {}, record: null, overlays: [], quantity: "impacts", gap: 0 });
   let now = empty();
   const isRecord = (x) => typeof x === "object" && x !== null && !Array.isArray(x);
   const isWord = (x) =>
@@ -10,9 +10,10 @@ const stateOf = (changed) => {
   const areKeys = (x) =>
     Array.isArray(x) && x.every((pair) => Array.isArray(pair) && pair.length === 2 && typeof pair[0] === "string" && isWord(pair[1]));
 
-  const changesOf = ({ entries, models, record }) => [
+  const changesOf = ({ entries, absent, models, record }) => [
     ...(record ? [{ record }] : []),
     ...Object.entries(models).map(([gap, keys]) => ({ gap, keys })),
+    ...absent.map((path) => ({ absent: path })),
     ...Object.entries(entries).map(([path, value]) => ({ path, value })),
   ];
   return {
@@ -25,15 +26,21 @@ const stateOf = (changed) => {
       const entries = { ...now.entries };
       delete entries[`${path}.width`];
       const models = { ...now.models };
+      let { absent } = now;
       if (keys) {
         models[path] = keys;
         for (const key of Object.keys(entries)) if (key.startsWith(`${path}.`)) delete entries[key];
+        absent = absent.filter((key) => !key.startsWith(`${path}.`));
       }
-      return changesOf({ entries, models, record: now.record });
+      return changesOf({ entries, absent, models, record: now.record });
     },
+    // A value of an entry; null leaves it out of the case, which may have one.
     set: (path, value) => {
-      if (value === null) delete now.entries[path];
-      else now.entries[path] = value;
+      now.absent = now.absent.filter((other) => other !== path);
+      if (value === null) {
+        delete now.entries[path];
+        now.absent.push(path);
+      } else now.entries[path] = value;
       changed();
     },
     // Another model of a gap: what was said of the parameters of the last one goes with it.
@@ -41,6 +48,7 @@ const stateOf = (changed) => {
       for (const key of Object.keys(now.entries)) {
         if (key.startsWith(`${path}.`) && key !== `${path}.width`) delete now.entries[key];
       }
+      now.absent = now.absent.filter((key) => !key.startsWith(`${path}.`));
       now.models[path] = keys;
       changed();
     },
@@ -71,6 +79,7 @@ const stateOf = (changed) => {
       if (!isRecord(given)) throw new Error("it is no object");
       const next = empty();
       if (isRecord(given.entries) && Object.values(given.entries).every(isWord)) next.entries = given.entries;
+      if (Array.isArray(given.absent)) next.absent = given.absent.filter((x) => typeof x === "string").slice(0, 64);
       if (isRecord(given.models) && Object.values(given.models).every(areKeys)) next.models = given.models;
       if (areKeys(given.record)) next.record = given.record;
       if (Array.isArray(given.overlays)) next.overlays = given.overlays.filter((x) => typeof x === "string").slice(0, 8);

@@ -294,6 +294,20 @@ pub(crate) fn with_motion(
     rewritten(source, &path, |key| !kept.contains(&key), options)
 }
 
+/// A case without an entry of a table that has a header of its own; nothing where the case leaves it
+/// out.
+pub(crate) fn without(source: &str, path: &Path) -> Result<Vec<Edit>, Lost> {
+    match path.0.split_last() {
+        Some((Step::Key(key), table)) => {
+            rewritten(source, &Path(table.to_vec()), |k| k == key, Vec::new())
+        }
+        _ => Err((
+            format!("`{path}` is no key of a table"),
+            "name a key, such as gap.0.restitution".to_owned(),
+        )),
+    }
+}
+
 /// A table with a header of its own without the entries that `pick` wants, and with these
 /// behind its header.
 fn rewritten(

@@ -130,11 +130,19 @@ impl Range {
         let width = self.last - self.first;
         let least = width / most.max(2) as f64;
         let power = 10.0_f64.powf(least.log10().floor());
-        let step = [1.0, 2.0, 5.0, 10.0].map(|x| x * power);
-        let step = step.into_iter().find(|s| *s >= least * (1.0 - 1e-9));
-        let step = step.unwrap_or(10.0 * power);
-        let first = (self.first / step - 1e-9).ceil() as i64;
-        let last = (self.last / step + 1e-9).floor() as i64;
+        let steps = [0.2, 0.5, 1.0, 2.0, 5.0, 10.0].map(|x| x * power);
+        let ends = |step: f64| {
+            let first = (self.first / step - 1e-9).ceil() as i64;
+            let last = (self.last / step + 1e-9).floor() as i64;
+            (first, last)
+        };
+        let place = steps.iter().position(|s| *s >= least * (1.0 - 1e-9));
+        let place = place.unwrap_or(steps.len() - 1);
+        // One value alone has no scale.
+        let scaled = |step: &&f64| ends(**step).1 > ends(**step).0;
+        let step = steps[..=place].iter().rev().find(scaled);
+        let step = *step.unwrap_or(&steps[place]);
+        let (first, last) = ends(step);
         let values: Vec<f64> = (first..=last).map(|i| i as f64 * step).collect();
         let greatest = values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let decimals = (-step.log10() - 1e-9).ceil().max(0.0) as usize;
@@ -156,21 +164,19 @@ impl Range {
         values.into_iter().map(|x| (x, label(x))).collect()
     }
 
-    /// Powers of ten, and twice and five times these where there are few.
+    /// Powers of ten, and twice and five times these where there are few; all multiples, or even
+    /// steps, where these are fewer than two.
     fn powers(&self, most: usize) -> Vec<(f64, String)> {
+        const FEW: [f64; 3] = [1.0, 2.0, 5.0];
+        const ALL: [f64; 9] = [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0];
         let decades = (self.last / self.first).log10();
-        let factors: &[f64] = if decades > 2.5 {
-            &[1.0]
-        } else {
-            &[1.0, 2.0, 5.0]
-        };
-        let from = self.first.log10().floor() as i32;
-        let to = self.last.log10().ceil() as i32;
         let every = (decades / most.max(2) as f64).ceil().max(1.0) as i32;
-        let powers = (from..=to).filter(|p| p.rem_euclid(every) == 0);
-        let values = powers.flat_map(|p| factors.iter().map(move |f| f * 10.0_f64.powi(p)));
-        let inside =
-            values.filter(|x| (self.first * (1.0 - 1e-9)..=self.last * (1.0 + 1e-9)).contains(x));
+        let usual = if decades > 2.5 { &FEW[..1] } else { &FEW };
+        let tried = [(every, usual), (1, usual), (1, &ALL)];
+        let inside = tried.into_iter().map(|(every, f)| self.multiples(every, f));
+        let Some(inside) = inside.into_iter().find(|inside| inside.len() > 1) else {
+            return self.even(most);
+        };
         let plain = self.first >= 9e-4 && self.last <= 1.1e4;
         let label = |x: f64| {
             if plain {
@@ -180,7 +186,17 @@ impl Range {
                 power_of_ten(x)
             }
         };
-        inside.map(|x| (x, label(x))).collect()
+        inside.into_iter().map(|x| (x, label(x))).collect()
+    }
+
+    /// These multiples of every so many powers of ten, inside the range.
+    fn multiples(&self, every: i32, factors: &[f64]) -> Vec<f64> {
+        let from = self.first.log10().floor() as i32;
+        let to = self.last.log10().ceil() as i32;
+        let powers = (from..=to).filter(|p| p.rem_euclid(every) == 0);
+        let values = powers.flat_map(|p| factors.iter().map(move |f| f * 10.0_f64.powi(p)));
+        let inside = self.first * (1.0 - 1e-9)..=self.last * (1.0 + 1e-9);
+        values.filter(|x| inside.contains(x)).collect()
     }
 
     /// Values between the ticks of a logarithmic axis, without labels.
@@ -277,6 +293,32 @@ mod tests {
         for wrong in labels(&linear, &[-1e-17, 1.0]) {
             assert!(!wrong.starts_with("\u{2212}"), "{wrong}");
         }
+    }
+
+    /// However few fit, two ticks give the scale of an axis.
+    #[test]
+    fn an_axis_has_two_ticks() {
+        let linear = |ends: (f64, f64)| Axis::linear("x").over(ends.0, ends.1);
+        let logarithmic = |ends: (f64, f64)| Axis::logarithmic("x").over(ends.0, ends.1);
+        for most in 2..=10 {
+            for axis in [
+                linear((-0.876, 0.876)),
+                linear((-0.5, 0.9)),
+                linear((0.0, 1.9)),
+                linear((-4.99, 4.99)),
+                logarithmic((1.1, 1.9)),
+                logarithmic((2.1, 4.9)),
+                logarithmic((3.1, 3.8)),
+                logarithmic((11.0, 9.9e3)),
+            ] {
+                let ticks = Range::of(&axis, [].into_iter(), 0.0).ticks(most);
+                assert!(ticks.len() >= 2, "{axis:?} {most} {ticks:?}");
+            }
+        }
+        let range = Range::of(&linear((-0.876, 0.876)), [].into_iter(), 0.0);
+        let ticks = range.ticks(2).into_iter().map(|(_, label)| label);
+        let labels: Vec<String> = ticks.collect();
+        assert_eq!(labels, ["\u{2212}0.5", "0", "0.5"]);
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use super::axis::{Range, Scale};
+use super::axis::{Axis, Range, Scale};
 use super::look::{Look, Marker};
 use super::{Chart, LimitPlace, Plot};
 
@@ -162,6 +162,19 @@ impl<'c> Picture<'c> {
         rows(&entries, self.chart.width - 2.0 * SPACE)
     }
 
+    /// The plots above and below this one that have its horizontal axis.
+    fn of_one_axis(&self, number: usize) -> &'c [Plot] {
+        let plots = &self.chart.plots;
+        let groups = plots.chunk_by(|a, b| a.horizontal == b.horizontal);
+        let mut before = 0;
+        let mut with_end = groups.map(|group| {
+            before += group.len();
+            (before, group)
+        });
+        let found = with_end.find(|(end, _)| *end > number);
+        found.map_or(&plots[number..=number], |(_, group)| group)
+    }
+
     /// Whether the label of the horizontal axis stands below this plot, and not below a later
     /// one of the same axis.
     fn labelled(&self, number: usize) -> bool {
@@ -212,7 +225,7 @@ impl<'c> Picture<'c> {
         y = legend(body, &self.own_legend(plot), y);
         let (left, right) = (self.left, self.right());
         let (upper, lower) = (y + 2.0, y + height);
-        let horizontal = horizontal_range(plot);
+        let horizontal = horizontal_range(&plot.horizontal, self.of_one_axis(number));
         let vertical = vertical_range(plot);
         let x_at = |x: f64| horizontal.place(x).map(|p| left + p * (right - left));
         let y_at = |y: f64| vertical.place(y).map(|p| lower - p * (lower - upper));
@@ -302,16 +315,16 @@ fn ticks_of(height: f64) -> usize {
     ((height / 24.0) as usize).clamp(2, 10)
 }
 
-fn horizontal_range(plot: &Plot) -> Range {
-    let points = plot
-        .series
-        .iter()
-        .flat_map(|s| s.points.iter().map(|p| p.0));
-    let limits = plot.limits.iter().filter_map(|l| match l.at {
+/// The range of a horizontal axis for all plots that have it.
+fn horizontal_range(axis: &Axis, plots: &[Plot]) -> Range {
+    let series = plots.iter().flat_map(|plot| &plot.series);
+    let points = series.flat_map(|s| s.points.iter().map(|p| p.0));
+    let limits = plots.iter().flat_map(|plot| &plot.limits);
+    let limits = limits.filter_map(|l| match l.at {
         LimitPlace::Horizontal(x) => Some(x),
         LimitPlace::Vertical(_) => None,
     });
-    Range::of(&plot.horizontal, points.chain(limits), MARGINS.0)
+    Range::of(axis, points.chain(limits), MARGINS.0)
 }
 
 fn vertical_range(plot: &Plot) -> Range {

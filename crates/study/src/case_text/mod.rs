@@ -10,7 +10,8 @@ mod path;
 mod variant;
 
 pub(crate) use edits::{
-    Edit, Entry, KEPT, Lost, apply, building_names, entry, root_key, with_model, with_motion, without,
+    Edit, Entry, KEPT, Lost, apply, building_names, entry, root_key, with_model, with_motion,
+    without,
 };
 pub(crate) use identity::{Lines, canonical};
 pub(crate) use path::Path;

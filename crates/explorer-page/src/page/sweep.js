@@ -17,6 +17,10 @@ const sweepOf = (state, background, actions) => {
     ],
     impact_energy: ["energy dissipated in contacts (kJ)", 1e-3, (columns) => columns.impact_energy],
   };
+  // Dashes and spaces of curves in turn, as figures have them (px). There are six colours: up to 42
+  // curves no two have the same dashes and colour.
+  const DASHES = ["", "6.7 2.1", "1.8 1.8", "8 2.1 1.8 2.1", "3.7 1.9", "10.7 2.1 1.8 2.1 1.8 2.1", "4.7 4"];
+  const COLOURS = 6;
   // Widths of one request: few enough to be stopped soon.
   const AT_ONCE = 10;
   let job = 0;
@@ -25,6 +29,12 @@ const sweepOf = (state, background, actions) => {
   // Curves by the name of their model, and the case that they are of.
   let curves = new Map();
   let done = [0, 0];
+
+  // How curve number so many is drawn, and a piece of a line as it stands in the legend.
+  const looks = (i) => ({ class: `curve curve-${i % COLOURS}`, "stroke-dasharray": DASHES[i % DASHES.length] || null });
+  const SAMPLE = 40;
+  const sample = (look) => svg("svg", { class: "key", width: SAMPLE, height: 8, viewBox: `0 0 ${SAMPLE} 8`, "aria-hidden": "true" }, svg("path", { ...look, d: `M0 4H${SAMPLE}` }));
+  const mark = (kind) => ({ class: `mark ${kind}` });
 
   const join = (columns, more) => {
     const out = {};
@@ -80,7 +90,7 @@ const sweepOf = (state, background, actions) => {
     }
     drawn.push(svg("text", { x: (left + width) / 2, y: height - 6, "text-anchor": "middle" }, "width of the gap (mm)"));
     marks.forEach(([x, name, kind]) => {
-      const line = svg("path", { class: `mark ${kind}`, d: `M${across(x)} ${top}V${bottom}` });
+      const line = svg("path", { ...mark(kind), d: `M${across(x)} ${top}V${bottom}` });
       drawn.push(svg("g", {}, svg("title", {}, `${name}: ${shown(1e3 * x)} mm`), line));
     });
     lines.forEach(({ columns, values }, i) => {
@@ -93,7 +103,7 @@ const sweepOf = (state, background, actions) => {
           pen = "L";
         }
       });
-      drawn.push(svg("path", { class: `curve curve-${i % 6}`, d: path }));
+      drawn.push(svg("path", { ...looks(i), d: path }));
     });
     if (Number.isFinite(provided)) {
       drawn.push(svg("path", { class: "now", d: `M${across(provided)} ${top}V${bottom}` }));
@@ -101,14 +111,14 @@ const sweepOf = (state, background, actions) => {
     picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
     picture.replaceChildren(...drawn);
     picture.setAttribute("aria-label", `${title} over widths of the gap up to ${shown(1e3 * far)} mm, ${lines.length} models`);
-    const legend = lines.map(({ name }, i) => html("li", {}, html("span", { class: `key curve-${i % 6}` }), name));
-    legend.push(html("li", {}, html("span", { class: "key now" }), `provided, ${shown(1e3 * provided)} mm`));
+    const legend = lines.map(({ name }, i) => [looks(i), name]);
+    if (Number.isFinite(provided)) legend.push([{ class: "now" }, `provided, ${shown(1e3 * provided)} mm`]);
     if (marks.length) {
       for (const [kind, text] of [["demand", "demand of this record"], ["code", "by codes"], ["rule", "by combination rules"]]) {
-        legend.push(html("li", {}, html("span", { class: `key ${kind}` }), text));
+        legend.push([mark(kind), text]);
       }
     }
-    part("legend").replaceChildren(...legend);
+    part("legend").replaceChildren(...legend.map(([look, text]) => html("li", {}, sample(look), text)));
     part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${done[1]} runs` : done[1] ? `${done[1]} runs` : "";
     picture.dataset.done = String(done[0]);
     picture.dataset.all = String(done[1]);
@@ -128,7 +138,7 @@ const sweepOf = (state, background, actions) => {
       return;
     }
     const row = (name, width, note, kind) =>
-      html("tr", {}, html("th", { scope: "row" }, html("span", { class: `key ${kind}` }), name), html("td", {}, width === null ? "–" : shown(1e3 * width)), html("td", { class: "words" }, note || ""));
+      html("tr", {}, html("th", { scope: "row" }, sample(mark(kind)), name), html("td", {}, width === null ? "–" : shown(1e3 * width)), html("td", { class: "words" }, note || ""));
     const code = (c) => row(`${c.edition || c.name}${c.clause ? `, ${c.clause}` : ""}`, c.width, c.caution || c.refusal || c.formula, "code");
     const known = gap.codes.filter((c) => c.width !== null);
     const others = gap.codes.filter((c) => c.width === null);
@@ -202,31 +212,69 @@ const sweepOf = (state, background, actions) => {
     draw();
   };
 
+  // The picture with its title above and its legend below: the styles of the page are not in a
+  // picture of its own.
   const png = () => {
-    const picture = part("sweep").cloneNode(true);
-    const shownOne = part("sweep");
-    const [width, height] = shownOne.getAttribute("viewBox").split(" ").slice(2).map(Number);
-    // The styles of the page are not in a picture of its own.
-    const from = shownOne.querySelectorAll("*");
-    picture.querySelectorAll("*").forEach((element, i) => {
-      const style = getComputedStyle(from[i]);
-      for (const name of ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family"]) {
-        element.style.setProperty(name, style.getPropertyValue(name));
-      }
-    });
-    picture.setAttribute("xmlns", "http://www.w3.org/2000/svg");
-    picture.setAttribute("width", width);
-    picture.setAttribute("height", height);
+    const FACE = "12px system-ui, sans-serif";
+    const canvas = html("canvas", {});
+    const context = canvas.getContext("2d");
+    context.font = FACE;
+    const styled = (element, from) => {
+      const copy = element.cloneNode(true);
+      const parts = [from, ...from.querySelectorAll("*")];
+      [copy, ...copy.querySelectorAll("*")].forEach((one, i) => {
+        const style = getComputedStyle(parts[i]);
+        for (const name of ["fill", "stroke", "stroke-width", "stroke-dasharray", "font-size", "font-family"]) {
+          one.style.setProperty(name, style.getPropertyValue(name));
+        }
+      });
+      return copy;
+    };
+    const plot = part("sweep");
+    const [width, height] = plot.getAttribute("viewBox").split(" ").slice(2).map(Number);
+    const ink = getComputedStyle(document.body).color;
+    const words = (x, y, weight, text) => svg("text", { x, y, style: `font:${weight} ${FACE};fill:${ink}` }, text);
+    const inside = [];
+    // Lines of words, none wider than the picture unless a word is.
+    const { selectedOptions } = part("gap");
+    const of = selectedOptions.length ? `${document.querySelector("h1").textContent}, ${selectedOptions[0].textContent}` : document.title;
+    let y = 0;
+    let line = "";
+    const LINE = 18;
+    context.font = `bold ${FACE}`;
+    for (const word of of.split(/\s+/)) {
+      if (line && context.measureText(`${line} ${word}`).width > width - 16) {
+        inside.push(words(8, (y += LINE), "bold", line));
+        line = word;
+      } else line = line ? `${line} ${word}` : word;
+    }
+    inside.push(words(8, (y += LINE), "bold", line));
+    context.font = FACE;
+    const picture = styled(plot, plot);
+    for (const [name, value] of Object.entries({ x: 0, y: y + 6, width, height })) picture.setAttribute(name, value);
+    inside.push(picture);
+    y += 6 + height + LINE;
+    let x = 8;
+    for (const entry of part("legend").children) {
+      const wide = SAMPLE + 6 + context.measureText(entry.textContent).width;
+      if (x > 8 && x + wide > width - 8) [x, y] = [8, y + LINE];
+      const key = styled(entry.firstChild, entry.firstChild);
+      for (const [name, value] of Object.entries({ x, y: y - 8 })) key.setAttribute(name, value);
+      inside.push(key, words(x + SAMPLE + 6, y, "normal", entry.textContent));
+      x += wide + 18;
+    }
+    const high = y + 10;
+    const whole = svg("svg", { xmlns: "http://www.w3.org/2000/svg", width, height: high, viewBox: `0 0 ${width} ${high}` }, ...inside);
     const image = new Image();
     image.onload = () => {
-      const canvas = html("canvas", { width: 2 * width, height: 2 * height });
-      const context = canvas.getContext("2d");
+      canvas.width = 2 * width;
+      canvas.height = 2 * high;
       context.fillStyle = getComputedStyle(document.body).backgroundColor;
       context.fillRect(0, 0, canvas.width, canvas.height);
       context.drawImage(image, 0, 0, canvas.width, canvas.height);
       canvas.toBlob((blob) => save("sweep.png", "image/png", blob));
     };
-    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(picture))}`;
+    image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(whole))}`;
   };
   const csv = () => {
     const lines = [];

@@ -125,6 +125,22 @@ def clears(page):
     until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
 
 
+def factors(page, browser, url):
+    """A factor of all storeys is that of the case as it was opened, also in an address."""
+    slider = "document.querySelector('[data-control=\"building.0.mass\"]')"
+    factor = f"{slider}.closest('.control').querySelector('output').textContent"
+    assert page.value(factor) == "1"
+    page.value(f"(() => {{ {slider}.value = '700'; {slider}.dispatchEvent(new Event('input', {{ bubbles: true }})); {slider}.dispatchEvent(new Event('change', {{ bubbles: true }})); }})()")
+    times = page.value(factor)
+    until(page, "decodeURIComponent(location.hash).includes('building.0.mass')")
+    shared = browser.open(url + page.value("location.hash"))
+    until(shared, f"{DATA}.ready === 'true'")
+    assert shared.value(factor) == times != "1", (shared.value(factor), times)
+    assert shared.value("document.getElementById('control-building.0.mass-0').value") == page.value("document.getElementById('control-building.0.mass-0').value")
+    page.value("document.querySelector('[data-part=reset]').click()")
+    until(page, f"{factor} === '1' && document.querySelector('[data-result=impacts]').textContent === '45'")
+
+
 def words(text):
     return " ".join(text.replace("│", " ").split())
 
@@ -181,6 +197,7 @@ def in_chromium(arguments, pictures):
         drops(page, pounding, record, broken)
         chooses(page, components, rules)
         clears(page)
+        factors(page, browser, url)
         named(page)
         started = time.monotonic()
         until(page, "(({ done, all }) => done === all && Number(all) === 400)(document.querySelector('[data-part=sweep]').dataset)", 600)

@@ -92,29 +92,38 @@ const controlsOf = (state, documentation, actions) => {
   const line = (control, id) =>
     html("p", { class: "note", id }, control.explanation ? `${control.explanation} ` : "", more(documentation, control.page));
 
+  // What values of storeys are a multiple of: the original, or themselves.
+  const factored = ({ value, slider: [low, high] }, original) => {
+    const times = original && original.length === value.length ? Number((value[0] / original[0]).toPrecision(3)) : NaN;
+    const same = times > 0 && value.every((x, i) => Math.abs(x - original[i] * times) <= 1e-5 * x);
+    return same && times >= low && times <= high ? { base: original.slice(), times } : { base: value.slice(), times: 1 };
+  };
+
   // A value for every storey: one slider for all, and a field for each.
   const list = (control) => {
     const id = `control-${control.path}`;
     const note = `${id}-note`;
-    const base = control.value.slice();
-    const values = base.slice();
+    const values = control.value.slice();
+    // Values that are those of the opened case times one factor stand at that factor.
+    const { base, times: start } = factored(control, actions.original(control.path));
     const inputs = values.map((x, i) => {
       const field = html("input", { id: `${id}-${i}`, type: "number", step: "any", min: 0 });
       field.value = String(clean(x / control.factor));
       field.addEventListener("change", () => {
         values[i] = Number(field.value) * control.factor;
-        base[i] = values[i];
+        base[i] = values[i] / factorNow();
         tell();
       });
       return field;
     });
     const tell = () => state.set(control.path, values.map((x) => word(control, x)));
-    const all = slider({ factor: 1, logarithmic: true, unit: "times" }, control.slider, 1, {
+    const all = slider({ factor: 1, logarithmic: true, unit: "times" }, control.slider, start, {
       id,
       "aria-describedby": note,
       "data-control": control.path,
     });
-    const factor = html("output", { for: id }, "1");
+    const factor = html("output", { for: id }, shown(start, 3));
+    const factorNow = () => Number(factor.textContent);
     all.input.addEventListener("input", () => {
       const times = all.from();
       factor.textContent = shown(times, 3);

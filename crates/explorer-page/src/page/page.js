@@ -98,6 +98,8 @@
       dragging = false;
       update();
     },
+    // Values of a list in the case as it was opened.
+    original: (path) => base.controls.find((c) => c.path === path && c.kind === "list")?.value,
     models: () => models,
     records: () => records.keys(),
     components: () => records.get(recordInUse()) || [],

@@ -64,7 +64,15 @@ impl Refused {
 
 impl From<TimeHistoryError> for Refused {
     fn from(error: TimeHistoryError) -> Self {
-        Self::new(error.to_string(), error.help())
+        Self::new(words(&error), error.help())
+    }
+}
+
+/// What ended a run. What looks at runs here keeps their time: readers know of no recorder.
+pub(crate) fn words(error: &TimeHistoryError) -> String {
+    match error {
+        TimeHistoryError::Recorder(why) => why.clone(),
+        error => error.to_string(),
     }
 }
 

@@ -42,6 +42,30 @@
     part("faults").hidden = !blocks.length;
   };
 
+  // Says for how long a run has been computed, where that takes longer than a blink.
+  const working = (() => {
+    const BLINK = 400;
+    let started = 0;
+    let ticking = 0;
+    const tick = () => {
+      const past = performance.now() - started;
+      part("working").textContent = `Computing … ${Math.floor(past / 1000)} s`;
+      part("working").hidden = past < BLINK;
+    };
+    return {
+      begin: () => {
+        started = performance.now();
+        ticking = setInterval(tick, 200);
+        part("main").setAttribute("aria-busy", "true");
+      },
+      end: () => {
+        clearInterval(ticking);
+        part("working").hidden = true;
+        part("main").removeAttribute("aria-busy");
+      },
+    };
+  })();
+
   // Runs: of all states that come while one is computed, the last is next.
   let wanted = false;
   let busy = false;
@@ -53,7 +77,9 @@
     while (wanted) {
       wanted = false;
       const changes = state.changes();
+      working.begin();
       const answer = await solver.live.ask({ do: "run", changes, frames: dragging ? FEW : MANY });
+      working.end();
       if (answer.faults) {
         // What is wrong with a state that is no longer wanted helps nobody.
         if (!wanted) told(answer.faults, "run");
@@ -61,6 +87,7 @@
       }
       told([], "run");
       run = answer;
+      part("main").hidden = false;
       results.show(run);
       motion.show(run);
       part("milliseconds").textContent = `${run.milliseconds.toFixed(0)} ms`;

@@ -11,7 +11,7 @@ use serde_json::{Value, json};
 use super::deadline::Deadline;
 use crate::answer::Answer;
 use crate::explorer::Prepared;
-use crate::fault::Refused;
+use crate::fault::{Refused, words};
 use crate::limits::MOST_NUMBERS;
 
 /// Runs a case; at most so many times of its motion are in the answer.
@@ -33,7 +33,8 @@ pub(crate) fn answer(prepared: &Prepared, frames: usize) -> Result<Answer, Refus
     let mut demand = RelativeDisplacement::of_levels(system);
     let isolated = isolated(prepared, &mut demand).unwrap_or_else(|error| {
         warnings.push(format!(
-            "without gaps and links: {error}; there is nothing to compare with"
+            "without gaps and links: {}; there is nothing to compare with",
+            words(&error)
         ));
         outcome.with_unknown_peaks()
     });

@@ -117,8 +117,12 @@ def clears(page):
     """A parameter that is cleared is left out, so that another takes its place; a width stays."""
     assert types(page, "damping_ratio", "") == ""
     until(page, "document.querySelector('[data-part=faults]').textContent.includes('damping_ratio')")
+    # What is shown beside a fault is of the input before it, and says so.
+    stale = "[document.querySelector('.stale') !== null, document.querySelector('[data-part=stale]').checkVisibility(), document.querySelector('[data-part=case]').disabled, document.querySelector('[data-part=png]').disabled]"
+    assert page.value(stale) == [True] * 4, page.value(stale)
     types(page, "restitution", "0.6")
     until(page, "document.querySelector('[data-part=faults]').textContent === ''")
+    assert page.value(stale) == [False] * 4, page.value(stale)
     assert types(page, "width", "") == "20"
     page.value("document.querySelector('[data-part=reset]').click()")
     until(page, "document.getElementById('control-gap.0.damping_ratio').value === '0.35' && document.querySelector('[data-part=faults]').textContent === ''")

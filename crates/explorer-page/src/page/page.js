@@ -40,6 +40,11 @@
     );
     part("faults").replaceChildren(...blocks);
     part("faults").hidden = !blocks.length;
+    // Answers of another state than that of the controls are not taken for its own.
+    const stale = wrong.run.length > 0;
+    part("main").classList.toggle("stale", stale);
+    part("stale").hidden = !stale;
+    for (const name of ["case", "sweep-csv", "png", "peaks-csv"]) part(name).disabled = stale;
   };
 
   // Says for how long a run has been computed, where that takes longer than a blink.

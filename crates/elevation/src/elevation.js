@@ -39,8 +39,39 @@ const elevation = (scene, picture) => {
     return rest + magnification * (body.now[k] + share * (body.now[k + 1] - body.now[k]));
   };
 
+  // Names have at least this size (px), however wide the picture of displacements gets.
+  const LEAST = 11;
+  // Middle of the base of a body.
+  const middle = (body, magnification) => body.left + magnification * body.offset + body.width / 2;
+  // Width of the picture, and the left end of the ground.
+  const across = (magnification) => {
+    const reach = magnification * scene.reach;
+    return { left: -scene.margin - reach, width: scene.width + magnification * scene.offsets + 2 * (scene.margin + reach) };
+  };
+  const { size: usual, turned, below } = scene.names;
+  let sized = { magnification: 0, size: usual };
+  addEventListener("resize", () => {
+    sized.magnification = 0;
+  });
+  const sizeAt = (magnification) => {
+    if (sized.magnification === magnification) return sized.size;
+    const most = parseFloat(getComputedStyle(picture).maxHeight) || Infinity;
+    const { width } = across(magnification);
+    const scale = Math.min(picture.clientWidth / width, most / (scene.height + scene.margin + below));
+    let size = scale > 0 ? Math.max(usual, LEAST / scale) : usual;
+    // As far as neighbours have room.
+    for (let i = 1; i < bodies.length; i++) {
+      const apart = middle(bodies[i], magnification) - middle(bodies[i - 1], magnification);
+      const needed = turned ? 1.1 : 0.3 * (bodies[i].shown.length + bodies[i - 1].shown.length + 2);
+      size = Math.max(usual, Math.min(size, apart / needed));
+    }
+    sized = { magnification, size };
+    return size;
+  };
+
   // Draws what stands in `now` of the bodies, with these contacts closed.
   const draw = (magnification, closed) => {
+    const size = sizeAt(magnification);
     for (const body of bodies) {
       const rest = body.left + magnification * body.offset;
       const points = [0, ...body.elevation].map((z, i) => [
@@ -55,7 +86,12 @@ const elevation = (scene, picture) => {
         .join(" L");
       const floors = points.slice(1).map(([x, y]) => `M${x} ${y}h${body.width}`);
       body.element.setAttribute("d", `M${up} L${down}Z${floors.join("")}`);
-      body.name.setAttribute("x", rest + body.width / 2);
+      const x = middle(body, magnification) + (turned ? 0.35 * size : 0);
+      const y = scene.height + (turned ? 0.5 : 0.3) * scene.margin + (turned ? 0 : size);
+      body.name.setAttribute("x", x);
+      body.name.setAttribute("y", y);
+      body.name.setAttribute("font-size", size);
+      if (turned) body.name.setAttribute("transform", `rotate(-90 ${x} ${y})`);
     }
     contacts.forEach((contact, i) => {
       const [zl, zr] = contact.elevations;
@@ -67,10 +103,8 @@ const elevation = (scene, picture) => {
       contact.element.classList.toggle("closed", closed.has(i));
       contact.edge.setAttribute("d", contact.ahead > 0 ? `M${right} ${scene.height - zr}H${nearer}` : "");
     });
-    const reach = magnification * scene.reach;
-    const left = -scene.margin - reach;
-    const width = scene.width + magnification * scene.offsets + 2 * (scene.margin + reach);
-    picture.setAttribute("viewBox", `${left} ${-scene.margin} ${width} ${scene.height + 3 * scene.margin}`);
+    const { left, width } = across(magnification);
+    picture.setAttribute("viewBox", `${left} ${-scene.margin} ${width} ${scene.height + scene.margin + (below * size) / usual}`);
     ground.setAttribute("d", `M${left} ${scene.height}h${width}`);
   };
   return { bodies, contacts, draw, place };

@@ -1,6 +1,7 @@
 //! The buildings in elevation: where they stand in a picture, what holds them apart, and the
 //! script that moves them.
 
+use pounding_catalogue::wording::shortened;
 use serde_json::{Value, json};
 
 /// Word for a rigid wall.
@@ -91,7 +92,68 @@ pub struct Scene {
     pub reach: f64,
 }
 
+/// How names stand below their bodies.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Names {
+    /// What is shown of each.
+    pub shown: Vec<String>,
+    /// Size of the text (m).
+    pub size: f64,
+    /// Whether they are turned: read upwards, their end at the ground.
+    pub turned: bool,
+    /// What they take below the ground (m).
+    pub below: f64,
+}
+
+/// Size of names over the height of the tallest body.
+const TEXT: f64 = 0.05;
+/// Width of a letter over the size of the text.
+const LETTER: f64 = 0.6;
+/// Fewest letters that names beside one another are shortened to; if they have less room they are
+/// turned.
+const FEWEST: usize = 10;
+/// Most letters of a name that is turned.
+const MOST_TURNED: usize = 18;
+
 impl Scene {
+    /// How the names stand: below their bodies, as far as there is room for the letters.
+    #[must_use]
+    pub fn names(&self) -> Names {
+        let size = TEXT * self.height;
+        let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
+        let middles: Vec<f64> = self.bodies.iter().map(|b| b.left + 0.5 * b.width).collect();
+        let letters = |name: &str| name.chars().count() as f64 + 1.0;
+        let half = |name: &str| 0.5 * LETTER * size * letters(name);
+        let fits = |names: &[String]| {
+            let places: Vec<(f64, f64)> = (middles.iter().zip(names))
+                .map(|(x, name)| (x - half(name), x + half(name)))
+                .collect();
+            let apart = places.windows(2).all(|pair| pair[0].1 <= pair[1].0);
+            let margin = self.margin();
+            let inside = |place: &(f64, f64)| place.0 >= -margin && place.1 <= self.width + margin;
+            apart && places.iter().all(inside)
+        };
+        let most = names.iter().map(|name| name.chars().count()).max();
+        let longest = most.unwrap_or(0).max(FEWEST);
+        let mut beside = (FEWEST..=longest).rev().map(|most| shortened(&names, most));
+        if let Some(shown) = beside.find(|shown| fits(shown)) {
+            return Names {
+                shown,
+                size,
+                turned: false,
+                below: 2.0 * self.margin(),
+            };
+        }
+        let shown = shortened(&names, MOST_TURNED);
+        let longest = shown.iter().map(|name| letters(name)).fold(0.0, f64::max);
+        Names {
+            shown,
+            size,
+            turned: true,
+            below: LETTER * size * longest + self.margin(),
+        }
+    }
+
     /// The buildings of a row in their order, with the walls beside them.
     #[must_use]
     pub fn of(row: &Row) -> Self {
@@ -193,9 +255,11 @@ impl Scene {
     /// What the script reads, with these contacts alone, under these names.
     #[must_use]
     pub fn json(&self, contacts: impl Iterator<Item = (usize, String)>) -> Value {
-        let body = |body: &Body| {
+        let names = self.names();
+        let body = |(body, shown): (&Body, &String)| {
             json!({
                 "title": body.name,
+                "shown": shown,
                 "building": body.building,
                 "left": body.left,
                 "width": body.width,
@@ -220,7 +284,8 @@ impl Scene {
             "reach": self.reach,
             "margin": self.margin(),
             "magnification": self.magnification(),
-            "bodies": self.bodies.iter().map(body).collect::<Vec<Value>>(),
+            "names": { "size": names.size, "turned": names.turned, "below": names.below },
+            "bodies": self.bodies.iter().zip(&names.shown).map(body).collect::<Vec<Value>>(),
             "contacts": contacts.map(contact).collect::<Vec<Value>>(),
         })
     }
@@ -249,4 +314,41 @@ fn widest(row: &Row, gaps: &[usize]) -> f64 {
     let levels = gaps.iter().flat_map(|g| &row.gaps[*g].levels);
     let widths = levels.map(|(_, width)| *width);
     widths.filter(|w| w.is_finite()).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn scene(names: &[&str]) -> Scene {
+        Scene::of(&Row {
+            buildings: names
+                .iter()
+                .map(|name| ((*name).to_owned(), vec![3.0, 6.0, 9.0]))
+                .collect(),
+            gaps: Vec::new(),
+            reach: 0.1,
+        })
+    }
+
+    /// Names keep their size: those that have no room beside one another are shortened or turned.
+    #[test]
+    fn names_keep_their_size() {
+        let few = scene(&["light", "heavy"]).names();
+        assert_eq!((few.size, few.turned), (0.45, false));
+        assert_eq!(few.shown, ["light", "heavy"]);
+        let long = scene(&[
+            "the light frame of the old hospital",
+            "the heavy frame of the old hospital",
+        ]);
+        let long = long.names();
+        assert_eq!((long.size, long.turned), (0.45, false));
+        assert_ne!(long.shown[0], long.shown[1]);
+        let many: Vec<String> = (1..=20).map(|i| format!("building {i}")).collect();
+        let many: Vec<&str> = many.iter().map(String::as_str).collect();
+        let many = scene(&many).names();
+        assert_eq!((many.size, many.turned), (0.45, true));
+        assert_eq!(many.shown[19], "building 20");
+        assert!(many.below > 0.6 * 0.45 * 11.0, "{}", many.below);
+    }
 }

@@ -13,13 +13,12 @@ const motion = (() => {
   // Elements for these bodies and contacts.
   const prepare = (given) => {
     const picture = part("elevation");
-    const text = 0.05 * given.height;
     const radius = 0.02 * given.height;
     picture.replaceChildren(
       svg("path", { class: "ground", "data-part": "ground" }),
       ...given.bodies.flatMap((body, i) => [
         svg("path", { class: body.building === null ? "wall" : "building", "data-body": i }),
-        svg("text", { "data-name": i, y: given.height + 1.6 * given.margin, "font-size": text }, body.title),
+        svg("text", { "data-name": i, class: given.names.turned ? "turned" : null }, svg("title", {}, body.title), body.shown),
       ]),
       ...given.contacts.flatMap((contact, i) => [
         svg("path", { class: "edge", "data-edge": i }),
@@ -104,7 +103,7 @@ const motion = (() => {
   // Shows another run of the case, from where the last one stood.
   const show = (answer) => {
     const first = !run;
-    const shape = (r) => JSON.stringify([r.scene.bodies.map((b) => [b.title, b.elevation]), r.scene.contacts.map((c) => c.name)]);
+    const shape = (r) => JSON.stringify([r.scene.bodies.map((b) => [b.title, b.elevation]), r.scene.names, r.scene.contacts.map((c) => c.name)]);
     if (first || shape(run) !== shape(answer)) prepare(answer.scene);
     run = answer;
     scene = elevation(answer.scene, part("elevation"));

@@ -117,7 +117,7 @@ fn picture(result: &RunResult, scene: &Scene, (row, m): (usize, f64)) -> String 
     let (margin, reach) = (scene.margin(), m * scene.reach);
     let wide = scene.width + m * scene.offsets + 2.0 * (margin + reach);
     let left = -margin - reach;
-    let text = (0.05 * scene.height).min(wide / (1.2 * longest(scene)));
+    let names = scene.names();
     let mut inside = format!(
         "<path class=\"ground\" data-part=\"ground\" d=\"M{left:.4} {:.4}h{wide:.4}\"/>",
         scene.height
@@ -134,11 +134,24 @@ fn picture(result: &RunResult, scene: &Scene, (row, m): (usize, f64)) -> String 
             "<path class=\"{class}\" data-body=\"{number}\" d=\"{}\"/>",
             outline(scene, body, m, &displacement)
         ));
+        let middle = body.left + m * body.offset + 0.5 * body.width;
+        let place = match names.turned {
+            true => {
+                let (x, y) = (middle + 0.35 * names.size, scene.height + 0.5 * margin);
+                format!(
+                    "class=\"turned\" x=\"{x:.4}\" y=\"{y:.4}\" transform=\"rotate(-90 {x:.4} {y:.4})\""
+                )
+            }
+            false => {
+                let y = scene.height + 0.3 * margin + names.size;
+                format!("x=\"{middle:.4}\" y=\"{y:.4}\"")
+            }
+        };
         inside.push_str(&format!(
-            "<text data-name=\"{number}\" x=\"{:.4}\" y=\"{:.4}\" font-size=\"{text:.4}\">{}</text>",
-            body.left + m * body.offset + 0.5 * body.width,
-            scene.height + margin,
-            escaped(&body.name)
+            "<text data-name=\"{number}\" {place} font-size=\"{:.4}\"><title>{}</title>{}</text>",
+            names.size,
+            escaped(&body.name),
+            escaped(&names.shown[number])
         ));
     }
     let time = result.time[row];
@@ -176,24 +189,17 @@ fn picture(result: &RunResult, scene: &Scene, (row, m): (usize, f64)) -> String 
             0.02 * scene.height,
         ));
     }
-    let names: Vec<&str> = scene.bodies.iter().map(|b| b.name.as_str()).collect();
+    let all: Vec<&str> = scene.bodies.iter().map(|b| b.name.as_str()).collect();
     let words = escaped(&format!(
         "Elevation of {} from left to right, with the displacements of their floors",
-        names.join(", ")
+        all.join(", ")
     ));
     format!(
         "<svg role=\"img\" aria-label=\"{words}\" data-part=\"elevation\" xmlns=\"http://www.w3.org/2000/svg\" \
          viewBox=\"{left:.4} {:.4} {wide:.4} {:.4}\">{inside}</svg>\n",
         -margin,
-        scene.height + 3.0 * margin,
+        scene.height + margin + names.below,
     )
-}
-
-/// Letters of all names together.
-fn longest(scene: &Scene) -> f64 {
-    let letters = scene.bodies.iter().map(|b| b.name.chars().count() + 2);
-    let most = letters.max().unwrap_or(1);
-    0.6 * (most * scene.bodies.len()).max(1) as f64
 }
 
 /// Displacements of the ground and the floors of a body at an output time (m).

@@ -1,6 +1,9 @@
 //! A chart as SVG.
 
+use std::borrow::Cow;
 use std::fmt::Write as _;
+
+use pounding_catalogue::wording::shortened;
 
 use super::axis::{Axis, Range, Scale};
 use super::look::{Look, Marker};
@@ -15,6 +18,8 @@ const TEXT: f64 = 8.5;
 const LETTER: f64 = 0.58;
 /// Width of the name of a model over what a text of as many letters takes in a sentence.
 const NAMES: f64 = 1.1;
+/// Width of a bold text over that of another.
+const BOLD: f64 = 1.08;
 /// Part of the width that labels of the vertical axis take at most.
 const MOST_OF_NAMES: f64 = 0.62;
 /// Distance of lines of text (pt).
@@ -35,8 +40,9 @@ fn width_of(text: &str) -> f64 {
     LETTER * TEXT * text.chars().count() as f64
 }
 
-/// A legend: its rows of entries, each with its place from the left (pt).
-type Rows<'c> = Vec<Vec<(f64, &'c str, &'c Look)>>;
+/// A legend: its rows of entries, each with its place from the left (pt); further lines of an
+/// entry have no look.
+type Rows<'c> = Vec<Vec<(f64, Cow<'c, str>, Option<&'c Look>)>>;
 
 /// The chart as SVG.
 pub fn drawn(chart: &Chart) -> String {
@@ -64,18 +70,48 @@ fn entries(plot: &Plot) -> Vec<(&str, &Look)> {
     entries
 }
 
+/// Names in one line each that is no wider than this (pt): the middles of wider ones are left out.
+fn in_one_line<'c>(names: &[&'c str], width: f64) -> Vec<Cow<'c, str>> {
+    if names.iter().all(|name| NAMES * width_of(name) <= width) {
+        return names.iter().map(|name| Cow::Borrowed(*name)).collect();
+    }
+    let letters = (width / (NAMES * LETTER * TEXT)) as usize;
+    let names = shortened(names, letters).into_iter();
+    names.map(Cow::Owned).collect()
+}
+
+/// Names for lines no wider than this (pt): they are left as they are where their words fit.
+fn in_lines<'c>(names: &[&'c str], width: f64) -> Vec<Cow<'c, str>> {
+    let fits = |word: &str| NAMES * width_of(word) <= width;
+    match names.iter().all(|name| name.split_whitespace().all(fits)) {
+        true => names.iter().map(|name| Cow::Borrowed(*name)).collect(),
+        false => in_one_line(names, width),
+    }
+}
+
 /// Entries in rows no wider than this (pt).
 fn rows<'c>(entries: &[(&'c str, &'c Look)], width: f64) -> Rows<'c> {
     let mut rows: Rows<'c> = Vec::new();
     let mut x = 0.0;
-    for (name, look) in entries {
-        let wide = SAMPLE + SPACE + width_of(name) + 2.0 * SPACE;
+    let room = width - SAMPLE - SPACE;
+    let names: Vec<&str> = entries.iter().map(|(name, _)| *name).collect();
+    for (name, (_, look)) in in_lines(&names, room).into_iter().zip(entries) {
+        let wide = SAMPLE + SPACE + width_of(&name) + 2.0 * SPACE;
+        if wide > width + 2.0 * SPACE {
+            // Alone, in lines.
+            let lines = wrapped(&name, room).into_iter().enumerate();
+            let line =
+                |(number, line)| vec![(0.0, Cow::Owned(line), (number == 0).then_some(*look))];
+            rows.extend(lines.map(line));
+            x = f64::INFINITY;
+            continue;
+        }
         if rows.is_empty() || x + wide > width + 2.0 * SPACE {
             rows.push(Vec::new());
             x = 0.0;
         }
         if let Some(row) = rows.last_mut() {
-            row.push((x, *name, *look));
+            row.push((x, name, Some(*look)));
         }
         x += wide;
     }
@@ -149,9 +185,11 @@ impl<'c> Picture<'c> {
             + SPACE
     }
 
-    /// Lines of the heading, none wider than the picture unless a word is.
+    /// Lines of the heading, none wider than the picture.
     fn heading(&self, plot: &Plot) -> Vec<String> {
-        wrapped(&plot.heading, self.chart.width - 2.0 * SPACE)
+        let width = (self.chart.width - 2.0 * SPACE) / BOLD;
+        let words: Vec<&str> = plot.heading.split_whitespace().collect();
+        wrapped(&in_one_line(&words, width).join(" "), width)
     }
 
     fn own_legend(&self, plot: &'c Plot) -> Rows<'c> {
@@ -229,8 +267,19 @@ impl<'c> Picture<'c> {
         let vertical = vertical_range(plot);
         let x_at = |x: f64| horizontal.place(x).map(|p| left + p * (right - left));
         let y_at = |y: f64| vertical.place(y).map(|p| lower - p * (lower - upper));
-        for (value, label) in vertical.ticks(ticks_of(height)) {
-            let Some(y) = y_at(value) else { continue };
+        let ticks = vertical.ticks(ticks_of(height));
+        let labels: Vec<&str> = ticks.iter().map(|(_, label)| label.as_str()).collect();
+        let title = if plot.vertical.label.is_empty() {
+            0.0
+        } else {
+            LINE
+        };
+        let labels = match plot.vertical.scale {
+            Scale::Names(_) => in_one_line(&labels, left - TICK - 2.0 - SPACE - title),
+            _ => labels.into_iter().map(Cow::Borrowed).collect(),
+        };
+        for ((value, _), label) in ticks.iter().zip(&labels) {
+            let Some(y) = y_at(*value) else { continue };
             line(
                 body,
                 (left, y),
@@ -238,13 +287,7 @@ impl<'c> Picture<'c> {
                 "stroke=\"#dddddd\" stroke-width=\"0.4\"",
             );
             line(body, (left - TICK, y), (left, y), AXIS);
-            text(
-                body,
-                (left - TICK - 2.0, y + 0.35 * TEXT),
-                &label,
-                "end",
-                "",
-            );
+            text(body, (left - TICK - 2.0, y + 0.35 * TEXT), label, "end", "");
         }
         let most = ((right - left) / 50.0) as usize;
         let mut free = f64::NEG_INFINITY;
@@ -346,7 +389,7 @@ fn legend(body: &mut String, rows: &Rows<'_>, top: f64) -> f64 {
         y += LINE;
         for (x, name, look) in row {
             let (from, middle) = (SPACE + x, y - 0.5 * TEXT);
-            if look.dash.is_some() {
+            if let Some(look) = look.filter(|look| look.dash.is_some()) {
                 line(
                     body,
                     (from, middle),
@@ -354,7 +397,8 @@ fn legend(body: &mut String, rows: &Rows<'_>, top: f64) -> f64 {
                     &look.stroke(),
                 );
             }
-            body.push_str(&look.marker_at((from + 0.5 * SAMPLE, middle)));
+            let marker = look.map(|look| look.marker_at((from + 0.5 * SAMPLE, middle)));
+            body.push_str(&marker.unwrap_or_default());
             text(body, (from + SAMPLE + 4.0, y - 1.5), name, "start", "");
         }
     }
@@ -446,5 +490,49 @@ fn curve(body: &mut String, look: &Look, places: &[Option<(f64, f64)>], turn: us
     for place in known.iter().skip(first).step_by(every) {
         body.push_str(&look.marker_at(*place));
         body.push('\n');
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::figure::{Curve, Panel, figure};
+
+    /// Names of a legend in a column stand in lines, or are shortened so that they differ.
+    #[test]
+    fn legends_are_not_cut() {
+        let drawn = |names: [&str; 2]| {
+            let curve = |name: &str| Curve {
+                name: name.to_owned(),
+                points: vec![(0.0, 0.0), (1.0, 1.0)],
+            };
+            let panel = Panel {
+                caption: "Displacement (mm)".to_owned(),
+                horizontal: "time (s)".to_owned(),
+                curves: names.map(curve).to_vec(),
+            };
+            figure(&[panel]).of_width(90.0).svg()
+        };
+        let legend = |svg: &str| -> Vec<String> {
+            let texts = svg.split("text-anchor=\"start\">").skip(1);
+            let texts = texts.filter_map(|t| t.split('<').next());
+            texts.map(str::to_owned).collect()
+        };
+        let sentences = legend(&drawn([
+            "the light frame of the old hospital, beside the road to the north",
+            "the heavy frame of the old hospital, beside the road to the north",
+        ]));
+        assert_eq!(sentences.len(), 4, "{sentences:?}");
+        assert_eq!(sentences[0].split_whitespace().next(), Some("the"));
+        let words = legend(&drawn([
+            "../ground_motions/of_the_hospital/recorded_in_the_basement_1.csv",
+            "../ground_motions/of_the_hospital/recorded_in_the_basement_2.csv",
+        ]));
+        assert_eq!(words.len(), 2, "{words:?}");
+        assert_ne!(words[0], words[1]);
+        let room = 90.0 * 72.0 / 25.4 - 2.0 * SPACE - SAMPLE - 4.0;
+        for text in sentences.iter().chain(&words) {
+            assert!(width_of(text) <= room, "{text}");
+        }
     }
 }

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::support::part_files::no_part_file;
-use crate::support::{edit, run, text};
+use crate::support::{Bench, edit, run, text};
 use pounding_files::checksum::append;
 use serde_json::Value;
 
@@ -92,6 +92,42 @@ fn every_kind_of_result() {
         seen += 1;
     }
     assert!(seen >= 8, "{seen}");
+}
+
+/// Gaps stand on the page in the order of the case, as the run prints them: 1-2 before 10-11 and
+/// behind 2-3 all the same.
+#[test]
+fn gaps_of_a_row() {
+    let bench = Bench::with("");
+    let mut case = String::new();
+    for i in 1..=12 {
+        case.push_str(&format!(
+            "[[building]]\nname = \"{i}\"\nstoreys = 1\nmass = \"{} t\"\nstiffness = \"20 MN/m\"\n\
+             height = \"3 m\"\ndamping = {{ stiffness_proportional = 0.05 }}\n",
+            20 + i
+        ));
+    }
+    for i in 1..12 {
+        case.push_str(&format!(
+            "[[gap]]\nbetween = [\"{i}\", \"{}\"]\nwidth = \"20 mm\"\n\
+             model = \"anagnostopoulos_2004\"\nstiffness = \"90 MN/m\"\nrestitution = 0.65\n",
+            i + 1
+        ));
+    }
+    case.push_str(
+        "[ground_motion]\nfile = \"MOTIONS/el_centro_1940_ns.csv\"\n[analysis]\nduration = \"1 s\"\n",
+    );
+    bench.write("case.toml", &case);
+    let told = bench.json("run case.toml -o row.h5");
+    bench.text("report row.h5");
+    let page = bench.read("row.html");
+    let gaps = told["gaps"].as_array().unwrap().iter();
+    let places = gaps.map(|gap| {
+        let heading = format!(">Gap {}</h2>", gap["name"].as_str().unwrap());
+        page.find(&heading).unwrap()
+    });
+    let places: Vec<usize> = places.collect();
+    assert!(places.len() == 11 && places.is_sorted(), "{places:?}");
 }
 
 /// The page of a sweep says what rigid impacts do not have, and only theirs.

@@ -93,6 +93,22 @@ impl RunResult {
     }
 }
 
+/// Names of buildings, gaps or links in the order of a case: those of gaps and links without one
+/// are made of the names between which they are.
+fn names_in(case: &str, list: &str) -> Vec<String> {
+    let case = case.parse::<toml::Table>().unwrap_or_default();
+    let items = case.get(list).and_then(toml::Value::as_array);
+    let name = |item: &toml::Value| {
+        if let Some(name) = item.get("name") {
+            return name.as_str().map(str::to_owned);
+        }
+        let between = item.get("between")?.as_array()?.iter();
+        let between: Vec<&str> = between.filter_map(toml::Value::as_str).collect();
+        Some(between.join("-"))
+    };
+    items.into_iter().flatten().filter_map(name).collect()
+}
+
 /// Reads, and says what could not be read.
 struct Reader {
     path: PathBuf,
@@ -174,7 +190,12 @@ impl Reader {
         let mut names = all.member_names().map_err(self.failed(name))?;
         // HDF5 has them by name; the case has them from left to right.
         let case = self.text(file, "case")?;
-        names.sort_by_key(|n| case.find(&format!("\"{n}\"")).unwrap_or(usize::MAX));
+        let known = names_in(&case, name);
+        names.sort_by_key(|n| {
+            let place = known.iter().position(|known| known == n);
+            let found = case.find(&format!("\"{n}\""));
+            (place.unwrap_or(usize::MAX), found.unwrap_or(usize::MAX))
+        });
         let one = |name: String| read(&self.group(&all, &name)?, name);
         names.into_iter().map(one).collect()
     }

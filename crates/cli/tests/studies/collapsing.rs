@@ -76,6 +76,22 @@ fn a_collapse_has_reached_every_state() {
     let told: Value =
         serde_json::from_str(&bench.text("ida study.toml -o out.h5 --csv out.csv --json")).unwrap();
     assert_eq!(told["sweep"]["failed"], 0);
+    // The figure speaks of curves that it has, and reaches the last intensity.
+    bench.text("ida study.toml --plot figure.svg");
+    let figure = String::from_utf8(bench.bytes("figure.svg")).unwrap();
+    let fitted = |states: &Value| {
+        let mut states = states.as_array().unwrap().iter();
+        states.any(|state| state["fit"]["kind"] == "lognormal")
+    };
+    let of_limits = figure.split("Probability of a state").nth(1).unwrap();
+    let (of_limits, of_widths) = of_limits.split_once("Probability of pounding").unwrap();
+    for (panel, states) in [
+        (of_limits, &told["limits"]),
+        (of_widths, &told["gaps"][0]["widths"]),
+    ] {
+        assert_eq!(panel.contains("fitted curves"), fitted(states), "{states}");
+        assert!(panel.contains(">4.0</text>") || panel.contains(">4</text>"));
+    }
     let levels = told["levels"].as_array().unwrap();
     assert_eq!(
         (&levels[0]["collapsed"], &levels[0]["runs"]),

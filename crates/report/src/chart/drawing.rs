@@ -128,9 +128,11 @@ impl<'c> Picture<'c> {
         let label = |plot: &Plot| {
             let range = vertical_range(plot);
             let ticks = range.ticks(ticks_of(plot.height));
-            // Names of few narrow letters are wider than sentences, and none is cut.
+            // Names of few narrow letters are wider than sentences, and none is cut; so are numbers
+            // in some faces, which beside a title have no other room.
             let part = match plot.vertical.scale {
                 Scale::Names(_) => NAMES,
+                _ if !plot.vertical.label.is_empty() => NAMES,
                 _ => 1.0,
             };
             let widest = ticks.iter().map(|(_, label)| part * width_of(label));

@@ -15,7 +15,7 @@ const DEMANDS: usize = 4;
 /// fractions they were fitted to, of the limits and of pounding by width of each gap; and the
 /// mean annual frequency of pounding over the width with its bounds.
 pub fn fragility(report: &IdaReport) -> Chart {
-    let highest = last_that_differs(report);
+    let highest = report.levels.last().map_or(1.0, |l| l.intensity);
     let mut plots = curves(report);
     let states: Vec<(String, &LimitResult)> = report
         .limits
@@ -98,25 +98,6 @@ fn curves(report: &IdaReport) -> Vec<Plot> {
     drifts.take(DEMANDS).map(plot).collect()
 }
 
-/// The intensity from which on every run reaches every state: there is nothing more to see.
-fn last_that_differs(report: &IdaReport) -> f64 {
-    let widths = report
-        .gaps
-        .iter()
-        .flat_map(|g| g.widths.iter().map(|w| &w.result));
-    let states: Vec<&LimitResult> = report.limits.iter().chain(widths).collect();
-    let certain = |level: &usize| {
-        states.iter().all(|s| {
-            let mut above = s.counts.iter().skip(*level);
-            above.all(|c| c.reached == c.runs)
-        })
-    };
-    let levels = &report.levels;
-    let first = (0..levels.len()).find(certain);
-    let shown = first.map_or(levels.last(), |i| levels.get(i));
-    shown.map_or(1.0, |l| l.intensity)
-}
-
 /// Fitted curves, and as markers the fractions they were fitted to.
 fn fragilities(
     report: &IdaReport,
@@ -140,8 +121,7 @@ fn fragilities(
             }
             _ => false,
         };
-        let shown = |c: &&Counts| c.runs > 0 && c.intensity <= highest;
-        let fractions = state.counts.iter().filter(shown);
+        let fractions = state.counts.iter().filter(|c: &&Counts| c.runs > 0);
         series.push(Series {
             name: if fitted { String::new() } else { name.clone() },
             points: fractions
@@ -150,8 +130,12 @@ fn fragilities(
             look: Look::points(number),
         });
     }
+    let fitted = series.iter().any(|s| s.look.dash.is_some());
     Plot {
-        heading: format!("{heading}: counted fractions as markers, fitted curves"),
+        heading: match fitted {
+            true => format!("{heading}: counted fractions as markers, fitted curves"),
+            false => format!("{heading}: counted fractions as markers"),
+        },
         horizontal: Axis::linear(&format!("{} ({unit})", report.measure)),
         vertical: Axis::linear("probability (-)").over(-0.03, 1.03),
         series,

@@ -363,7 +363,7 @@ fn a_level_is_known_by_its_storeys_and_elevations() {
         page.contains("level 5-2 (15.30 m | 6.000 m)"),
         "words or figures"
     );
-    assert!(page.contains("level 2-wall (6.000 m | \u{2013})"), "wall");
+    assert!(page.contains("level 2-wall (6.000 m | wall)"), "wall");
     bench.text("run case.toml --no-output --plot run.svg");
     let plot = std::fs::read_to_string(bench.path("run.svg")).unwrap();
     assert!(plot.contains("a-b level 5-2 (15.3 m | 6 m)"));

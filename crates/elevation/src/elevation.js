@@ -49,12 +49,9 @@ const elevation = (scene, picture) => {
     return { left: -scene.margin - reach, width: scene.width + magnification * scene.offsets + 2 * (scene.margin + reach) };
   };
   const { size: usual, turned, below } = scene.names;
-  let sized = { magnification: 0, size: usual };
-  addEventListener("resize", () => {
-    sized.magnification = 0;
-  });
+  let sized = { magnification: 0, window: 0, size: usual };
   const sizeAt = (magnification) => {
-    if (sized.magnification === magnification) return sized.size;
+    if (sized.magnification === magnification && sized.window === innerWidth) return sized.size;
     const most = parseFloat(getComputedStyle(picture).maxHeight) || Infinity;
     const { width } = across(magnification);
     const scale = Math.min(picture.clientWidth / width, most / (scene.height + scene.margin + below));
@@ -65,12 +62,14 @@ const elevation = (scene, picture) => {
       const needed = turned ? 1.1 : 0.3 * (bodies[i].shown.length + bodies[i - 1].shown.length + 2);
       size = Math.max(usual, Math.min(size, apart / needed));
     }
-    sized = { magnification, size };
+    sized = { magnification, window: innerWidth, size };
     return size;
   };
 
   // Draws what stands in `now` of the bodies, with these contacts closed.
   const draw = (magnification, closed) => {
+    // What is wider than any number has no picture.
+    if (!Number.isFinite(across(magnification).width)) return;
     const size = sizeAt(magnification);
     for (const body of bodies) {
       const rest = body.left + magnification * body.offset;

@@ -211,6 +211,14 @@ fn energy_has_the_sources_of_the_case() {
         let sentence = format!("<p>{words} 9.980 kJ relative to the ground");
         assert!(html.contains(&sentence), "{sentence}\n{html}");
     }
+    // Round-off has no parts.
+    let mut still = result();
+    still.energy.input.fill(1.0e-12);
+    let html = is_whole(&page(&still, "pair.h5").unwrap());
+    assert!(
+        html.contains("There is no energy on the output grid"),
+        "{html}"
+    );
 }
 
 /// Of a building with a stiffness matrix alone.

@@ -90,7 +90,13 @@ const controlsOf = (state, documentation, actions) => {
   const unitOf = (control) => (/^[[(][^\])]*[\])](.*)$/.exec(control.allowed) || ["", ""])[1].trim();
 
   const line = (control, id) =>
-    html("p", { class: "note", id }, control.explanation ? `${control.explanation} ` : "", more(documentation, control.page));
+    html("p", { class: "note", id }, ...explained(control), " ", more(documentation, control.page));
+
+  // The explanation of a key, whose unit is that of the control; names of keys and files are code.
+  const explained = ({ explanation, unit }) =>
+    (unit ? explanation.replace(/ \((m|kg|N\/m|m\/s2)\)/, "") : explanation)
+      .split("`")
+      .map((words, i) => (i % 2 ? html("code", {}, words) : words));
 
   // What values of storeys are a multiple of: the original, or themselves.
   const factored = ({ value, slider: [low, high] }, original) => {

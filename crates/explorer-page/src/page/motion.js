@@ -83,7 +83,8 @@ const motion = (() => {
     play(false);
     const later = closes.find((t) => t > time + 1e-9);
     const earlier = closes.filter((t) => t < time - 1e-9).pop();
-    time = forward ? (later ?? closes[0]) : (earlier ?? closes[closes.length - 1]);
+    // As on the page of a run: behind the last impact there is no other.
+    time = forward ? (later ?? closes[closes.length - 1]) : (earlier ?? closes[0]);
     draw();
   };
 
@@ -93,6 +94,7 @@ const motion = (() => {
     part("previous").addEventListener("click", () => jump(false));
     part("next").addEventListener("click", () => jump(true));
     part("magnification").addEventListener("change", draw);
+    addEventListener("resize", draw);
     part("time").addEventListener("input", (event) => {
       play(false);
       time = Number(event.target.value);

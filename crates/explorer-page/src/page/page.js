@@ -315,6 +315,7 @@
   });
   part("case").addEventListener("click", () => run && save(opened.name, "text/plain", run.case));
   part("peaks-csv").addEventListener("click", () => run && save("peaks.csv", "text/csv", results.csv(run)));
+  addEventListener("resize", results.redraw);
   addEventListener("hashchange", () => {
     if (location.hash !== written) restore(location.hash);
   });

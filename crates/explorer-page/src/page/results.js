@@ -80,6 +80,8 @@ const resultsOf = (documentation) => {
     return html("table", {}, head, html("tbody", {}, ...rows));
   };
 
+  let last = null;
+
   // Impacts as lines over time, as high as their force, or their impulse where velocities jump.
   const impacts = (run) => {
     const picture = part("impacts");
@@ -87,7 +89,7 @@ const resultsOf = (documentation) => {
     const jumps = forces.some((force) => Number.isNaN(force));
     const values = jumps ? impulses : forces;
     const [width, height] = [picture.clientWidth || 640, 200];
-    const [left, right, top, bottom] = [64, 12, 16, height - 34];
+    const [left, right, top, bottom] = [64, 12, 24, height - 34];
     const end = time[time.length - 1] || 1;
     const high = 1e-3 * most([...values]) || 1;
     const across = (t) => left + (t / end) * (width - left - right);
@@ -95,7 +97,8 @@ const resultsOf = (documentation) => {
     const marks = [
       ...ticks(0, high, 3).map((y) => [svg("path", { class: "axis", d: `M${left} ${up(y)}H${width - right}` }), svg("text", { x: left - 6, y: up(y) + 4, "text-anchor": "end" }, shown(y))]).flat(),
       ...ticks(0, end, Math.max(2, Math.floor(width / 110))).map((t) => svg("text", { x: across(t), y: bottom + 16, "text-anchor": "middle" }, String(t))),
-      svg("text", { x: (left + width) / 2, y: height - 4, "text-anchor": "middle" }, `time (s); lines are impacts, their height the ${jumps ? "impulse (kN s)" : "peak force (kN)"}`),
+      svg("text", { x: left, y: 14 }, jumps ? "impulses of impacts (kN s)" : "peak forces of impacts (kN)"),
+      svg("text", { x: (left + width) / 2, y: height - 4, "text-anchor": "middle" }, "time (s)"),
     ];
     let path = "";
     closes.forEach((t, i) => {
@@ -107,7 +110,10 @@ const resultsOf = (documentation) => {
   };
 
   return {
+    // For a window of another size.
+    redraw: () => last && impacts(last),
     show: (run) => {
+      last = run;
       const gaps = run.summary.gaps.map((gap, i) => {
         const cards = numbersOf(run, i).map((number) => card(number, i));
         return html("div", {}, run.summary.gaps.length > 1 ? html("h3", {}, `Gap ${gap.name}`) : null, html("dl", { class: "numbers" }, ...cards));

@@ -170,6 +170,8 @@ pub(super) fn unit_of(unit: &str) -> (f64, &str) {
         (factor, "-") => (factor, ""),
         (factor, "m/s2") => (factor, "m/s\u{b2}"),
         (factor, "m s-1") => (factor, "m/s"),
+        (_, "kg s-2") => (1.0, "N/m"),
+        (_, "kg m-0.5 s-2") => (1.0, "N/m^1.5"),
         (_, "J") => (1.0e-3, "kJ"),
         (_, "N s") => (1.0e-3, "kN s"),
         known => known,
@@ -202,6 +204,12 @@ fn unit_factor(head: &str) -> f64 {
 mod tests {
     use super::*;
     use serde_json::json;
+
+    #[test]
+    fn stiffnesses_are_in_newtons() {
+        assert_eq!(in_parentheses("kg m-0.5 s-2"), " (N/m^1.5)");
+        assert_eq!(in_parentheses("kg s-2"), " (N/m)");
+    }
 
     #[test]
     fn sources_are_followed() {

@@ -271,9 +271,10 @@ fn variables(result: &ResultReader, runs: &Runs) -> String {
             Some(choices) => choices.join(", "),
             None => {
                 let ends = [known.first(), known.last()].map(|x| x.copied().unwrap_or(f64::NAN));
-                let unit = match c.unit.as_str() {
-                    "1" | "-" => "",
-                    unit => unit,
+                let unit = match unit_of(&c.unit) {
+                    (1.0, unit) => unit,
+                    // Multiples are not SI.
+                    _ => c.unit.as_str(),
                 };
                 let range = format!("{} to {} {unit}", figures(ends[0]), figures(ends[1]));
                 range.trim_end().to_owned()

@@ -315,4 +315,5 @@
   part("jump").hidden = !impacts.length;
   draw();
   chart.redraw();
+  addEventListener("resize", draw);
 })();

@@ -5,6 +5,7 @@ use crate::page::html::{JUMPS, escaped, number, sentences, warnings};
 use crate::page::numbers::{figures, percent, ratio as times};
 use crate::result::{BuildingResult, GapResult, ImpactResult, LevelResult, RunResult, StoreyPeaks};
 use pounding_catalogue::wording::counted;
+use pounding_elevation::WALL;
 
 /// The summary: warnings, how hard they hit, what it did to the buildings, the ledger.
 pub(super) fn summary(result: &RunResult) -> String {
@@ -140,6 +141,7 @@ fn hit(gap: &GapResult) -> Option<String> {
 pub(super) fn level(level: &LevelResult) -> String {
     let [left, right] = level.elevations.map(|z| match z.is_finite() {
         true => format!("{} m", figures(z)),
+        false if level.label.split('-').any(|side| side == WALL) => WALL.to_owned(),
         false => figures(z),
     });
     format!("level {} ({left} | {right})", level.label)
@@ -292,7 +294,9 @@ pub(super) fn energy(result: &RunResult) -> String {
                 format!("{name} {}", number(&from, 1.0e2, &percent(value, whole)))
             });
     let parts: Vec<String> = parts.collect();
-    let Some(time) = result.time.last().filter(|_| !parts.is_empty()) else {
+    // Parts of what round-off leaves are none.
+    let some = !parts.is_empty() && figures(1.0e-3 * whole) != "0";
+    let Some(time) = result.time.last().filter(|_| some) else {
         return "<p>There is no energy on the output grid.</p>\n".to_owned();
     };
     format!(

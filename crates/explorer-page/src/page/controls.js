@@ -151,7 +151,7 @@ const controlsOf = (state, documentation, actions) => {
       html("label", { for: id }, `${control.label}, all storeys times`),
       html("span", { class: "value" }, factor),
       all.input,
-      html("details", {}, html("summary", {}, `${control.label} of each storey (${control.unit})`), ...storeys),
+      html("details", { class: "storeys" }, html("summary", {}, `${control.label} of each storey (${control.unit})`), ...storeys),
       line(control, note),
     );
   };

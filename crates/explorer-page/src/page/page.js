@@ -316,6 +316,15 @@
   part("case").addEventListener("click", () => run && save(opened.name, "text/plain", run.case));
   part("peaks-csv").addEventListener("click", () => run && save("peaks.csv", "text/csv", results.csv(run)));
   addEventListener("resize", results.redraw);
+  // On paper the values of storeys can be read, and cannot be opened.
+  let shut = [];
+  addEventListener("beforeprint", () => {
+    shut = [...document.querySelectorAll(".storeys:not([open])")];
+    for (const details of shut) details.open = true;
+  });
+  addEventListener("afterprint", () => {
+    for (const details of shut) details.open = false;
+  });
   addEventListener("hashchange", () => {
     if (location.hash !== written) restore(location.hash);
   });

@@ -16,6 +16,8 @@ const TEXT: f64 = 8.5;
 /// Width of a letter over the size of the text: no letter of a sentence in a usual sans-serif
 /// face is wider on average.
 const LETTER: f64 = 0.58;
+/// The same of a capital.
+const CAPITAL: f64 = 0.7;
 /// Width of the name of a model over what a text of as many letters takes in a sentence.
 const NAMES: f64 = 1.1;
 /// Width of a bold text over that of another.
@@ -35,9 +37,15 @@ const MARGINS: (f64, f64) = (0.025, 0.05);
 /// Markers along a line that is told apart by them.
 const MARKERS: usize = 9;
 
-/// The width of a text (pt).
+/// The width of a text (pt): capitals are wider than other letters, and signs of East Asia as
+/// wide as they are high.
 fn width_of(text: &str) -> f64 {
-    LETTER * TEXT * text.chars().count() as f64
+    let letter = |c: char| match c {
+        '\u{2e80}'.. => 1.0,
+        c if c.is_uppercase() => CAPITAL,
+        _ => LETTER,
+    };
+    TEXT * text.chars().map(letter).sum::<f64>()
 }
 
 /// A legend: its rows of entries, each with its place from the left (pt); further lines of an
@@ -75,7 +83,9 @@ fn in_one_line<'c>(names: &[&'c str], width: f64) -> Vec<Cow<'c, str>> {
     if names.iter().all(|name| NAMES * width_of(name) <= width) {
         return names.iter().map(|name| Cow::Borrowed(*name)).collect();
     }
-    let letters = (width / (NAMES * LETTER * TEXT)) as usize;
+    let of_letter = |name: &&str| width_of(name) / name.chars().count().max(1) as f64;
+    let widest = names.iter().map(of_letter).fold(0.0, f64::max);
+    let letters = (width / (NAMES * widest)) as usize;
     let names = shortened(names, letters).into_iter();
     names.map(Cow::Owned).collect()
 }

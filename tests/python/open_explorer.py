@@ -129,6 +129,20 @@ def clears(page):
     until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
 
 
+def computes(page, folder):
+    """A run that takes longer says for how long it has been computed."""
+    case = pathlib.Path(folder) / "slow.toml"
+    case.write_text(page.value("window.given").replace("[analysis]", '[analysis]\nmethod = "newmark"\nstep = "3e-5 s"'))
+    runs = page.value(f"Number({DATA}.runs)")
+    working = "document.querySelector('[data-part=working]')"
+    drop(page, case)
+    until(page, f"{working}.checkVisibility() && {working}.textContent.startsWith('Computing')")
+    until(page, f"Number({DATA}.runs) > {runs} && !{working}.checkVisibility()")
+    assert told(page) == "", told(page)
+    page.value("document.querySelector('[data-part=reset]').click()")
+    until(page, "document.querySelector('[data-result=width]').textContent === '20 mm' && document.querySelector('[data-result=impacts]').textContent === '45'")
+
+
 def factors(page, browser, url):
     """A factor of all storeys is that of the case as it was opened, also in an address."""
     slider = "document.querySelector('[data-control=\"building.0.mass\"]')"
@@ -202,6 +216,7 @@ def in_chromium(arguments, pictures):
         chooses(page, components, rules)
         clears(page)
         factors(page, browser, url)
+        computes(page, folder)
         named(page)
         started = time.monotonic()
         until(page, "(({ done, all }) => done === all && Number(all) === 400)(document.querySelector('[data-part=sweep]').dataset)", 600)

@@ -68,8 +68,8 @@ const elevation = (scene, picture) => {
 
   // Draws what stands in `now` of the bodies, with these contacts closed.
   const draw = (magnification, closed) => {
-    // What is wider than any number has no picture.
-    if (!Number.isFinite(across(magnification).width)) return;
+    // Pictures have numbers of 32 bits.
+    if (!(across(magnification).width < 1e30)) return;
     const size = sizeAt(magnification);
     for (const body of bodies) {
       const rest = body.left + magnification * body.offset;

@@ -67,7 +67,10 @@ fn forces_reach_every_command() {
     );
     bench.text("report case.h5 -o case.html");
     has(&bench.read("case.html"), &lines);
-    has(&bench.read("case.html"), &["<p>The forces on floors bring "]);
+    has(
+        &bench.read("case.html"),
+        &["<p>The forces on floors bring "],
+    );
 
     // Each doubles the blast in its own way: a variable, and the case.
     bench.write("study.toml", "case = \"case.toml\"\n[[variable]]\nname = \"gap\"\npath = \"gap.0.width\"\nvalues = [\"15 mm\", \"30 mm\"]\n[[variable]]\nname = \"blast\"\npath = \"building.low.force.0.scale\"\nvalues = [1, 2]\n");

@@ -31,7 +31,11 @@ def signature(name: str, function: Any) -> str:
         if parameter.kind is parameter.KEYWORD_ONLY and not keyword_only:
             keyword_only = True
             parts.append("*")
-        parts.append(str(parameter).replace("'", ""))
+        # The types are texts, whose quotes are not shown; those of values are.
+        kept = parameter.replace(annotation=parameter.empty)
+        typed = "" if parameter.annotation is parameter.empty else f": {parameter.annotation}"
+        name_only, equals, value = str(kept).partition("=")
+        parts.append(f"{name_only}{typed}" + (f" = {value}" if equals and typed else equals + value))
     returned = made.return_annotation
     tail = "" if returned is inspect.Signature.empty or name[0].isupper() else f" -> {returned}"
     line = f"{name}({', '.join(parts)}){tail}"

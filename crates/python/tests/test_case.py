@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import collections
 import pickle
 import shutil
 import tomllib
+import types
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +26,16 @@ def test_a_dict_is_the_file(path: Path) -> None:
     assert made.summary == read.summary
     for name, building in read.buildings.items():
         assert np.array_equal(made.buildings[name].displacement, building.displacement)
+
+
+def test_other_mappings_than_dicts_are_tables() -> None:
+    path = EXAMPLES / "three_storey_pair" / "case.toml"
+    tables = tomllib.loads(path.read_text())
+    tables["building"] = tuple(types.MappingProxyType(table) for table in tables["building"])
+    tables["gap"] = [collections.UserDict(table) for table in tables["gap"]]
+    made = pounding.Case.from_dict(collections.UserDict(tables), folder=path.parent)
+    assert made.check() == pounding.Case.from_file(path).check()
+    assert pickle.loads(pickle.dumps(made)).source == made.source
 
 
 def pair(motion: object, **analysis: object) -> pounding.Case:

@@ -40,6 +40,12 @@ def test_units_and_scales() -> None:
         pounding.Motion([[0.0, 1.0]], 0.1)
 
 
+@pytest.mark.parametrize("values", [["1", "2"], [True, False], np.array([1, 2], "datetime64[s]")])
+def test_accelerations_are_numbers(values: object) -> None:
+    with pytest.raises(ValueError, match="give real numbers"):
+        pounding.Motion(values, 0.01)
+
+
 def test_records_are_refused_with_a_reason(tmp_path: Path) -> None:
     with pytest.raises(pounding.RecordError, match="check the path"):
         pounding.read_motion(tmp_path / "none.csv")

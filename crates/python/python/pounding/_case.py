@@ -208,7 +208,7 @@ class Case:
         motion : Motion, optional
             Takes the place of ``ground_motion``, of which ``scale`` alone is looked at.
         """
-        given = dict(copy.deepcopy(dict(tables)))
+        given = _plain(tables)
         if motion is not None:
             ground = dict(given.get("ground_motion") or {})
             known = {"scale"}
@@ -264,6 +264,15 @@ class Case:
     def __repr__(self) -> str:
         title = f" {self.title!r}" if self.title else ""
         return f"<pounding.Case{title}: {', '.join(self.buildings)}>"
+
+
+def _plain(value: Any) -> Any:
+    """A copy with plain dicts and lists in the place of other mappings and sequences of them."""
+    if isinstance(value, Mapping):
+        return {key: _plain(entry) for key, entry in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(entry) for entry in value]
+    return copy.deepcopy(value)
 
 
 def _restored(kind: str, content: Any, place: str, motion: Motion | None) -> Case:

@@ -43,6 +43,9 @@ class Motion:
     ) -> None:
         if np.ma.is_masked(acceleration) or np.iscomplexobj(acceleration):
             raise ValueError("acceleration has masked or complex values; give real numbers, all of them")
+        kind = np.asarray(acceleration).dtype
+        if kind.kind not in "iufO":
+            raise ValueError(f"acceleration has values of type {kind}; give real numbers")
         samples = np.ascontiguousarray(acceleration, dtype=np.float64)
         if samples.ndim != 1:
             raise ValueError(f"acceleration has {samples.ndim} dimensions; give one of samples")

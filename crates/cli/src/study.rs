@@ -25,8 +25,12 @@ use crate::progress::{Progress, Unit};
 use crate::separate::{RUNS_ARE_LEFT, Reading, is_child, reading};
 use crate::tables::warning_lines;
 
-/// The shard that arguments name, or the whole study.
-pub fn shard(sharing: &ShardArguments, running: &RunningArguments) -> Result<Shard, Failure> {
+/// The shard that arguments name; `None` for the whole study. The only shard of a study is one as any
+/// other: a plan that has no more of them merges it.
+pub fn shard(
+    sharing: &ShardArguments,
+    running: &RunningArguments,
+) -> Result<Option<Shard>, Failure> {
     let refused = |message: &str, help: &str| Err(Failure::input(message, Some(help.to_owned())));
     if sharing.into.is_some() {
         if sharing.shard.is_none() {
@@ -43,8 +47,8 @@ pub fn shard(sharing: &ShardArguments, running: &RunningArguments) -> Result<Sha
         }
     }
     match &sharing.shard {
-        Some(text) => Ok(text.parse()?),
-        None => Ok(Shard::WHOLE),
+        Some(text) => Ok(Some(text.parse()?)),
+        None => Ok(None),
     }
 }
 
@@ -53,7 +57,7 @@ pub fn shard(sharing: &ShardArguments, running: &RunningArguments) -> Result<Sha
 pub fn options(
     study: &Study,
     running: &RunningArguments,
-    (shard, into): (Shard, Option<&Path>),
+    (shard, into): (Option<Shard>, Option<&Path>),
     files: &mut FileUse,
 ) -> Result<SweepOptions, Failure> {
     let output = match (&running.output, into) {
@@ -107,7 +111,7 @@ pub fn options(
         output,
         csv: running.csv.as_deref().map(Path::to_owned),
         threads: running.threads.map_or(cores, |n| n as usize),
-        shard,
+        shard: shard.unwrap_or(Shard::WHOLE),
         // What stands in a folder of shards is gone on with, or refused.
         resume: running.resume || into.is_some(),
         store_every,
@@ -121,10 +125,10 @@ pub fn name(study: &Path) -> String {
     study_name(study).to_string_lossy().into_owned()
 }
 
-fn default_output(study: &Path, shard: Shard) -> PathBuf {
-    match shard == Shard::WHOLE {
-        true => default_result(study),
-        false => PathBuf::from(format!("{}.h5", shard_name(name(study), shard))),
+fn default_output(study: &Path, shard: Option<Shard>) -> PathBuf {
+    match shard {
+        None => default_result(study),
+        Some(shard) => PathBuf::from(format!("{}.h5", shard_name(name(study), shard))),
     }
 }
 
@@ -239,9 +243,9 @@ fn show(progress: &Progress, now: &Stand) {
 
 /// A study of which no run succeeded has computed nothing. Of a shard that is not known: its
 /// result is complete, and the whole decides.
-pub fn all_failed(report: &SweepReport, shard: Shard) -> Result<(), Failure> {
+pub fn all_failed(report: &SweepReport, shard: Option<Shard>) -> Result<(), Failure> {
     match report.failures.first() {
-        _ if shard != Shard::WHOLE => Ok(()),
+        _ if shard.is_some() => Ok(()),
         Some((run, reason)) if report.failed == report.runs => Err(Failure::computation(
             match report.runs {
                 1 => format!("the only run failed: {reason}"),

@@ -313,3 +313,54 @@ fn the_script_for_dask_runs_and_merges() {
     succeeded(&output);
     same_as_whole(&bench);
 }
+
+/// Few runs make one chunk, and so one shard, however many are asked for: it has the name of a shard,
+/// is merged, and is done for `status`.
+#[test]
+fn a_plan_of_one_shard_merges_it() {
+    let bench = Bench::new(&MIXED.replace("chunk = 4", "chunk = 64"));
+    bench.text("sweep study.toml -o whole.h5");
+    let output = bench.run("sweep study.toml --plan=shell --shards 8 --into all -o out.h5");
+    let noted = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(noted.contains("1 shard instead of 8"), "{noted}");
+    std::fs::write(bench.path("plan.sh"), succeeded(&output)).unwrap();
+    succeeded(&bash(&bench, &["plan.sh"]));
+    assert!(bench.bytes("out.h5") == bench.bytes("whole.h5"));
+    let told = bench.text("status all");
+    assert!(told.contains("1 of 1 shard done"), "{told}");
+    assert_eq!(bench.run("status all --unfinished").stdout, b"\n");
+}
+
+/// The same of an incremental dynamic analysis, which is evaluated at the end.
+#[test]
+fn a_plan_of_one_shard_is_evaluated_at_the_end() {
+    let bench = Bench::new(FRAGILITY);
+    bench.text("ida study.toml -o whole.h5 --table whole.csv");
+    let plan = "ida study.toml --plan=shell --shards 8 --into all -o out.h5 --table out.csv";
+    std::fs::write(bench.path("plan.sh"), succeeded(&bench.run(plan))).unwrap();
+    let told = succeeded(&bash(&bench, &["plan.sh"]));
+    assert!(bench.bytes("out.h5") == bench.bytes("whole.h5"));
+    assert!(bench.bytes("out.csv") == bench.bytes("whole.csv"));
+    let folder = bench.folder.path().canonicalize().unwrap();
+    let name = folder.file_name().unwrap().to_str().unwrap().to_owned();
+    assert!(bench.path(&format!("all/{name}.shard-1-of-1.h5")).is_file());
+    // The shard is a part of the runs, and the answer that of the merged ones.
+    let log = std::fs::read_to_string(bench.path("all/log/1.txt")).unwrap();
+    assert!(log.contains("When all shards are done"), "{log}");
+    assert!(told.contains("20 mm"), "{told}");
+}
+
+/// Two records at four intensities.
+const FRAGILITY: &str = r#"
+case = "case.toml"
+
+[[variable]]
+records = ["MOTIONS/el_centro_1940_ns.csv", "MOTIONS/kobe_1995_jma_ns.csv"]
+
+[[variable]]
+intensity = "peak_ground_acceleration"
+values = ["0.05 g", "0.2 g", "0.4 g", "0.8 g"]
+
+[ida]
+gaps = ["20 mm"]
+"#;

@@ -10,7 +10,7 @@ use pounding_files::checksum::WithoutChecksum;
 use pounding_report::page::{Inputs, Picture};
 use pounding_report::pictures::ida::fragility;
 use pounding_study::{
-    IdaReport, ResultReader, Shard, Study, StudyError, SweepOptions, SweepReport, evaluate,
+    IdaReport, ResultReader, Study, StudyError, SweepOptions, SweepReport, evaluate,
 };
 
 use crate::arguments::IdaArguments;
@@ -51,7 +51,7 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     ])?;
     let sweep = run(&study, &options, into)?;
     all_failed(&sweep, shard)?;
-    if shard != Shard::WHOLE {
+    if shard.is_some() {
         return part(arguments, &study, &sweep, &options);
     }
     let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);

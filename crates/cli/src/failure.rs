@@ -7,7 +7,7 @@ use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 use pounding_assembly::AssemblyError;
 use pounding_case::{Case, CaseError};
 use pounding_catalogue::DefinitionError;
-use pounding_files::FileUseError;
+use pounding_files::{FileUseError, PlaceTaken};
 use pounding_gap_element::GapElementError;
 use pounding_gap_element::calibration::CalibrationError;
 use pounding_gap_element::contact_stiffness::ContactStiffnessError;
@@ -75,6 +75,21 @@ impl Failure {
         code
     }
 
+    /// Why, without what to do about it, for a message that goes on.
+    pub fn reason(&self) -> String {
+        match self {
+            Self::Input(report)
+            | Self::Computation(report)
+            | Self::Output(report)
+            | Self::Interrupted(report) => report.to_string(),
+            Self::Inputs(reports) => {
+                let reasons: Vec<String> = reports.iter().map(ToString::to_string).collect();
+                reasons.join("; ")
+            }
+            Self::No | Self::Reported(_) => String::new(),
+        }
+    }
+
     /// What is wrong with several inputs, each for itself.
     pub fn inputs(mut reports: Vec<Report>) -> Self {
         match reports.pop() {
@@ -123,10 +138,11 @@ impl Failure {
 
     /// Output that could not be written; a closed pipe is the reader's choice.
     pub fn output(error: &std::io::Error, what: &str) -> Self {
-        Self::Output(plain(
-            format!("cannot write {what}: {error}"),
-            Some("check that the folder exists, may be written to and has room".to_owned()),
-        ))
+        let help = PlaceTaken::of(error).map_or_else(
+            || "check that the folder exists, may be written to and has room".to_owned(),
+            PlaceTaken::help,
+        );
+        Self::Output(plain(format!("cannot write {what}: {error}"), Some(help)))
     }
 
     /// A computation that came to no result.

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use pounding_files::{FileUse, LeftOver, PartFile, left_over};
+use pounding_files::{FileUse, LeftOver, PartFile, ask_of_targets, left_over};
 use pounding_results::{Kind, Label};
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
 
@@ -53,7 +53,7 @@ pub fn have_a_place<'p>(
     outputs: impl IntoIterator<Item = Option<&'p Path>>,
 ) -> Result<(), Failure> {
     for path in outputs.into_iter().flatten() {
-        no_result_stands(path)?;
+        no_result_comes(path)?;
         has_a_place(path)?;
     }
     Ok(())
@@ -82,6 +82,24 @@ pub fn no_result_stands(path: &Path) -> Result<(), Failure> {
     ))
 }
 
+/// The same now, and once more right before the file takes its place.
+pub fn no_result_comes(path: &Path) -> Result<(), Failure> {
+    no_result_stands(path)?;
+    let output = path.to_owned();
+    asked_again(path, move || no_result_stands(&output));
+    Ok(())
+}
+
+/// Has a check of an output made once more right before its file takes its place: another process
+/// may have been there.
+fn asked_again(output: &Path, check: impl Fn() -> Result<(), Failure> + Send + Sync + 'static) {
+    let output = output.to_owned();
+    ask_of_targets(move |target| match target == output {
+        true => check().map_err(|failure| failure.reason()),
+        false => Ok(()),
+    });
+}
+
 /// Whether a file has bytes that would be lost. Devices and pipes have none.
 fn holds_something(path: &Path) -> bool {
     std::fs::metadata(path).is_ok_and(|file| file.is_file() && file.len() > 0)
@@ -108,13 +126,32 @@ fn foreign(path: &Path, named: bool, what: &str) -> Result<Option<String>, Failu
 /// # Errors
 /// A file of somebody else under a default name, or one that cannot be read.
 pub fn page_is_spared(path: &Path, named: bool) -> Result<(), Failure> {
-    no_result_stands(path)?;
-    if holds_something(path) && !is_page(path) {
-        foreign(path, named, "page")?
-            .iter()
-            .for_each(|said| note(said));
-    }
+    no_result_comes(path)?;
+    let judged = move |path: &Path| match holds_something(path) && !is_page(path) {
+        true => foreign(path, named, "page"),
+        false => Ok(None),
+    };
+    let before = judged(path)?;
+    before.iter().for_each(|said| note(said));
+    let output = path.to_owned();
+    asked_again(path, move || as_before(&output, &before, judged(&output)));
     Ok(())
+}
+
+/// Whether what stands under a name may be replaced as it was before the work: nobody was asked
+/// about what came there since.
+fn as_before(
+    output: &Path,
+    before: &Option<String>,
+    now: Result<Option<String>, Failure>,
+) -> Result<(), Failure> {
+    match now? {
+        Some(said) if before.as_ref() != Some(&said) => Err(Failure::unwritten(
+            format!("another file has come to {} since", output.display()),
+            None,
+        )),
+        _ => Ok(()),
+    }
 }
 
 /// Whether a file is a page of this program, by its mark; pages of versions without one by their head.
@@ -150,7 +187,8 @@ pub struct Replaced<'r> {
 impl Replaced<'_> {
     /// Refuses to replace a result of another kind, and one of another file under a name that the
     /// user has not given; says so where one that the user has named is replaced. `goes_on` with a
-    /// result that stands says nothing.
+    /// result that stands says nothing. What comes there before the result takes its place is
+    /// judged then.
     ///
     /// # Errors
     /// With the file and what to do.
@@ -158,6 +196,19 @@ impl Replaced<'_> {
         if let Some(said) = self.judged(goes_on)? {
             note(&said);
         }
+        let before = self.judged(false).unwrap_or_default();
+        let (output, file) = (self.output.to_owned(), self.file.map(Path::to_owned));
+        let (kind, named, text_sha256) = (self.kind, self.named, self.text_sha256.clone());
+        asked_again(self.output, move || {
+            let now = Replaced {
+                output: &output,
+                kind,
+                file: file.as_deref(),
+                text_sha256: text_sha256.clone(),
+                named,
+            };
+            as_before(&output, &before, now.judged(false))
+        });
         Ok(())
     }
 

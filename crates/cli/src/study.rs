@@ -18,7 +18,7 @@ use sha2::{Digest, Sha256};
 
 use crate::arguments::{RunningArguments, ShardArguments, value};
 use crate::failure::Failure;
-use crate::files::{Replaced, ShardName, name_left_over, no_result_stands, reads_too};
+use crate::files::{Replaced, ShardName, name_left_over, no_result_comes, reads_too};
 use crate::heartbeat::{Heartbeat, State};
 use crate::interruption;
 use crate::progress::{Progress, Unit};
@@ -96,7 +96,7 @@ pub fn options(
     };
     replaced.spared(running.resume || into.is_some())?;
     if let Some(csv) = &running.csv {
-        no_result_stands(csv)?;
+        no_result_comes(csv)?;
         writable_table(csv)?;
     }
     let seconds = value(&running.store_every, "store-every", Dimension::TIME)?;
@@ -381,9 +381,9 @@ impl From<StudyError> for Failure {
             StudyError::Base(error) => Self::assembly(error, ""),
             e @ (StudyError::Store { .. }
             | StudyError::Table { .. }
-            | StudyError::ResultFile(StudyFileError::File { what: "write", .. })) => {
-                Self::unwritten(e.to_string(), help)
-            }
+            | StudyError::ResultFile(
+                StudyFileError::File { what: "write", .. } | StudyFileError::Aside { .. },
+            )) => Self::unwritten(e.to_string(), help),
             e @ StudyError::File { what, .. }
                 if what.starts_with("write") || what.starts_with("make") =>
             {

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs::{File, OpenOptions};
-use std::io::{Error, Result, Write};
+use std::io::{Error, ErrorKind, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -15,6 +15,50 @@ fn standing() -> MutexGuard<'static, Vec<PathBuf>> {
     STANDING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
+/// What is asked of a target right before a file takes its place; why it may not, if so.
+type Question = dyn Fn(&Path) -> std::result::Result<(), String> + Send + Sync;
+
+/// All questions of this process.
+static QUESTIONS: Mutex<Vec<Box<Question>>> = Mutex::new(Vec::new());
+
+/// Has this process ask something of every target, as it was named, right before a file takes its
+/// place: what was found out before the work, another process may have changed since. Where the
+/// answer is why it may not, the file gets a name of its own: see [`PlaceTaken`].
+pub fn ask_of_targets(
+    question: impl Fn(&Path) -> std::result::Result<(), String> + Send + Sync + 'static,
+) {
+    let mut all = QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner);
+    all.push(Box::new(question));
+}
+
+/// A file that has not taken its place, and stands whole beside it. [`PartFile::finish`] gives it
+/// within the error of the system.
+#[derive(Debug, thiserror::Error)]
+#[error("{reason}; what was to be written there is in {}", aside.display())]
+pub struct PlaceTaken {
+    /// Why it may not be there.
+    pub reason: String,
+    /// Where it is.
+    pub aside: PathBuf,
+}
+
+impl PlaceTaken {
+    /// What an error of the system says of a file that stands beside its place.
+    #[must_use]
+    pub fn of(error: &Error) -> Option<&Self> {
+        error.get_ref()?.downcast_ref()
+    }
+
+    /// What to do about it.
+    #[must_use]
+    pub fn help(&self) -> String {
+        format!(
+            "it is whole: give {} another name, or move away what stands there",
+            self.aside.display()
+        )
+    }
+}
+
 /// Bytes of the target's name that stand in that of its part file: with what follows it
 /// stays below 255, which is all that most file systems take.
 const NAME: usize = 200;
@@ -23,7 +67,8 @@ const NAME: usize = 200;
 /// and takes its place when it is whole.
 ///
 /// No other process writes into it, whether file locking works or not: of two processes that
-/// write the same target both come to their end, and the last one's file stays. Dropped
+/// write the same target both come to their end, and the last one's file stays, unless it may not
+/// replace the other's ([`ask_of_targets`]). Dropped
 /// without [`finish`](Self::finish), the part file is removed, and what stood in its place
 /// before is untouched. A process that is killed without notice (SIGKILL) leaves it behind.
 #[derive(Debug)]
@@ -31,6 +76,8 @@ pub struct PartFile {
     /// Removes the file when it is dropped; `None` once that is done.
     part: Option<TempPath>,
     path: PathBuf,
+    /// The target as it was named, and what it led to.
+    named: PathBuf,
     target: PathBuf,
 }
 
@@ -42,6 +89,7 @@ impl PartFile {
     /// If the target is a folder, a device or read-only, or the folder does not exist or cannot be
     /// written to.
     pub fn beside(target: &Path) -> Result<Self> {
+        let named = target.to_owned();
         let target = behind_links(target);
         // Renaming would put the file in the place of a device, such as /dev/stdout.
         if target.exists() && !target.is_file() {
@@ -68,6 +116,7 @@ impl PartFile {
         Ok(Self {
             part: Some(part),
             path,
+            named,
             target,
         })
     }
@@ -88,18 +137,23 @@ impl PartFile {
     /// Brings the file to the disk, puts it in its place, and brings that to the disk.
     ///
     /// # Errors
-    /// What the system said; the target is as it was then, and the part file is removed.
-    pub fn finish(mut self) -> Result<()> {
+    /// What the system said; the target is as it was then, and the part file is removed. Or
+    /// [`PlaceTaken`]: the target is as it was as well, and the file stands beside it.
+    pub fn finish(self) -> Result<()> {
+        let questions = QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner);
+        self.finish_if(|target| questions.iter().try_for_each(|question| question(target)))
+    }
+
+    fn finish_if(mut self, may: impl Fn(&Path) -> std::result::Result<(), String>) -> Result<()> {
         OpenOptions::new()
             .write(true)
             .open(&self.path)?
             .sync_all()?;
         let mut all = standing();
         if let Some(part) = self.part.take() {
-            let placed = part.persist(&self.target);
+            let placed = place(part, (&self.named, &self.target), may);
             all.retain(|p| *p != self.path);
-            // The error holds the part file and removes it.
-            placed.map_err(|e| e.error)?;
+            placed?;
         }
         drop(all);
         // The file stands whole in its place. A folder that cannot be opened or brought to the
@@ -120,6 +174,64 @@ impl Drop for PartFile {
             all.retain(|p| *p != self.path);
         }
     }
+}
+
+/// Puts a whole file in its place, or beside it where it may not be there.
+fn place(
+    mut part: TempPath,
+    (named, target): (&Path, &Path),
+    may: impl Fn(&Path) -> std::result::Result<(), String>,
+) -> Result<()> {
+    loop {
+        let stands = target.symlink_metadata().is_ok();
+        if let Err(reason) = may(named) {
+            let aside = put_aside(part, named)?;
+            return Err(Error::other(PlaceTaken { reason, aside }));
+        }
+        if stands {
+            // The error holds the part file and removes it.
+            return part.persist(target).map_err(|e| e.error);
+        }
+        // What came there since is asked about, too.
+        match put_where_nothing_is(part, target)? {
+            None => return Ok(()),
+            Some(again) => part = again,
+        }
+    }
+}
+
+/// Puts a file where nothing stands; gives it back where something does.
+fn put_where_nothing_is(part: TempPath, target: &Path) -> Result<Option<TempPath>> {
+    match part.persist_noclobber(target) {
+        Ok(()) => Ok(None),
+        Err(e) if e.error.kind() == ErrorKind::AlreadyExists => Ok(Some(e.path)),
+        Err(e) if target.symlink_metadata().is_ok() => Ok(Some(e.path)),
+        // A file system that can rename, but not in this way.
+        Err(e) => e.path.persist(target).map(|()| None).map_err(|e| e.error),
+    }
+}
+
+/// Puts a file beside its place under a name of its own, which it returns.
+fn put_aside(mut part: TempPath, target: &Path) -> Result<PathBuf> {
+    for number in 2.. {
+        let path = numbered(target, number);
+        match put_where_nothing_is(part, &path)? {
+            None => return Ok(path),
+            Some(again) => part = again,
+        }
+    }
+    Err(Error::other("no name is free beside it"))
+}
+
+/// A file's name with a number before its ending.
+fn numbered(path: &Path, number: usize) -> PathBuf {
+    let mut name = path.file_stem().unwrap_or_default().to_owned();
+    name.push(format!("-{number}"));
+    if let Some(ending) = path.extension() {
+        name.push(".");
+        name.push(ending);
+    }
+    path.with_file_name(name)
 }
 
 /// Ending of part files.
@@ -267,6 +379,42 @@ mod tests {
         finished.finish().unwrap();
         assert_eq!(std::fs::read(&target).unwrap(), b"after");
         assert_eq!(names(folder.path()), ["a.txt"]);
+    }
+
+    /// Whatever comes into the place while the file is written is asked about, be it after the
+    /// question; what may not be replaced stays, and the file stands beside it.
+    #[test]
+    fn what_may_not_be_replaced_stays_and_so_does_the_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.h5");
+        let part = || {
+            let part = PartFile::beside(&target).unwrap();
+            std::fs::write(part.path(), "new").unwrap();
+            part
+        };
+        let asked = std::cell::Cell::new(0);
+        let absent = |named: &Path| {
+            asked.set(asked.get() + 1);
+            if named.exists() {
+                return Err("it is another's".to_owned());
+            }
+            // Another process is faster.
+            std::fs::write(named, "another's").unwrap();
+            Ok(())
+        };
+        let refused = part().finish_if(absent).unwrap_err();
+        let taken = PlaceTaken::of(&refused).unwrap();
+        assert_eq!(taken.aside, folder.path().join("a-2.h5"));
+        assert!(refused.to_string().starts_with("it is another's; "));
+        assert_eq!(asked.get(), 2);
+        assert!(part().finish_if(absent).is_err());
+        assert_eq!(std::fs::read(&target).unwrap(), b"another's");
+        for aside in ["a-2.h5", "a-3.h5"] {
+            assert_eq!(std::fs::read(folder.path().join(aside)).unwrap(), b"new");
+        }
+        part().finish_if(|_| Ok(())).unwrap();
+        assert_eq!(std::fs::read(&target).unwrap(), b"new");
+        assert_eq!(names(folder.path()), ["a-2.h5", "a-3.h5", "a.h5"]);
     }
 
     /// Numbers of processes are below 2^22 on any system.

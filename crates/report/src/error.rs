@@ -76,7 +76,7 @@ impl ReportError {
             ),
             Self::Answer(error) => error.help(),
             Self::Motion(error) => error.help(),
-            Self::Study(error) => Some(error.help().to_owned()),
+            Self::Study(error) => Some(error.help()),
             Self::Figure { .. } => None,
         }
     }

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use pounding_assembly::AssemblyError;
 use pounding_case::CaseError;
 use pounding_catalogue::wording::{agreeing, counted};
+use pounding_files::PlaceTaken;
 use pounding_ground_motion::GroundMotionError;
 use pounding_results::study::StudyFileError;
 
@@ -234,12 +235,15 @@ impl StudyError {
             Self::File { .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o"
             }
-            Self::Table { stored: false, .. } => {
-                "check that its folder exists, may be written to and has room, or name another table with --csv"
-            }
-            Self::Table { stored: true, .. } => {
-                "make room, or name another table with --csv; the runs that have finished are stored, and --resume goes on with them and writes the table"
-            }
+            Self::Table { source, stored, .. } => match (PlaceTaken::of(source), stored) {
+                (Some(taken), _) => return Some(taken.help()),
+                (None, false) => {
+                    "check that its folder exists, may be written to and has room, or name another table with --csv"
+                }
+                (None, true) => {
+                    "make room, or name another table with --csv; the runs that have finished are stored, and --resume goes on with them and writes the table"
+                }
+            },
             Self::Store { .. } => {
                 "make room, then go on with --resume: only the runs that are not stored are computed"
             }
@@ -260,7 +264,7 @@ impl StudyError {
                 "name another result with -o, merge this one with the others, or move it away if it is of no use"
             }
             Self::Busy { .. } => "wait for it, or name another result with -o",
-            Self::ResultFile(error) => error.help(),
+            Self::ResultFile(error) => return Some(error.help()),
             Self::FileUse(error) => return Some(error.help()),
             Self::Interrupted { .. } => "go on with --resume",
             Self::Shard { .. } => "write i/n with i from 1 to n, such as 2/8",

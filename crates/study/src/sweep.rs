@@ -170,11 +170,19 @@ pub fn sweep(
         .map(|path| GrowingTable::create(study, path, &description))
         .transpose()?;
     let now = make(&runner, (&mut parts, total), &mut table, options, progress)?;
-    let mut report = assemble(&runner, &description, (&parts, table), options)?;
-    report.made = now.made;
-    // Its runs are in the result; a folder that stays does no harm.
-    let _ = parts.remove();
-    Ok(report)
+    let mut report = assemble(&runner, &description, (&parts, table), options);
+    let written = match &report {
+        Ok(_) | Err(StudyError::ResultFile(StudyFileError::Aside { .. })) => true,
+        Err(_) => false,
+    };
+    if written {
+        // Its runs are in the result; a folder that stays does no harm.
+        let _ = parts.remove();
+    }
+    if let Ok(report) = &mut report {
+        report.made = now.made;
+    }
+    report
 }
 
 /// Makes the runs that are left, stores them, and has the table follow.

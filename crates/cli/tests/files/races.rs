@@ -89,3 +89,90 @@ fn two_sweeps_to_one_output_leave_one_whole_result() {
         }
     }
 }
+
+/// Waits until a command is at work on an output: its part file or the folder of its runs is there.
+fn at_work(fixture: &Fixture, output: &str, child: &mut Child) {
+    let begun = || {
+        let entries = std::fs::read_dir(fixture.path("")).unwrap();
+        let mut names = entries.map(|e| e.unwrap().file_name().into_string().unwrap());
+        names.any(|n| n.starts_with(&format!("{output}.")) && n.contains(".part"))
+    };
+    while !begun() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(std::time::Duration::from_millis(1));
+    }
+    assert!(child.try_wait().unwrap().is_none(), "it was done too soon");
+}
+
+/// What comes to the default name of a result while it is computed stays, be it the result of a run
+/// under the name of a study's, the reverse, that of another case, or another program's; the result
+/// stands whole beside it.
+#[test]
+fn what_came_in_the_meantime_is_not_replaced() {
+    let fixture = Fixture::new();
+    let case = std::fs::read_to_string(fixture.path("case.toml")).unwrap();
+    let long = "duration = \"2 s\"\nmethod = \"runge_kutta_4\"\nstep = \"0.01 ms\"";
+    let case = case.replace("duration = \"2 s\"", long);
+    std::fs::write(fixture.path("pair.toml"), &case).unwrap();
+    std::fs::write(fixture.path("other.toml"), &case).unwrap();
+    let study = "case = \"pair.toml\"\n[[variable]]\npath = \"gap.0.width\"\nfrom = \"1 mm\"\nto = \"20 mm\"\ncount = 4\n";
+    for folder in ["of_study", "of_run"] {
+        std::fs::create_dir(fixture.path(folder)).unwrap();
+    }
+    std::fs::write(
+        fixture.path("of_study/pair.toml"),
+        study.replace("pair", "../pair"),
+    )
+    .unwrap();
+    for made in [
+        "run pair.toml",
+        "sweep of_study/pair.toml",
+        "run other.toml",
+    ] {
+        let words: Vec<&str> = made.split_whitespace().collect();
+        let output = fixture.run(&words);
+        assert!(output.status.success(), "{made}: {}", message(&output));
+        let kept = made.replace([' ', '/'], "_") + ".h5";
+        let name = if made.contains("other") {
+            "other.h5"
+        } else {
+            "pair.h5"
+        };
+        std::fs::rename(fixture.path(name), fixture.path("of_run").join(kept)).unwrap();
+    }
+    let stored = |name: &str| std::fs::read(fixture.path("of_run").join(name)).unwrap();
+    let (run, sweep) = (
+        stored("run_pair.toml.h5"),
+        stored("sweep_of_study_pair.toml.h5"),
+    );
+    for (made, comes) in [
+        ("sweep of_study/pair.toml", &run),
+        ("run pair.toml", &sweep),
+        ("run pair.toml", &stored("run_other.toml.h5")),
+        ("run pair.toml", &b"another program's".to_vec()),
+    ] {
+        let mut child = begun(&fixture, made, "TRUE");
+        at_work(&fixture, "pair.h5", &mut child);
+        std::fs::write(fixture.path("pair.h5"), comes).unwrap();
+        let output = child.wait_with_output().unwrap();
+        let told = message(&output);
+        assert_eq!(output.status.code(), Some(4), "{made}: {told}");
+        assert!(
+            told.contains("what was to be written there is in pair-2.h5"),
+            "{told}"
+        );
+        assert!(
+            std::fs::read(fixture.path("pair.h5")).unwrap() == *comes,
+            "{made}"
+        );
+        assert!(!fixture.path("pair.h5.parts").exists());
+        // A run says how long it took.
+        let aside = std::fs::read(fixture.path("pair-2.h5")).unwrap();
+        assert!(made.starts_with("run") || aside == sweep, "{made}");
+        let read = fixture.run(&["report", "pair-2.h5", "-o", "page.html"]);
+        assert!(read.status.success(), "{made}: {}", message(&read));
+        for name in ["pair.h5", "pair-2.h5"] {
+            std::fs::remove_file(fixture.path(name)).unwrap();
+        }
+    }
+    no_part_file(&fixture.path("").canonicalize().unwrap());
+}

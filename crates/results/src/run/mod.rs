@@ -17,7 +17,7 @@ mod tables;
 use std::path::{Path, PathBuf};
 
 use hdf5::Group;
-use pounding_files::{PartFile, checksum};
+use pounding_files::{PartFile, PlaceTaken, checksum};
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{Energy, History, HistorySink, Outcome, System, TimeHistoryError};
 use sha2::{Digest, Sha256};
@@ -68,14 +68,16 @@ pub struct WriteError {
     pub path: PathBuf,
     /// What the file system or HDF5 said.
     pub reason: String,
+    /// What to do where the file stands whole under another name.
+    pub aside: Option<String>,
 }
 
 impl WriteError {
     /// What to try.
     #[must_use]
     pub fn help(&self) -> String {
-        "check that the folder exists, may be written to and has room, or name another file with -o"
-            .to_owned()
+        let elsewhere = "check that the folder exists, may be written to and has room, or name another file with -o";
+        self.aside.clone().unwrap_or_else(|| elsewhere.to_owned())
     }
 }
 
@@ -106,6 +108,7 @@ impl<'a> RunWriter<'a> {
         let failed = |reason: String| WriteError {
             path: path.to_owned(),
             reason,
+            aside: None,
         };
         let part = PartFile::beside(path).map_err(|e| failed(e.to_string()))?;
         let (file, tables) = begin(part.path(), head).map_err(|e| failed(reason_of(&e)))?;
@@ -132,7 +135,11 @@ impl<'a> RunWriter<'a> {
     pub fn failure(&self) -> Option<WriteError> {
         let reason = self.failure.clone()?;
         let path = self.path.clone();
-        Some(WriteError { path, reason })
+        Some(WriteError {
+            path,
+            reason,
+            aside: None,
+        })
     }
 
     /// Takes responses that are in memory already, all of the run.
@@ -140,6 +147,7 @@ impl<'a> RunWriter<'a> {
         self.tables.write_rows(history).map_err(|e| WriteError {
             path: self.path.clone(),
             reason: reason_of(&e),
+            aside: None,
         })
     }
 
@@ -147,8 +155,8 @@ impl<'a> RunWriter<'a> {
     /// place.
     ///
     /// # Errors
-    /// [`WriteError`] if the file cannot be written; what stood under its name before is
-    /// untouched then.
+    /// [`WriteError`] if the file cannot be written, or not under its name; what stood there before
+    /// is untouched then.
     pub fn finish(self, ending: &RunEnding<'_>) -> std::result::Result<(), WriteError> {
         let Self {
             system,
@@ -165,14 +173,18 @@ impl<'a> RunWriter<'a> {
             .and_then(|()| file.flush());
         // HDF5 closes a file when its last dataset is closed.
         drop((tables, file));
-        let failed = |reason: String| WriteError { path, reason };
+        let failed = |reason: String, aside| WriteError {
+            path,
+            reason,
+            aside,
+        };
         if let Err(e) = written {
-            return Err(failed(reason_of(&e)));
+            return Err(failed(reason_of(&e), None));
         }
         pounding_files::label::append(part.path(), &label)
             .and_then(|()| checksum::append(part.path()))
             .and_then(|()| part.finish())
-            .map_err(|e| failed(e.to_string()))
+            .map_err(|e| failed(e.to_string(), PlaceTaken::of(&e).map(PlaceTaken::help)))
     }
 }
 

@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use pounding_files::PlaceTaken;
+
 use crate::OpenError;
 
 /// A result that cannot be read or written, or shards that do not make one.
@@ -25,6 +27,15 @@ pub enum StudyFileError {
         path: PathBuf,
         /// What HDF5 or the file system said.
         reason: String,
+    },
+    /// The result is written, but not under its name, where something stands that it may not
+    /// replace.
+    #[error("cannot write the result {path}: {source}")]
+    Aside {
+        /// The file asked for.
+        path: PathBuf,
+        /// Where it is.
+        source: PlaceTaken,
     },
     /// Files that do not make one study together.
     #[error("cannot merge: {reason}")]
@@ -61,8 +72,9 @@ impl StudyFileError {
 
     /// What to try.
     #[must_use]
-    pub fn help(&self) -> &'static str {
-        match self {
+    pub fn help(&self) -> String {
+        let text = match self {
+            Self::Aside { source, .. } => return source.help(),
             Self::File { what: "write", .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o; runs that were finished stay stored, and --resume goes on with them"
             }
@@ -75,7 +87,8 @@ impl StudyFileError {
             Self::MixedBuilds { .. } => {
                 "compute all shards by one build; or, if their numbers may differ in the last digits or more, merge with --allow-mixed-builds: the result then says which build made which shard"
             }
-        }
+        };
+        text.to_owned()
     }
 }
 

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, H5Type};
 use ndarray::{ArrayView1, ArrayView2};
-use pounding_files::PartFile;
 use pounding_files::checksum::{append, hexadecimal};
+use pounding_files::{PartFile, PlaceTaken};
 
 use super::datasets::{
     Axes, coordinates, dataset, describe, failures, labels, places, quantities, root, states,
@@ -104,7 +104,8 @@ impl ResultWriter {
     /// Writes what is left, brings the file to the disk and renames it.
     ///
     /// # Errors
-    /// [`StudyFileError::File`]; nothing new stands under its name then.
+    /// [`StudyFileError::File`], or [`StudyFileError::Aside`]; nothing new stands under its name
+    /// then.
     pub fn finish(mut self) -> std::result::Result<(), StudyFileError> {
         let (Some(mut open), Some(part)) = (self.open.take(), self.part.take()) else {
             return Ok(());
@@ -115,7 +116,13 @@ impl ResultWriter {
         pounding_files::label::append(part.path(), &self.label)
             .and_then(|()| append(part.path()))
             .and_then(|()| part.finish())
-            .map_err(|e| self.failed(&e))
+            .map_err(|e| match e.downcast::<PlaceTaken>() {
+                Ok(source) => StudyFileError::Aside {
+                    path: self.path.clone(),
+                    source,
+                },
+                Err(e) => self.failed(&e),
+            })
     }
 }
 

@@ -45,7 +45,16 @@ pub fn reads_too(
     for (role, path) in more {
         files.reads(role, path);
     }
-    Ok(files.check()?)
+    inputs_stay(files)
+}
+
+/// Holds the files of a command against one another, and each output once more right before its
+/// file takes its place: a link may lead from there to an input by then.
+pub fn inputs_stay(files: &FileUse) -> Result<(), Failure> {
+    files.check()?;
+    let files = files.clone();
+    ask_of_targets(move |target| files.check_output(target).map_err(|e| e.to_string()));
+    Ok(())
 }
 
 /// Finds out before the work, not after it, that outputs have no place: tables, pages and figures.

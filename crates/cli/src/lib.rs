@@ -82,9 +82,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         }
     };
     let files = arguments::file_use(&command, &matches);
-    let done = files
-        .check()
-        .map_err(Failure::from)
+    let done = files::inputs_stay(&files)
         .and_then(|()| logging::begin(arguments.verbose, arguments.color))
         .and_then(|()| interruption::listen())
         .and_then(|()| answer(arguments, files));

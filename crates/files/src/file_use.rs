@@ -132,15 +132,28 @@ impl FileUse {
     /// The first output that cannot be one.
     pub fn check(&self) -> Result<(), FileUseError> {
         for (i, output) in self.written.iter().enumerate() {
-            output.leads_somewhere()?;
-            for input in &self.read {
-                output.spares(input)?;
-            }
+            self.input_spared_by(output)?;
             for other in &self.written[..i] {
                 output.apart_from(other)?;
             }
         }
         Ok(())
+    }
+
+    /// Compares an output, as it was given, with every input once more: a link may have come there
+    /// since. Of a file that is no output of the command it knows nothing.
+    ///
+    /// # Errors
+    /// Why it cannot be an output.
+    pub fn check_output(&self, path: &Path) -> Result<(), FileUseError> {
+        let files = self.written.iter().filter(|named| !named.folder);
+        let mut outputs = files.filter(|named| named.path == path);
+        outputs.try_for_each(|output| self.input_spared_by(output))
+    }
+
+    fn input_spared_by(&self, output: &Named) -> Result<(), FileUseError> {
+        output.leads_somewhere()?;
+        self.read.iter().try_for_each(|input| output.spares(input))
     }
 }
 
@@ -281,6 +294,11 @@ mod tests {
         }
         files.writes("--plot", at("copy.toml"));
         files.check().unwrap();
+        // A link that comes after the check.
+        symlink("case.toml", at("copy.toml")).unwrap();
+        let refused = files.check_output(&at("copy.toml")).unwrap_err();
+        assert!(matches!(refused, FileUseError::TakesInput { .. }));
+        files.check_output(&at("soft")).unwrap();
     }
 
     #[test]

@@ -90,12 +90,17 @@ fn two_sweeps_to_one_output_leave_one_whole_result() {
     }
 }
 
-/// Waits until a command is at work on an output: its part file or the folder of its runs is there.
+/// Waits until a command is at work on an output: something stands in its part file, or the folder of
+/// its runs is there. An empty part file only finds out whether it can be written.
 fn at_work(fixture: &Fixture, output: &str, child: &mut Child) {
     let begun = || {
         let entries = std::fs::read_dir(fixture.path("")).unwrap();
-        let mut names = entries.map(|e| e.unwrap().file_name().into_string().unwrap());
-        names.any(|n| n.starts_with(&format!("{output}.")) && n.contains(".part"))
+        let mut entries = entries.map(|e| e.unwrap());
+        entries.any(|entry| {
+            let name = entry.file_name().into_string().unwrap();
+            let is_part = name.ends_with(".part") && entry.metadata().is_ok_and(|m| m.len() > 0);
+            name.starts_with(&format!("{output}.")) && (is_part || name.ends_with(".parts"))
+        })
     };
     while !begun() && child.try_wait().unwrap().is_none() {
         std::thread::sleep(std::time::Duration::from_millis(1));
@@ -175,4 +180,37 @@ fn what_came_in_the_meantime_is_not_replaced() {
         }
     }
     no_part_file(&fixture.path("").canonicalize().unwrap());
+}
+
+/// A link from an output to a file that is read, made while the command works, is not followed.
+#[cfg(unix)]
+#[test]
+fn a_link_to_an_input_that_came_in_the_meantime_is_not_followed() {
+    let fixture = Fixture::new();
+    let study = "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nfrom = \"1 mm\"\nto = \"20 mm\"\ncount = 400\n";
+    std::fs::write(fixture.path("widths.toml"), study).unwrap();
+    let before = fixture.content();
+    for (made, output, aside) in [
+        ("sweep widths.toml", "widths.h5", "widths-2.h5"),
+        (
+            "sweep widths.toml -o new.h5 --csv new.csv",
+            "new.h5",
+            "new-2.h5",
+        ),
+    ] {
+        let mut child = begun(&fixture, made, "TRUE");
+        at_work(&fixture, output, &mut child);
+        std::os::unix::fs::symlink("case.toml", fixture.path(output)).unwrap();
+        let done = child.wait_with_output().unwrap();
+        let told = message(&done);
+        assert_eq!(done.status.code(), Some(4), "{made}: {told}");
+        assert!(told.contains("would take the place of case.toml"), "{told}");
+        assert!(fixture.path(output).is_symlink());
+        assert!(fixture.path(aside).is_file());
+        std::fs::remove_file(fixture.path(output)).unwrap();
+        std::fs::remove_file(fixture.path(aside)).unwrap();
+        for (path, bytes) in &before {
+            assert!(std::fs::read(path).unwrap() == *bytes, "{}", path.display());
+        }
+    }
 }

@@ -347,7 +347,7 @@ fn a_plan_of_one_shard_is_evaluated_at_the_end() {
     // The shard is a part of the runs, and the answer that of the merged ones.
     let log = std::fs::read_to_string(bench.path("all/log/1.txt")).unwrap();
     assert!(log.contains("When all shards are done"), "{log}");
-    assert!(told.contains("20 mm"), "{told}");
+    assert!(told.contains("Pounding of light-heavy by width"), "{told}");
 }
 
 /// Two records at four intensities.

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use pounding_files::{FileUse, LeftOver, PartFile, ask_of_targets, left_over};
 use pounding_results::{Kind, Label};
+use pounding_study::ShardName;
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
 
 use crate::arguments::InputPath;
@@ -306,36 +307,4 @@ pub fn shard_files(given: &[InputPath]) -> Result<Vec<PathBuf>, Failure> {
         files.append(&mut found);
     }
     Ok(files)
-}
-
-/// The name of the result of a shard.
-#[derive(Debug, Clone, PartialEq, Eq, PartialOrd, Ord)]
-pub struct ShardName {
-    /// Name of the study.
-    pub study: String,
-    /// Of how many shards.
-    pub count: usize,
-    /// Which shard, from 1.
-    pub index: usize,
-}
-
-impl ShardName {
-    /// Reads the name of a result.
-    pub fn of(file: &str) -> Option<Self> {
-        let (study, rest) = file.strip_suffix(".h5")?.rsplit_once(".shard-")?;
-        let (index, count) = rest.split_once("-of-")?;
-        let (index, count) = (index.parse().ok()?, count.parse().ok()?);
-        (1..=count).contains(&index).then(|| Self {
-            study: study.to_owned(),
-            count,
-            index,
-        })
-    }
-}
-
-impl std::fmt::Display for ShardName {
-    /// The name of the result without its ending.
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{}.shard-{}-of-{}", self.study, self.index, self.count)
-    }
 }

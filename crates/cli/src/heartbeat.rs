@@ -4,11 +4,10 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use pounding_study::{Progress, SweepReport};
+use pounding_study::{Progress, ShardName, SweepReport};
 use serde::{Deserialize, Serialize};
 
 use crate::failure::Failure;
-use crate::files::ShardName;
 use crate::interruption::this_command;
 
 /// Time between two beats of a shard that runs.

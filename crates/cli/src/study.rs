@@ -10,15 +10,15 @@ use pounding_files::FileUse;
 use pounding_files::checksum::hexadecimal;
 use pounding_results::{Kind, Label};
 use pounding_study::{
-    Progress as Stand, Shard, Study, StudyError, StudyFileError, SweepOptions, SweepReport,
-    default_result, parts_folder, study_name, sweep as make, writable, writable_table,
+    Progress as Stand, Shard, ShardName, Study, StudyError, StudyFileError, SweepOptions,
+    SweepReport, default_result, parts_folder, study_name, sweep as make, writable, writable_table,
 };
 use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::arguments::{RunningArguments, ShardArguments, value};
 use crate::failure::Failure;
-use crate::files::{Replaced, ShardName, name_left_over, no_result_comes, reads_too};
+use crate::files::{Replaced, name_left_over, no_result_comes, reads_too};
 use crate::heartbeat::{Heartbeat, State};
 use crate::interruption;
 use crate::progress::{Progress, Unit};
@@ -128,15 +128,7 @@ pub fn name(study: &Path) -> String {
 fn default_output(study: &Path, shard: Option<Shard>) -> PathBuf {
     match shard {
         None => default_result(study),
-        Some(shard) => PathBuf::from(format!("{}.h5", shard_name(name(study), shard))),
-    }
-}
-
-fn shard_name(study: String, shard: Shard) -> ShardName {
-    ShardName {
-        study,
-        count: shard.count,
-        index: shard.index,
+        Some(shard) => ShardName::of_study_file(study, shard).result(),
     }
 }
 
@@ -168,8 +160,12 @@ pub fn run(
     // Until the folder of the finished runs is there, there is nothing to go on with.
     interruption::resume_with(interruption::shell_line(&interruption::this_command()));
     let mut begun = false;
-    let heartbeat =
-        into.map(|folder| Heartbeat::begin(folder, &shard_name(name(&study.file), options.shard)));
+    let heartbeat = into.map(|folder| {
+        Heartbeat::begin(
+            folder,
+            &ShardName::of_study_file(&study.file, options.shard),
+        )
+    });
     let mut heartbeat = heartbeat.transpose()?;
     let progress = Progress::begin(Unit::Runs)?;
     let report = make(study, options, &mut |now| {

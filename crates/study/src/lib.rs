@@ -35,6 +35,8 @@ mod parts;
 #[cfg(feature = "results")]
 mod runs;
 #[cfg(feature = "results")]
+mod shard_name;
+#[cfg(feature = "results")]
 mod shown;
 #[cfg(feature = "results")]
 mod study_file;
@@ -69,6 +71,8 @@ pub use pounding_results::study::{
 };
 #[cfg(feature = "results")]
 pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
+#[cfg(feature = "results")]
+pub use shard_name::ShardName;
 #[cfg(feature = "results")]
 pub use shown::case_of_run;
 #[cfg(feature = "results")]

@@ -7,7 +7,7 @@ use pounding_results::Label;
 use pounding_results::study::{Description, MergeOptions, ResultWriter, Shards};
 
 use crate::error::StudyError;
-use crate::sweep::of_this_study;
+use crate::sweep::{default_result, of_this_study};
 use crate::table::RunTable;
 
 /// What a merged result holds.
@@ -60,6 +60,9 @@ pub fn merge(
     let whole = shards.description();
     spare_what_is_not_merged(whole, output)?;
     let mut writer = ResultWriter::create(output, whole, shards.count()?)?;
+    if let Some(study) = study_file(files, whole, output) {
+        writer = writer.of_study_file(whole, &study);
+    }
     let mut table = csv.map(|path| RunTable::create(path, whole)).transpose()?;
     shards.rows(|row, point| {
         report.runs += 1;
@@ -75,6 +78,17 @@ pub fn merge(
     }
     writer.finish()?;
     Ok(report)
+}
+
+/// The study file that the merged result says it is of, as one call would: that of the shards, under
+/// the default name of the whole.
+fn study_file(shards: &[PathBuf], merged: &Description, output: &Path) -> Option<PathBuf> {
+    let mut labels = shards.iter().filter_map(|shard| Label::of(shard));
+    let file = PathBuf::from(labels.find(|label| !label.file.is_empty())?.file);
+    // As seen from this folder it may be another file, or none.
+    let content = pounding_files::input::read(&file).ok()?;
+    let says_it = !merged.part.is_whole() || output == default_result(&file);
+    (says_it && content == merged.study.as_bytes()).then_some(file)
 }
 
 /// A result of the study stays where it holds shards that these files do not: what has been

@@ -17,6 +17,7 @@ use crate::BUILD;
 use crate::error::StudyError;
 use crate::parts::{Parts, Store};
 use crate::runs::{Ending, RecordReport, Row, Runner, run_all};
+use crate::shard_name::ShardName;
 use crate::study_file::{Study, Value, Values, Variable};
 use crate::table::{GrowingTable, RunTable};
 
@@ -456,7 +457,10 @@ fn assemble(
     let mut report = empty_report(runner, description);
     let mut writer = ResultWriter::create(&options.output, description, rows)?;
     let study = runner.study.file.as_path();
-    if description.part.is_whole() && options.output == default_result(study) {
+    let own = ShardName::of_study_file(study, options.shard).result();
+    // A shard says it for the result that is merged from it.
+    let is_shard = !description.part.is_whole() || options.output.ends_with(own);
+    if is_shard || options.output == default_result(study) {
         writer = writer.of_study_file(description, study);
     }
     parts.rows(&mut |row| {

@@ -8,12 +8,11 @@ use std::time::Duration;
 use pounding_case::Dimension;
 use pounding_catalogue::wording::counted;
 use pounding_files::checksum::is_absent;
-use pounding_study::ranges;
+use pounding_study::{ShardName, ranges};
 use serde::Serialize;
 
 use crate::arguments::{StatusArguments, value};
 use crate::failure::Failure;
-use crate::files::ShardName;
 use crate::heartbeat::{BETWEEN, Beat, State, host, now, read, told};
 use crate::interruption::shell_line;
 use crate::output::{pretty, print, print_as_it_is};

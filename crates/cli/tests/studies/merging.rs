@@ -242,3 +242,40 @@ fn the_help_of_a_merge_shows_what_it_needs() {
         assert!(help.contains(usage), "{help}");
     }
 }
+
+/// A merged result under the default name is, to the last byte, that of one call: it says of which
+/// study file it is, and no study of another folder takes its place.
+#[test]
+fn a_merged_result_says_of_which_study_it_is() {
+    let bench = Bench::new(MIXED);
+    let folder = bench.folder.path().canonicalize().unwrap();
+    let name = folder.file_name().unwrap().to_str().unwrap().to_owned();
+    let result = format!("{name}.study.h5");
+    bench.text("sweep study.toml");
+    let whole = bench.bytes(&result);
+    std::fs::remove_file(bench.path(&result)).unwrap();
+    for shard in 1..=3 {
+        bench.text(&format!("sweep study.toml --shard {shard}/3 --into all"));
+    }
+    bench.text(&format!("merge all -o {result}"));
+    assert!(bench.bytes(&result) == whole);
+    // By way of a partial merge, too.
+    std::fs::remove_file(bench.path(&result)).unwrap();
+    let shard = |index: usize| format!("all/{name}.shard-{index}-of-3.h5");
+    let (first, second, third) = (shard(1), shard(2), shard(3));
+    bench.text(&format!("merge --partial {first} {third} -o some.h5"));
+    bench.text(&format!("merge some.h5 {second} -o {result}"));
+    assert!(bench.bytes(&result) == whole);
+    let other = bench.path("other").join(&name);
+    std::fs::create_dir_all(&other).unwrap();
+    std::fs::copy(bench.path("case.toml"), other.join("case.toml")).unwrap();
+    let study = String::from_utf8(bench.bytes("study.toml")).unwrap();
+    std::fs::write(other.join("study.toml"), study).unwrap();
+    let told = bench.complaint(&format!("sweep other/{name}/study.toml"), 4);
+    assert!(told.contains("does not take its place unasked"), "{told}");
+    assert!(bench.bytes(&result) == whole);
+    // Under a name that was given a result has the same bytes wherever it was made.
+    bench.text("merge all -o given.h5");
+    bench.text("sweep study.toml -o whole.h5");
+    assert!(bench.bytes("given.h5") == bench.bytes("whole.h5"));
+}

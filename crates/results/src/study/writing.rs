@@ -69,8 +69,8 @@ impl ResultWriter {
     }
 
     /// Says of which study file the result is, as seen from the current folder. It is no part of
-    /// what the result holds: one that the user has named does without, and has the same bytes
-    /// wherever it was made.
+    /// what the result holds: that of a whole study which the user has named does without, and has
+    /// the same bytes wherever it was made.
     #[must_use]
     pub fn of_study_file(mut self, description: &Description, study: &Path) -> Self {
         let file = pounding_files::label::seen_from_here(study);

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
+use pounding_files::PartFile;
 use pounding_study::{Progress, ShardName, SweepReport};
 use serde::{Deserialize, Serialize};
 
@@ -11,7 +12,10 @@ use crate::failure::Failure;
 use crate::interruption::this_command;
 
 /// Time between two beats of a shard that runs.
-pub const BETWEEN: Duration = Duration::from_secs(10);
+const BETWEEN: Duration = Duration::from_secs(10);
+/// A shard that has not told of itself for this long is taken as ended: clocks of machines, and
+/// file systems that several machines share, may lag.
+const SILENT: Duration = Duration::from_secs(90);
 /// The folder of these files in that of the shards.
 const FOLDER: &str = "status";
 
@@ -64,10 +68,31 @@ pub struct Beat {
     pub message: String,
 }
 
+impl Beat {
+    /// Seconds since this was written.
+    pub fn silent(&self) -> u64 {
+        now().saturating_sub(self.updated)
+    }
+
+    /// Whether the shard computes, as far as can be known.
+    pub fn is_running(&self) -> bool {
+        self.state == State::Running && !self.is_gone()
+    }
+
+    /// Whether a shard that ran has ended without a word.
+    pub fn is_gone(&self) -> bool {
+        let ran_here = self.host == host() && !self.host.is_empty();
+        (ran_here && !pounding_files::runs_here(self.process))
+            || self.silent() > SILENT.max(3 * BETWEEN).as_secs()
+    }
+}
+
 /// Writes the file of a shard from time to time.
 #[derive(Debug)]
 pub struct Heartbeat {
     path: PathBuf,
+    /// Whether it has written: not before the shard is its own.
+    begun: bool,
     began: Instant,
     last: Instant,
     beat: Beat,
@@ -76,7 +101,8 @@ pub struct Heartbeat {
 }
 
 impl Heartbeat {
-    /// Begins to tell how far a shard is.
+    /// Finds out whether it can tell how far a shard is. What another process tells of the shard
+    /// stays until this one is at work.
     ///
     /// # Errors
     /// A file that cannot be written.
@@ -86,9 +112,11 @@ impl Heartbeat {
             Failure::output(&e, &path.parent().unwrap_or(folder).display().to_string())
         };
         std::fs::create_dir_all(folder.join(FOLDER)).map_err(failed)?;
-        let heartbeat = Self {
+        PartFile::beside(&path).map_err(failed)?;
+        Ok(Self {
             done: read(folder, shard).filter(|beat| beat.state == State::Done),
             path: path.clone(),
+            begun: false,
             began: Instant::now(),
             last: Instant::now(),
             beat: Beat {
@@ -108,14 +136,11 @@ impl Heartbeat {
                 command: this_command(),
                 message: String::new(),
             },
-        };
-        heartbeat.write().map_err(failed)?;
-        Ok(heartbeat)
+        })
     }
 
     /// Tells how far it is, if it is time to.
     pub fn beat(&mut self, progress: &Progress) {
-        let first = self.beat.runs == 0;
         let beat = &mut self.beat;
         beat.runs = progress.total;
         beat.finished = progress.stored_before + progress.made;
@@ -125,7 +150,7 @@ impl Heartbeat {
         beat.rate = progress.made as f64 / seconds.max(1.0e-3);
         let left = beat.runs - beat.finished;
         beat.remaining_seconds = (beat.rate > 0.0).then_some(left as f64 / beat.rate);
-        if first || self.last.elapsed() >= BETWEEN {
+        if !self.begun || self.last.elapsed() >= BETWEEN {
             self.told();
         }
     }
@@ -140,8 +165,11 @@ impl Heartbeat {
     }
 
     /// Tells that an error has ended it; where the result of a call before it stands all the same,
-    /// what that one told stays true.
+    /// what that one told stays true, and so does what another process tells that is at work.
     pub fn failed(&mut self, message: &str, result_stands: bool) {
+        if !self.begun && read_at(&self.path).is_some_and(|beat| beat.is_running()) {
+            return;
+        }
         match self.done.take().filter(|_| result_stands) {
             Some(done) => {
                 self.beat = done;
@@ -160,6 +188,7 @@ impl Heartbeat {
     }
 
     fn told(&mut self) {
+        self.begun = true;
         self.last = Instant::now();
         self.beat.updated = now();
         // Runs are worth more than word of them: a full disk is reported where they are stored.
@@ -174,7 +203,11 @@ impl Heartbeat {
 
 /// Reads what a shard last told of itself; `None` if it told nothing.
 pub fn read(folder: &Path, shard: &ShardName) -> Option<Beat> {
-    let text = pounding_files::input::read(&path(folder, shard)).ok()?;
+    read_at(&path(folder, shard))
+}
+
+fn read_at(path: &Path) -> Option<Beat> {
+    let text = pounding_files::input::read(path).ok()?;
     serde_json::from_slice(&text).ok()
 }
 
@@ -191,13 +224,13 @@ fn path(folder: &Path, shard: &ShardName) -> PathBuf {
 }
 
 /// Seconds since 1970.
-pub fn now() -> u64 {
+fn now() -> u64 {
     let since = SystemTime::now().duration_since(UNIX_EPOCH);
     since.map_or(0, |time| time.as_secs())
 }
 
 /// Name of this machine; empty where it is not known.
-pub fn host() -> String {
+fn host() -> String {
     #[cfg(unix)]
     return rustix::system::uname()
         .nodename()

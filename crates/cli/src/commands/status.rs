@@ -13,15 +13,12 @@ use serde::Serialize;
 
 use crate::arguments::{StatusArguments, value};
 use crate::failure::Failure;
-use crate::heartbeat::{BETWEEN, Beat, State, host, now, read, told};
+use crate::heartbeat::{Beat, State, read, told};
 use crate::interruption::shell_line;
 use crate::output::{pretty, print, print_as_it_is};
 use crate::plan::path_word;
 use crate::progress::time;
 
-/// A shard that has not told of itself for this long is taken as ended: clocks of machines, and
-/// file systems that several machines share, may lag.
-const SILENT: Duration = Duration::from_secs(90);
 /// Shards of a kind that are shown one by one.
 const SHOWN: usize = 20;
 
@@ -184,11 +181,10 @@ impl Progress {
                 _ if stands => progress.done.push(index),
                 None => progress.missing.push(index),
                 Some(beat) => {
-                    let silent = now().saturating_sub(beat.updated);
-                    let running = beat.state == State::Running && !gone(&beat, silent);
+                    let running = beat.is_running();
                     let of = Of {
                         shard: index,
-                        how: how(&beat, silent),
+                        how: how(&beat),
                         runs: beat.runs,
                         finished: match beat.state {
                             State::Done => 0,
@@ -196,8 +192,8 @@ impl Progress {
                         },
                         rate: beat.rate,
                         remaining_seconds: beat.remaining_seconds,
+                        seconds_since_word: beat.silent(),
                         host: beat.host,
-                        seconds_since_word: silent,
                     };
                     match running {
                         true => progress.running.push(of),
@@ -309,24 +305,16 @@ impl Progress {
     }
 }
 
-/// Whether a shard that ran has ended without a word.
-fn gone(beat: &Beat, silent: u64) -> bool {
-    if beat.host == host() && !beat.host.is_empty() && !pounding_files::runs_here(beat.process) {
-        return true;
-    }
-    silent > SILENT.max(3 * BETWEEN).as_secs()
-}
-
-fn how(beat: &Beat, silent: u64) -> String {
+fn how(beat: &Beat) -> String {
     let mut text = format!("{} of {}", beat.finished, counted(beat.runs, "run"));
     if beat.failed > 0 {
         text.push_str(&format!(", {} failed", beat.failed));
     }
     match beat.state {
-        State::Running if gone(beat, silent) => text.push_str(&format!(
+        State::Running if beat.is_gone() => text.push_str(&format!(
             ", {} stored; without a word for {} (process {} on {})",
             beat.stored,
-            time(silent as f64),
+            time(beat.silent() as f64),
             beat.process,
             beat.host
         )),

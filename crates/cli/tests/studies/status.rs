@@ -130,6 +130,42 @@ fn an_interrupted_shard_says_so() {
     assert!(told.contains("not begun: 1"), "{told}");
 }
 
+/// A second process of a shard is refused, and says nothing of it: what the one says that is at work
+/// stays.
+#[cfg(unix)]
+#[test]
+fn a_refused_process_leaves_what_the_running_one_says() {
+    let bench = Bench::new(&MIXED.replace("runs = 60", "runs = 6000"));
+    let shard = "sweep study.toml --shard 1/2 --into all --threads 1";
+    let mut child = bench
+        .command(shard)
+        .stdout(std::process::Stdio::null())
+        .stderr(std::process::Stdio::null())
+        .spawn()
+        .unwrap();
+    let running = || {
+        let told = bench.run("status all --json").stdout;
+        let json: Value = serde_json::from_slice(&told).unwrap_or_default();
+        json["studies"][0]["running"][0]["how"].to_string()
+    };
+    let process = format!("(process {} on ", child.id());
+    while !running().contains(&process) {
+        assert!(child.try_wait().unwrap().is_none());
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    let told = bench.complaint(shard, 2);
+    assert!(told.contains("another process is working"), "{told}");
+    assert!(running().contains(&process), "{}", running());
+    // Nor does one that fails before it looks who is at work.
+    let study = String::from_utf8(bench.bytes("study.toml")).unwrap();
+    bench.study(&study.replace("kobe_1995_jma_ns.csv", "nowhere.csv"));
+    assert_eq!(bench.run(shard).status.code(), Some(2));
+    assert!(running().contains(&process), "{}", running());
+    child.kill().unwrap();
+    child.wait().unwrap();
+    assert_eq!(bench.run("status all --unfinished").stdout, b"1-2\n");
+}
+
 /// A result that was cut off, or of which the last call said that it does not fit, is not done: the
 /// list of what is unfinished has it.
 #[test]

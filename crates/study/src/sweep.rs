@@ -182,6 +182,7 @@ pub fn sweep(
     }
     if let Ok(report) = &mut report {
         report.made = now.made;
+        report.warnings.extend(other_version(&description, options));
     }
     report
 }
@@ -415,6 +416,30 @@ fn spare_other_shards(description: &Description, output: &Path) -> Result<(), St
         }
         _ => Ok(()),
     }
+}
+
+/// What the user should know of a folder of shards that holds another version of the study. One
+/// shard is looked at, as of thousands each would look at all others: where none was said to be of
+/// another version, they are of one.
+fn other_version(description: &Description, options: &SweepOptions) -> Option<String> {
+    let folder = options.shared.as_deref()?;
+    let own = ShardName::of(&options.output.file_name()?.to_string_lossy())?;
+    let mut names = std::fs::read_dir(folder).ok()?.filter_map(|entry| {
+        let name = ShardName::of(&entry.ok()?.file_name().to_string_lossy())?;
+        let is_other = name.study == own.study && name.count == own.count && name != own;
+        is_other.then_some(name)
+    });
+    let (path, study) = names.find_map(|name| {
+        let path = folder.join(name.result());
+        let study = Label::of(&path)?.study?;
+        Some((path, study))
+    })?;
+    (study.sha256 != description.study_sha256).then(|| {
+        format!(
+            "{} is of another version of the study, and is not merged with this shard: move it away and make it again, or give each version a folder of its own",
+            path.display()
+        )
+    })
 }
 
 /// What a result is that is not this one.

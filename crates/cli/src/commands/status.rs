@@ -3,11 +3,12 @@
 use std::collections::BTreeMap;
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
-use std::time::Duration;
+use std::time::{Duration, SystemTime};
 
 use pounding_case::Dimension;
 use pounding_catalogue::wording::counted;
 use pounding_files::checksum::is_absent;
+use pounding_results::Label;
 use pounding_study::{ShardName, ranges};
 use serde::Serialize;
 
@@ -110,17 +111,14 @@ fn look(folder: &Path) -> Result<Vec<Progress>, Failure> {
             Some(help.to_owned()),
         )
     };
-    // Of each study the shards that stand complete.
-    let mut studies: BTreeMap<(String, usize), Vec<usize>> = BTreeMap::new();
+    let mut studies: BTreeMap<(String, usize), Vec<Found>> = BTreeMap::new();
     for entry in std::fs::read_dir(folder).map_err(failed)? {
         let name = entry.map_err(failed)?.file_name();
         let name = name.to_string_lossy();
         if let Some(shard) = ShardName::of(&name) {
+            let found = Found::at(&folder.join(&*name), shard.index);
             let shards = studies.entry((shard.study, shard.count)).or_default();
-            // The end of a result is the last that is written: without it the file was cut off.
-            if matches!(is_absent(&folder.join(&*name)), Ok(false)) {
-                shards.push(shard.index);
-            }
+            shards.push(found);
         }
     }
     for shard in told(folder) {
@@ -135,13 +133,62 @@ fn look(folder: &Path) -> Result<Vec<Progress>, Failure> {
     }
     let studies = studies.into_iter();
     Ok(studies
-        .map(|((study, count), done)| Progress::of(folder, &study, count, done))
+        .map(|((study, count), found)| Progress::of(folder, &study, count, &standing(&found)))
         .collect())
 }
 
+/// A file under the name of the result of a shard.
+struct Found {
+    shard: usize,
+    is_whole: bool,
+    /// Identity of its study, and when it was written.
+    version: Option<(SystemTime, String)>,
+}
+
+impl Found {
+    fn at(path: &Path, shard: usize) -> Self {
+        // The end of a result is the last that is written: without it the file was cut off.
+        let is_whole = matches!(is_absent(path), Ok(false));
+        let version = || {
+            let study = Label::of(path)?.study?;
+            Some((path.metadata().ok()?.modified().ok()?, study.sha256))
+        };
+        Self {
+            shard,
+            is_whole,
+            version: is_whole.then(version).flatten(),
+        }
+    }
+}
+
+/// What stands under the name of the result of a shard.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Standing {
+    /// A part of the result.
+    Result,
+    /// The result of another version of the study than that of the last shard that was written.
+    OtherVersion,
+    /// What is cut off, or no result.
+    Damaged,
+}
+
+/// What stands for each shard that something stands for.
+fn standing(found: &[Found]) -> BTreeMap<usize, Standing> {
+    let versions = found.iter().filter_map(|file| file.version.as_ref());
+    let last = versions.max().map(|(_, identity)| identity);
+    let standing = |file: &Found| match &file.version {
+        _ if !file.is_whole => Standing::Damaged,
+        Some((_, identity)) if Some(identity) != last => Standing::OtherVersion,
+        _ => Standing::Result,
+    };
+    found
+        .iter()
+        .map(|file| (file.shard, standing(file)))
+        .collect()
+}
+
 impl Progress {
-    fn of(folder: &Path, study: &str, count: usize, mut done: Vec<usize>) -> Self {
-        done.sort_unstable();
+    fn of(folder: &Path, study: &str, count: usize, standing: &BTreeMap<usize, Standing>) -> Self {
         let mut progress = Self {
             name: study.to_owned(),
             shards: count,
@@ -165,7 +212,8 @@ impl Progress {
             // A call that was refused or failed leaves what stood there, which may be no part of
             // this study.
             let failed = beat.as_ref().is_some_and(|b| b.state == State::Failed);
-            let stands = done.binary_search(&index).is_ok() && !failed;
+            let found = standing.get(&index).copied();
+            let stands = found == Some(Standing::Result) && !failed;
             // Runs of a result that is gone are gone.
             let gone_again = |b: &&Beat| stands || b.state != State::Done;
             if let Some(beat) = beat.as_ref().filter(gone_again) {
@@ -179,12 +227,15 @@ impl Progress {
             }
             match beat {
                 _ if stands => progress.done.push(index),
+                None if found == Some(Standing::OtherVersion) => {
+                    progress.ended.push(Of::other_version(index));
+                }
                 None => progress.missing.push(index),
                 Some(beat) => {
                     let running = beat.is_running();
                     let of = Of {
                         shard: index,
-                        how: how(&beat),
+                        how: how(&beat, found),
                         runs: beat.runs,
                         finished: match beat.state {
                             State::Done => 0,
@@ -305,7 +356,26 @@ impl Progress {
     }
 }
 
-fn how(beat: &Beat) -> String {
+/// Said of a shard whose result is of no use for the others.
+const OTHER_VERSION: &str = "its result is of another version of the study";
+
+impl Of {
+    /// One that has told nothing of itself.
+    fn other_version(shard: usize) -> Self {
+        Self {
+            shard,
+            how: OTHER_VERSION.to_owned(),
+            runs: 0,
+            finished: 0,
+            rate: 0.0,
+            remaining_seconds: None,
+            host: String::new(),
+            seconds_since_word: 0,
+        }
+    }
+}
+
+fn how(beat: &Beat, found: Option<Standing>) -> String {
     let mut text = format!("{} of {}", beat.finished, counted(beat.runs, "run"));
     if beat.failed > 0 {
         text.push_str(&format!(", {} failed", beat.failed));
@@ -324,6 +394,9 @@ fn how(beat: &Beat) -> String {
                 text.push_str(&format!(", about {} left", time(left)));
             }
             text.push_str(&format!(" (process {} on {})", beat.process, beat.host));
+        }
+        State::Done if found == Some(Standing::OtherVersion) => {
+            text.push_str(&format!("; {OTHER_VERSION}"));
         }
         State::Done => text.push_str("; it was done, but its result is gone or cut off"),
         State::Interrupted => text.push_str(&format!(", {} stored; interrupted", beat.stored)),

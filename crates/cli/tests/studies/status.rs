@@ -229,3 +229,46 @@ fn a_refused_call_leaves_a_shard_done() {
     assert_eq!(bench.text("status all"), before);
     assert_eq!(bench.run("status all --unfinished").stdout, b"\n");
 }
+
+/// Shards of two versions of a study make no result: the second says so, and so does `status`, which
+/// names those of the earlier version and commands that make them again.
+#[test]
+fn shards_of_two_versions_are_not_done() {
+    let bench = Bench::new(MIXED);
+    let shard = |index: usize| format!("sweep study.toml --shard {index}/3 --into all");
+    bench.text(&shard(1));
+    bench.text(&shard(2));
+    bench.study(&MIXED.replace("60 mm", "70 mm"));
+    let told = bench.text(&shard(3));
+    assert!(told.contains("of another version of the study"), "{told}");
+    let output = bench.run("status all");
+    assert_eq!(output.status.code(), Some(1));
+    let told = String::from_utf8(output.stdout).unwrap();
+    for part in [
+        "1 of 3 shards done",
+        "shard 1 ended before its end: 20 of 20 runs; its result is of another version",
+        "shard 2 ended before its end",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
+    assert!(!told.contains("merge them"), "{told}");
+    goes_on_as_told(&bench);
+    bench.text("merge all -o merged.h5");
+    bench.text("sweep study.toml -o whole.h5");
+    assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
+}
+
+/// Does what `status` says, and finds all shards done.
+fn goes_on_as_told(bench: &Bench) {
+    let output = bench.run("status all --json");
+    let json: Value = serde_json::from_slice(&output.stdout).unwrap();
+    for line in json["studies"][0]["commands"].as_array().unwrap() {
+        let done = Command::new("sh")
+            .args(["-c", line.as_str().unwrap()])
+            .current_dir(bench.folder.path())
+            .output()
+            .unwrap();
+        assert!(done.status.success(), "{line}: {done:?}");
+    }
+    assert_eq!(bench.run("status all").status.code(), Some(0));
+}

@@ -6,8 +6,8 @@ use std::time::Duration;
 
 use pounding_case::Dimension;
 use pounding_catalogue::wording::{agreeing, counted};
-use pounding_files::FileUse;
-use pounding_files::checksum::hexadecimal;
+use pounding_files::checksum::{WithoutChecksum, check, hexadecimal};
+use pounding_files::{FileUse, free_name};
 use pounding_results::{Kind, Label};
 use pounding_study::{
     Progress as Stand, Shard, ShardName, Study, StudyError, StudyFileError, SweepOptions,
@@ -21,6 +21,7 @@ use crate::failure::Failure;
 use crate::files::{Replaced, name_left_over, no_result_comes, reads_too};
 use crate::heartbeat::{Heartbeat, State};
 use crate::interruption;
+use crate::output::note;
 use crate::progress::{Progress, Unit};
 use crate::separate::{RUNS_ARE_LEFT, Reading, is_child, reading};
 use crate::tables::warning_lines;
@@ -142,11 +143,33 @@ pub fn stands_complete(
     if !options.resume || !options.output.is_file() {
         return Ok(false);
     }
+    if options.shared.is_some() && !running.read_in_this_process {
+        damaged_goes_aside(&options.output)?;
+    }
     let read = [options.output.clone()];
     match reading(&read, files, running.read_in_this_process) {
         Ok(reading) => Ok(matches!(reading, Reading::Done)),
         Err(Failure::Reported(RUNS_ARE_LEFT)) => Ok(false),
         Err(failure) => Err(failure),
+    }
+}
+
+/// In a folder of shards nobody looks at each: a result that is damaged makes room for a new one, and
+/// is kept beside it.
+fn damaged_goes_aside(output: &Path) -> Result<(), Failure> {
+    match check(output, WithoutChecksum::Accept) {
+        Err(error) if error.is_damage() => {
+            let aside = free_name(output);
+            std::fs::rename(output, &aside)
+                .map_err(|e| Failure::output(&e, &aside.display().to_string()))?;
+            note(&format!(
+                "{}: {error}; it is now {}, and its runs are made again",
+                output.display(),
+                aside.display()
+            ));
+            Ok(())
+        }
+        _ => Ok(()),
     }
 }
 

@@ -89,6 +89,12 @@ pub enum ChecksumError {
 }
 
 impl ChecksumError {
+    /// Whether the file is not as it was written, whoever reads it.
+    #[must_use]
+    pub fn is_damage(&self) -> bool {
+        !matches!(self, Self::Read(_) | Self::Absent)
+    }
+
     /// What to do about it.
     #[must_use]
     pub fn help(&self) -> Option<&'static str> {

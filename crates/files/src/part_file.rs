@@ -223,6 +223,14 @@ fn put_aside(mut part: TempPath, target: &Path) -> Result<PathBuf> {
     Err(Error::other("no name is free beside it"))
 }
 
+/// A name beside a file under which nothing stands.
+#[must_use]
+pub fn free_name(path: &Path) -> PathBuf {
+    let mut names = (2..).map(|number| numbered(path, number));
+    let free = names.find(|path| path.symlink_metadata().is_err());
+    free.unwrap_or_else(|| path.to_owned())
+}
+
 /// A file's name with a number before its ending.
 fn numbered(path: &Path, number: usize) -> PathBuf {
     let mut name = path.file_stem().unwrap_or_default().to_owned();

@@ -8,6 +8,7 @@ use std::time::{Duration, SystemTime};
 use pounding_case::Dimension;
 use pounding_catalogue::wording::counted;
 use pounding_files::checksum::is_absent;
+use pounding_files::free_name;
 use pounding_results::Label;
 use pounding_study::{ShardName, ranges};
 use serde::Serialize;
@@ -203,12 +204,7 @@ impl Progress {
             commands: Vec::new(),
         };
         for index in 1..=count {
-            let name = ShardName {
-                study: study.to_owned(),
-                count,
-                index,
-            };
-            let beat = read(folder, &name);
+            let beat = read(folder, &progress.shard(index));
             // A call that was refused or failed leaves what stood there, which may be no part of
             // this study.
             let failed = beat.as_ref().is_some_and(|b| b.state == State::Failed);
@@ -254,11 +250,25 @@ impl Progress {
             }
         }
         let unfinished = progress.unfinished();
-        let commands = unfinished
-            .iter()
-            .filter_map(|shard| progress.goes_on(*shard));
+        let commands = unfinished.iter().filter_map(|shard| {
+            let command = progress.goes_on(*shard)?;
+            // A call moves what is damaged out of its way, and refuses to replace anything else.
+            let moved = match standing.get(shard) {
+                None | Some(Standing::Damaged) => String::new(),
+                Some(_) => moved(&folder.join(progress.shard(*shard).result())),
+            };
+            Some(format!("{moved}{command}"))
+        });
         progress.commands = commands.collect();
         progress
+    }
+
+    fn shard(&self, index: usize) -> ShardName {
+        ShardName {
+            study: self.name.clone(),
+            count: self.shards,
+            index,
+        }
     }
 
     fn is_done(&self) -> bool {
@@ -297,6 +307,7 @@ impl Progress {
         })
     }
 
+    /// How far all shards are, and what to do.
     fn told(&self, folder: &Path) -> String {
         let mut text = format!(
             "{}: {} of {} done in {}, {} finished",
@@ -354,6 +365,12 @@ impl Progress {
         }
         text
     }
+}
+
+/// What moves a file out of the way of a command that follows.
+fn moved(path: &Path) -> String {
+    let words = [path_word(path), path_word(&free_name(path))];
+    format!("mv {} && ", shell_line(&words))
 }
 
 /// Said of a shard whose result is of no use for the others.

@@ -272,3 +272,32 @@ fn goes_on_as_told(bench: &Bench) {
     }
     assert_eq!(bench.run("status all").status.code(), Some(0));
 }
+
+/// What `status` says of a damaged shard makes it again, and so does the list that a plan takes; the
+/// damaged file is kept.
+#[test]
+fn a_damaged_shard_is_made_again_as_told() {
+    let bench = Bench::new(MIXED);
+    for shard in 1..=2 {
+        bench.text(&format!("sweep study.toml --shard {shard}/2 --into all"));
+    }
+    let folder = bench.folder.path().canonicalize().unwrap();
+    let name = folder.file_name().unwrap().to_str().unwrap().to_owned();
+    let result = format!("all/{name}.shard-1-of-2.h5");
+    let whole = bench.bytes(&result);
+    // Cut off, emptied, and with a byte that has changed within.
+    let mut changed = whole.clone();
+    changed[whole.len() / 2] ^= 1;
+    for (number, damaged) in [(2, &whole[..5000]), (3, &[]), (4, &changed)] {
+        std::fs::write(bench.path(&result), damaged).unwrap();
+        match number {
+            // A look from far away does not read it all.
+            4 => drop(bench.text("sweep study.toml --shard 1/2 --into all")),
+            _ => goes_on_as_told(&bench),
+        }
+        assert!(bench.bytes(&result) == whole);
+        let aside = format!("all/{name}.shard-1-of-2-{number}.h5");
+        assert!(bench.bytes(&aside) == damaged, "{number}");
+    }
+    bench.text("merge all -o merged.h5");
+}

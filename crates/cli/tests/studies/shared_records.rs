@@ -91,3 +91,26 @@ fn a_changed_record_is_read_anew() {
     }
     bench.text("sweep study.toml --shard 3/3 --into all");
 }
+
+/// A record that was changed is read anew, though it has the size and the time that it had: of the
+/// other version of the study that it makes, the shard says so.
+#[cfg(unix)]
+#[test]
+fn a_record_of_the_same_size_and_time_is_read_anew() {
+    let bench = bench();
+    bench.text("sweep study.toml --shard 1/3 --into all");
+    let modified = bench.path("c.csv").metadata().unwrap().modified().unwrap();
+    let text = String::from_utf8(bench.bytes("c.csv")).unwrap();
+    let changed = text.replacen("Imperial", "imperial", 1);
+    assert!(changed != text && changed.len() == text.len());
+    std::fs::write(bench.path("c.csv"), changed).unwrap();
+    let file = std::fs::File::options()
+        .write(true)
+        .open(bench.path("c.csv"))
+        .unwrap();
+    file.set_modified(modified).unwrap();
+    drop(file);
+    let told = bench.text("sweep study.toml --shard 3/3 --into all");
+    assert!(told.contains("of another version of the study"), "{told}");
+    assert_eq!(copies(&bench).len(), 3);
+}

@@ -1,9 +1,10 @@
 //! Records of a study in the folder of its shards: each once, by its hash.
 //!
 //! The first shard that comes reads all records, copies each under the name of its hash and
-//! writes down the hash, the intensity, and the size and time of change of the file. The others
+//! writes down the hash, the intensity, and by what a changed file is told. The others
 //! look these up, and read the records of their own runs alone, from the copies.
 
+use std::fs::Metadata;
 use std::path::{Path, PathBuf};
 use std::time::UNIX_EPOCH;
 
@@ -41,13 +42,23 @@ struct List {
 struct Known {
     name: String,
     file: PathBuf,
-    /// Size and time of change, by which a file that was changed is told.
-    stamp: (u64, u128),
+    stamp: Stamp,
     sha256: String,
     /// The bits of the intensity, so that none is lost.
     intensity: Option<u64>,
     /// The bits of the time of the peak.
     peak_time: u64,
+}
+
+/// By what a file that was changed is told, or another in its place: programs that copy set the time of
+/// change of the content, and the size may be the same.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+struct Stamp {
+    size: u64,
+    /// Nanoseconds since 1970.
+    modified: u128,
+    /// Of the system: when anything of the file changed last (s, ns), and its number.
+    state: Option<(i64, i64, u64)>,
 }
 
 impl SharedRecords {
@@ -187,9 +198,23 @@ fn file(source: &RecordSource) -> Option<PathBuf> {
     std::path::absolute(file).ok()
 }
 
-/// Size and time of change (ns since 1970) of a file.
-fn stamp(file: &Path) -> Option<(u64, u128)> {
+fn stamp(file: &Path) -> Option<Stamp> {
     let found = std::fs::metadata(file).ok()?;
-    let changed = found.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
-    Some((found.len(), changed.as_nanos()))
+    let modified = found.modified().ok()?.duration_since(UNIX_EPOCH).ok()?;
+    Some(Stamp {
+        size: found.len(),
+        modified: modified.as_nanos(),
+        state: state(&found),
+    })
+}
+
+#[cfg(unix)]
+fn state(found: &Metadata) -> Option<(i64, i64, u64)> {
+    use std::os::unix::fs::MetadataExt;
+    Some((found.ctime(), found.ctime_nsec(), found.ino()))
+}
+
+#[cfg(not(unix))]
+fn state(_: &Metadata) -> Option<(i64, i64, u64)> {
+    None
 }

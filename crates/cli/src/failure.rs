@@ -3,7 +3,7 @@
 use std::io::Write as _;
 use std::path::Path;
 
-use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
+use miette::{MietteDiagnostic, Report};
 use pounding_assembly::AssemblyError;
 use pounding_case::{Case, CaseError};
 use pounding_catalogue::DefinitionError;
@@ -21,7 +21,7 @@ use pounding_time_history::TimeHistoryError;
 use pounding_verification::VerificationError;
 
 use crate::interruption::EXIT_CODE;
-use crate::{plot, terminal};
+use crate::{excerpt, plot, terminal};
 
 /// Errors of one input that are shown: more help nobody.
 const MOST_SHOWN: usize = 20;
@@ -127,13 +127,9 @@ impl Failure {
         message: String,
         help: &str,
     ) -> Self {
-        let diagnostic = MietteDiagnostic::new(terminal::shown(&message))
-            .with_help(terminal::shown(help))
-            .with_label(LabeledSpan::at((place.start, place.len()), "here"));
-        Self::Input(Report::new(diagnostic).with_source_code(NamedSource::new(
-            terminal::shown(file),
-            terminal::source(source.to_owned()),
-        )))
+        let diagnostic =
+            MietteDiagnostic::new(terminal::shown(&message)).with_help(terminal::shown(help));
+        Self::Input(excerpt::report(diagnostic, file, source, place))
     }
 
     /// Output that could not be written; a closed pipe is the reader's choice.
@@ -351,15 +347,7 @@ fn located(error: CaseError, source: &str) -> Report {
     if source.is_empty() {
         return Report::new(diagnostic);
     }
-    let length = error
-        .span
-        .len()
-        .min(source.len().saturating_sub(error.span.start));
-    let diagnostic = diagnostic.with_label(LabeledSpan::at((error.span.start, length), "here"));
-    Report::new(diagnostic).with_source_code(NamedSource::new(
-        terminal::shown(&error.file),
-        terminal::source(source.to_owned()),
-    ))
+    excerpt::report(diagnostic, &error.file, source, error.span)
 }
 
 fn plain(message: String, help: Option<String>) -> Report {

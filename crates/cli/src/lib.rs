@@ -10,6 +10,7 @@ mod columns;
 mod commands;
 mod deal;
 mod descriptor;
+mod excerpt;
 mod failure;
 mod faults;
 mod files;

@@ -858,3 +858,31 @@ fn a_coarse_step_fails_with_a_diagnosis() {
         message(&output)
     );
 }
+
+/// Of a line of megabytes the place is shown, not all of it.
+#[test]
+fn a_long_line_is_not_printed() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    let masses = "25000.0,".repeat(300_000);
+    std::fs::write(
+        &case,
+        format!("[[building]]\nname = \"light\"\nstoreys = 3\nmass = [{masses}]\n"),
+    )
+    .unwrap();
+    let output = std::process::Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .env("NO_COLOR", "1")
+        .arg("check")
+        .arg(&case)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        told.contains("`mass` has 300000 values"),
+        "{}",
+        &told[..500]
+    );
+    assert!(told.contains("case.toml:4:8"), "{}", &told[..500]);
+    assert!(told.len() < 20_000, "{}", told.len());
+}

@@ -6,6 +6,7 @@ use crate::error::{GroundMotionError, bound};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::{HeaderPeak, Sampling, Series, unusual_step};
 use crate::source::{Source, Used};
+use crate::time_column::not_after;
 use crate::unit::AccelerationUnit;
 
 /// A value that a header prints, with one unit of its last digit.
@@ -489,17 +490,7 @@ impl Draft {
         let stated = match std::mem::replace(&mut self.times, Times::Step(None)) {
             Times::Each(times) => {
                 if let Some(i) = times.windows(2).position(|w| !(w[1] > w[0])) {
-                    return Err(source.error(
-                        self.lines.1,
-                        0,
-                        format!(
-                            "time {} s of value {} is not after {} s",
-                            times[i + 1],
-                            i + 2,
-                            times[i]
-                        ),
-                        "times must increase: get the record again",
-                    ));
+                    return Err(not_after(source, self.lines.1, &times, i + 1));
                 }
                 return Ok((Sampling::Uneven { times }, "uneven".to_owned()));
             }

@@ -4,6 +4,7 @@ use crate::draft::Times;
 use crate::error::GroundMotionError;
 use crate::number;
 use crate::source::Source;
+use crate::text::Line;
 
 /// A column of times as it is read.
 pub(crate) struct TimeColumn {
@@ -12,6 +13,8 @@ pub(crate) struct TimeColumn {
     printed: PrintedDigits,
     /// One unit of the printed times (s).
     unit: f64,
+    /// The first time that is not after the one before it, from zero, and its line.
+    not_after: Option<(usize, usize)>,
 }
 
 impl TimeColumn {
@@ -20,6 +23,7 @@ impl TimeColumn {
             times: Vec::with_capacity(capacity),
             printed: PrintedDigits::default(),
             unit: 1.0,
+            not_after: None,
         }
     }
 
@@ -28,8 +32,14 @@ impl TimeColumn {
         Self { unit, ..self }
     }
 
-    pub(crate) fn push(&mut self, time: f64, printed: &[u8]) {
-        self.times.push(time * self.unit);
+    /// Adds a time of a line.
+    pub(crate) fn push(&mut self, line: Line<'_>, time: f64, printed: &[u8]) {
+        let time = time * self.unit;
+        if self.times.last().is_some_and(|before| !(time > *before)) {
+            self.not_after
+                .get_or_insert((self.times.len(), line.number));
+        }
+        self.times.push(time);
         self.printed.see(printed);
     }
 
@@ -42,7 +52,8 @@ impl TimeColumn {
     /// their printed digits. `line` is that of the first one.
     ///
     /// # Errors
-    /// A zero that is to be put before a first value at time zero.
+    /// A zero that is to be put before a first value at time zero, or uneven times that do not
+    /// increase.
     pub(crate) fn finish(
         self,
         source: &Source<'_>,
@@ -56,7 +67,10 @@ impl TimeColumn {
             return Err(starts_at_zero(source, line));
         }
         let Some(step) = even_step(&self.times, self.printed, self.unit) else {
-            return Ok(Times::Each(self.times));
+            return match self.not_after {
+                Some((i, line)) => Err(not_after(source, line, &self.times, i)),
+                None => Ok(Times::Each(self.times)),
+            };
         };
         let at_one_step = (first - step).abs() <= 0.1 * step;
         if first.abs() > 1.0e-3 * step && !(prepended && at_one_step) {
@@ -71,6 +85,26 @@ impl TimeColumn {
         }
         Ok(Times::Step(Some(step)))
     }
+}
+
+/// The error of a time, from zero, that is not after the one before it.
+pub(crate) fn not_after(
+    source: &Source<'_>,
+    line: usize,
+    times: &[f64],
+    i: usize,
+) -> GroundMotionError {
+    source.error(
+        line,
+        0,
+        format!(
+            "time {} s of value {} is not after {} s",
+            times[i],
+            i + 1,
+            times[i - 1]
+        ),
+        "times must increase: get the record again",
+    )
 }
 
 /// The error of a zero that would shift a record whose times start at zero.

@@ -220,3 +220,18 @@ fn uneven_steps_are_shown_apart() {
     let error = read(&times).unwrap_err().to_string();
     assert!(error.contains("0.00333330 s to 0.00333336 s"), "{error}");
 }
+
+/// A time that is there twice, or goes back, is said with its own line.
+#[test]
+fn a_time_that_does_not_increase_has_its_line() {
+    let options = ReadOptions::default();
+    for time in ["0.02", "0.01"] {
+        let text = format!(
+            "time_s,acceleration_m_s2\n0.00,1\n0.02,2\n# a comment\n{time},3\n0.04,4\n0.06,5\n"
+        );
+        let refused = read_bytes("r.csv", text.as_bytes(), &options).unwrap_err();
+        let told = refused.to_string();
+        let expected = format!("r.csv:5:1: time {time} s of value 3 is not after 0.02 s");
+        assert!(told.contains(&expected), "{told}");
+    }
+}

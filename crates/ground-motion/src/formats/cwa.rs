@@ -221,7 +221,7 @@ fn row(
     for (k, field) in line.bytes.chunks(layout.width).enumerate() {
         let value = source.field(line, k * layout.width, field, layout)?;
         match k.checked_sub(1) {
-            None => times.push(value, field),
+            None => times.push(line, value, field),
             Some(k) => values[k].push(value),
         }
     }

@@ -148,7 +148,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
                 "correct the row",
             ));
         };
-        times.push(source.number(line, time.0, time.1)?, time.1);
+        times.push(line, source.number(line, time.0, time.1)?, time.1);
         samples.push(source.number(line, value.0, value.1)?);
     }
     let mut draft = Draft::new(samples, unit, (data, data + 1, lines.number()));

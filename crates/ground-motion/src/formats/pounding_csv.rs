@@ -309,7 +309,7 @@ fn rows(
         };
         let found = source.number(line, 0, time)?;
         let Some(step) = step else {
-            times.push(found, time);
+            times.push(line, found, time);
             samples.push(source.number(line, time.len() + 1, value)?);
             continue;
         };

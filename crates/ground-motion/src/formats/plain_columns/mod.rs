@@ -445,7 +445,7 @@ fn columns(
             let k = i % names.len();
             let value = source.number(line, column + source.options.skip_columns, field)?;
             if names[k] == "t" {
-                times.push(value, field);
+                times.push(line, value, field);
             } else if !is_other(names, &names[k]) {
                 values[k].push(value);
             }

@@ -199,7 +199,7 @@ impl Survey {
             }
             before = time;
             count += 1;
-            times.push(time, field);
+            times.push(line, time, field);
         }
         Ok(count >= INCREASING_ROWS || count >= EVEN_ROWS && times.is_even())
     }
@@ -247,7 +247,7 @@ impl Survey {
             before = time;
             if start.len() < 2 {
                 start.push(time);
-                times.push(time, field);
+                times.push(line, time, field);
             }
         }
         let step = start[1] - start[0];

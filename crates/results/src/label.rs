@@ -8,7 +8,7 @@ use pounding_files::checksum::hexadecimal;
 use serde_json::{Value, json};
 use sha2::{Digest, Sha256};
 
-use crate::study::{Description, Part, numbers, ranges};
+use crate::study::{Description, MOST_SHARDS, Part, numbers, ranges};
 
 /// What a result holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -109,9 +109,6 @@ impl Label {
         })
     }
 }
-
-/// More shards than a study is dealt in.
-const MOST_SHARDS: usize = 1_000_000;
 
 /// Names of attributes that results of either kind alone have, as HDF5 writes them.
 const OF_RUNS: &[u8] = b"case_sha256\0";

@@ -267,7 +267,9 @@ impl StudyError {
             Self::ResultFile(error) => return Some(error.help()),
             Self::FileUse(error) => return Some(error.help()),
             Self::Interrupted { .. } => "go on with --resume",
-            Self::Shard { .. } => "write i/n with i from 1 to n, such as 2/8",
+            Self::Shard { .. } => {
+                "write i/n with i from 1 to n, such as 2/8, and n up to 1,000,000"
+            }
             Self::NoSuchRun { .. } => return None,
             Self::NotShown { .. } => {
                 "write the record of the case under a header [ground_motion], with `scale` as one entry of it"

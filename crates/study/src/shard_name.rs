@@ -2,6 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
+use pounding_results::study::MOST_SHARDS;
+
 use crate::sweep::{Shard, study_name};
 
 /// The name of the result of a shard.
@@ -22,7 +24,8 @@ impl ShardName {
         let (study, rest) = file.strip_suffix(".h5")?.rsplit_once(".shard-")?;
         let (index, count) = rest.split_once("-of-")?;
         let (index, count) = (index.parse().ok()?, count.parse().ok()?);
-        (1..=count).contains(&index).then(|| Self {
+        let is_shard = count <= MOST_SHARDS && (1..=count).contains(&index);
+        is_shard.then(|| Self {
             study: study.to_owned(),
             count,
             index,

@@ -10,7 +10,7 @@ use pounding_files::PartFile;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_results::Label;
 use pounding_results::study::{
-    Coordinate, Description, Part, ResultReader, ResultWriter, StudyFileError,
+    Coordinate, Description, MOST_SHARDS, Part, ResultReader, ResultWriter, StudyFileError,
 };
 
 use crate::BUILD;
@@ -49,7 +49,9 @@ impl FromStr for Shard {
         let numbers =
             parts.and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
         match numbers {
-            Some((index, count)) if (1..=count).contains(&index) => Ok(Self { index, count }),
+            Some((index, count)) if count <= MOST_SHARDS && (1..=count).contains(&index) => {
+                Ok(Self { index, count })
+            }
             _ => Err(StudyError::Shard {
                 text: text.to_owned(),
             }),

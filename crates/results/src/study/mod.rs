@@ -12,7 +12,7 @@ mod writing;
 
 pub use error::StudyFileError;
 pub use layout::{Axis, Layout, Place, Quantity, RESPONSES, Response, is_result, quantity_names};
-pub use part::{Part, numbers, ranges};
+pub use part::{MOST_SHARDS, Part, numbers, ranges};
 pub use reading::ResultReader;
 pub use row::{Ending, ID, Row, Value};
 pub use shards::{Fault, MergeOptions, Shards, Survey, survey};

@@ -1,5 +1,8 @@
 //! Which shards of a study a result holds: one, all, or some that were merged already.
 
+/// More shards than a study is dealt in.
+pub const MOST_SHARDS: usize = 1_000_000;
+
 /// Shards of a study. Runs are dealt out in chunks, one after another: the first chunk belongs
 /// to the first shard, the second to the second, and after the last it begins anew.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -7,6 +7,7 @@
 //! [a second](TOGETHER): batch systems and shells send the same wish to several processes, which
 //! hand it on.
 
+use std::ffi::OsStr;
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -167,11 +168,23 @@ pub fn quoted(text: &str) -> String {
 
 /// This command as it was given, with `--resume`.
 pub fn this_command_resumed() -> String {
-    let mut words = this_command();
-    if !words.iter().any(|word| word == "--resume") {
-        words.push("--resume".to_owned());
+    shell_line(&resumed(this_command()))
+}
+
+/// The words of a command, with `--resume`.
+pub fn resumed(mut words: Vec<String>) -> Vec<String> {
+    let at = end_of_options(&words);
+    if !words[..at].iter().any(|word| word == "--resume") {
+        words.insert(at, "--resume".to_owned());
     }
-    shell_line(&words)
+    words
+}
+
+/// Where the words of a command take one more option: before `--`, behind which all are names.
+pub fn end_of_options<W: AsRef<OsStr>>(words: &[W]) -> usize {
+    let mut words = words.iter();
+    let all = words.len();
+    words.position(|word| word.as_ref() == "--").unwrap_or(all)
 }
 
 /// The words of this command.

@@ -19,6 +19,7 @@ use pounding_results::watch::{Watcher, watch};
 
 use crate::arguments::ColorChoice;
 use crate::failure::Failure;
+use crate::interruption::end_of_options;
 
 /// The hidden option that tells the child that it is one.
 pub const OPTION: &str = "read-in-this-process";
@@ -123,13 +124,15 @@ pub fn by_child(
         None => std::env::current_exe().map_err(failed)?,
     };
     let given: Vec<OsString> = std::env::args_os().skip(1).collect();
+    let (options, names) = given.split_at(end_of_options(&given));
     let mut command = Command::new(program);
-    command.args(&given).arg(format!("--{OPTION}")).args(more);
+    command.args(options).arg(format!("--{OPTION}")).args(more);
     // Its errors are shown by this process, as the terminal of this one can.
     let colored = |a: &OsString| a.to_string_lossy().starts_with("--color");
     if !given.iter().any(colored) && ColorChoice::Auto.is_on(std::io::stderr().is_terminal()) {
         command.arg("--color=always");
     }
+    command.args(names);
     match ended(&mut command, files, used).map_err(failed)? {
         Ok(answer) => {
             // If it cannot be said, the exit code still says it.

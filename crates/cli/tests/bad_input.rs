@@ -870,7 +870,7 @@ fn a_long_line_is_not_printed() {
         format!("[[building]]\nname = \"light\"\nstoreys = 3\nmass = [{masses}]\n"),
     )
     .unwrap();
-    let output = std::process::Command::new(env!("CARGO_BIN_EXE_pounding"))
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
         .env("NO_COLOR", "1")
         .arg("check")
         .arg(&case)

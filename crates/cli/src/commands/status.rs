@@ -16,28 +16,32 @@ use serde::Serialize;
 use crate::arguments::{StatusArguments, value};
 use crate::failure::Failure;
 use crate::heartbeat::{Beat, State, read, told};
-use crate::interruption::shell_line;
+use crate::interruption::{resumed, shell_line};
 use crate::output::{pretty, print, print_as_it_is};
 use crate::plan::path_word;
 use crate::progress::time;
 
+/// The shortest time between two looks: each reads a file of every shard.
+const LEAST: Duration = Duration::from_millis(100);
 /// Shards of a kind that are shown one by one.
 const SHOWN: usize = 20;
 
 /// Prints how far all shards are; exit code 1 if some are not done.
 pub fn status(arguments: &StatusArguments) -> Result<(), Failure> {
     let every = value(&arguments.every, "every", Dimension::TIME)?;
-    let every = Duration::try_from_secs_f64(every).map_err(|_| {
-        let help = "give a time such as \"10 s\"".to_owned();
+    let wait = Duration::try_from_secs_f64(every).ok();
+    let every = wait.filter(|wait| *wait >= LEAST).ok_or_else(|| {
+        let help = format!(
+            "give a time such as \"10 s\", of at least {} s",
+            LEAST.as_secs_f64()
+        );
         Failure::input(format!("--every: {every} s is no time to wait"), Some(help))
     })?;
     loop {
         let studies = look(&arguments.folder)?;
         let done = studies.iter().all(Progress::is_done);
         if arguments.unfinished {
-            let lists = studies.iter().map(|s| ranges(&s.unfinished()));
-            let lists: Vec<String> = lists.filter(|list| !list.is_empty()).collect();
-            return print_as_it_is(&lists.join(","));
+            return print_as_it_is(&list_of_one(&arguments.folder, &studies)?);
         }
         if arguments.json {
             print(&pretty(&Told {
@@ -56,6 +60,31 @@ pub fn status(arguments: &StatusArguments) -> Result<(), Failure> {
             (true, _) => return Ok(()),
             (false, false) => return Err(Failure::No),
             (false, true) => std::thread::sleep(every),
+        }
+    }
+}
+
+/// The list of shards that are unfinished, as the plan of the one study takes it that has some.
+fn list_of_one(folder: &Path, studies: &[Progress]) -> Result<String, Failure> {
+    let has_some = |study: &&Progress| !study.unfinished().is_empty();
+    let unfinished: Vec<&Progress> = studies.iter().filter(has_some).collect();
+    match unfinished[..] {
+        [] => Ok(String::new()),
+        [one] => Ok(ranges(&one.unfinished())),
+        _ => {
+            let named = unfinished
+                .iter()
+                .map(|study| format!("{} ({})", study.name, counted(study.shards, "shard")));
+            Err(Failure::input(
+                format!(
+                    "{} holds unfinished shards of several studies: {}",
+                    folder.display(),
+                    named.collect::<Vec<_>>().join(", ")
+                ),
+                Some(
+                    "a plan takes the list of one: give each study a folder of its own".to_owned(),
+                ),
+            ))
         }
     }
 }
@@ -296,10 +325,7 @@ impl Progress {
                 *joined = format!("--shard={numbered}");
             }
         }
-        if !words.iter().any(|word| word == "--resume") {
-            words.push("--resume".to_owned());
-        }
-        let line = shell_line(&words);
+        let line = shell_line(&resumed(words));
         let here = std::env::current_dir().is_ok_and(|here| here == *folder);
         Some(match here {
             true => line,

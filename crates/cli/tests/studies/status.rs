@@ -301,3 +301,35 @@ fn a_damaged_shard_is_made_again_as_told() {
     }
     bench.text("merge all -o merged.h5");
 }
+
+/// A list of two studies is none that a plan could use; a time of zero would never wait; and a name
+/// with more shards than there are is no shard.
+#[test]
+fn lists_are_of_one_study() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml --shard 1/2 --into all");
+    bench.text("sweep study.toml --shard 1/3 --into all");
+    let told = bench.complaint("status all --unfinished", 2);
+    assert!(told.contains("several studies"), "{told}");
+    bench.text("sweep study.toml --shard 2/2 --into all");
+    assert_eq!(bench.run("status all --unfinished").stdout, b"2-3\n");
+    let told = bench.complaint("status all --watch --every 0s", 2);
+    assert!(told.contains("no time to wait"), "{told}");
+    std::fs::write(bench.path("all/x.shard-1-of-400000000.h5"), "").unwrap();
+    assert_eq!(bench.run("status all --unfinished").stdout, b"2-3\n");
+    let told = bench.complaint("sweep study.toml --shard 1/400000000 --into all", 2);
+    assert!(told.contains("is no shard"), "{told}");
+}
+
+/// A command whose names stand behind `--` goes on as it is shown.
+#[test]
+fn names_behind_two_dashes_stay_names() {
+    let bench = Bench::new(MIXED);
+    std::fs::rename(bench.path("study.toml"), bench.path("-s.toml")).unwrap();
+    bench.text("sweep --shard 1/2 --into all -- -s.toml");
+    goes_on_as_told(&bench);
+    bench.text("merge -o m.h5 all");
+    std::fs::rename(bench.path("m.h5"), bench.path("-m.h5")).unwrap();
+    bench.text("report -o page.html -- -m.h5");
+    bench.text("sweep --shard 1/2 --into all -- -s.toml");
+}

@@ -26,7 +26,7 @@ pub fn report(
     };
     let length = shown.saturating_sub(place.start);
     let diagnostic = diagnostic.with_label(LabeledSpan::at((place.start, length), "here"));
-    let source = Excerpt(terminal::source(source.to_owned()));
+    let source = Excerpt(terminal::source(source));
     Report::new(diagnostic).with_source_code(NamedSource::new(terminal::shown(file), source))
 }
 

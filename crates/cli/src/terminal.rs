@@ -10,6 +10,8 @@ use std::borrow::Cow;
 const ESCAPE: char = '\u{1b}';
 /// What stands for it in sources until they are shown: it is as long, so that places in them stay.
 const SUBSTITUTE: char = '\u{1a}';
+/// The same for a carriage return that ends no line.
+const RETURN: char = '\u{19}';
 
 /// Whether a terminal obeys a character, or shows what follows it in another order.
 fn is_obeyed(c: char) -> bool {
@@ -39,11 +41,18 @@ pub fn shown(text: &str) -> Cow<'_, str> {
 }
 
 /// The source of an excerpt, with every character at the place where it was: [`rendered`] shows it.
-pub fn source(text: String) -> String {
-    match text.contains(ESCAPE) {
-        true => text.replace(ESCAPE, SUBSTITUTE.encode_utf8(&mut [0; 4])),
-        false => text,
+pub fn source(text: &str) -> String {
+    let mut all = String::with_capacity(text.len());
+    let mut characters = text.chars().peekable();
+    while let Some(c) = characters.next() {
+        all.push(match c {
+            ESCAPE => SUBSTITUTE,
+            // Whoever read the file has begun no line there.
+            '\r' if characters.peek() != Some(&'\n') => RETURN,
+            c => c,
+        });
     }
+    all
 }
 
 /// A report whose texts went through [`shown`] and whose source through [`source`], and which may
@@ -65,7 +74,8 @@ pub fn rendered(report: &str) -> String {
 }
 
 fn without_substitutes(text: &str) -> String {
-    shown(&text.replace(SUBSTITUTE, "\\u{1b}")).into_owned()
+    let text = text.replace(SUBSTITUTE, "\\u{1b}");
+    shown(&text.replace(RETURN, "\\u{d}")).into_owned()
 }
 
 /// Length of the sequence at the start of a text that sets a colour or a weight; zero if it is none.
@@ -99,11 +109,18 @@ mod tests {
 
     #[test]
     fn reports_keep_their_own_colours_alone() {
-        let excerpt = source("title = \"\u{1b}[31m\u{202e}\"".to_owned());
+        let excerpt = source("title = \"\u{1b}[31m\u{202e}\"");
         let report = format!("\u{1b}[31;1m×\u{1b}[0m {excerpt}\u{1b}]0;x");
         assert_eq!(
             rendered(&report),
             "\u{1b}[31;1m×\u{1b}[0m title = \"\\u{1b}[31m\\u{202e}\"\\u{1b}]0;x"
         );
+    }
+
+    #[test]
+    fn a_return_that_ends_no_line_stays_in_it() {
+        let text = "a = 1\rb = 2\r\nc = 3\r";
+        assert_eq!(source(text).len(), text.len());
+        assert_eq!(rendered(&source(text)), "a = 1\\u{d}b = 2\r\nc = 3\\u{d}");
     }
 }

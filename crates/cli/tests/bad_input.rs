@@ -886,3 +886,20 @@ fn a_long_line_is_not_printed() {
     assert!(told.contains("case.toml:4:8"), "{}", &told[..500]);
     assert!(told.len() < 20_000, "{}", told.len());
 }
+
+/// A file whose lines end by carriage returns alone: its place is the same in words and beside the
+/// excerpt.
+#[test]
+fn a_place_among_carriage_returns_is_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = folder.path().join("case.toml");
+    std::fs::write(&case, "title = \"a\"\r[[building]]\rname = \"x\"\r").unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .env("NO_COLOR", "1")
+        .arg("check")
+        .arg(&case)
+        .output()
+        .unwrap();
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(told.matches("case.toml:1:13").count(), 2, "{told}");
+}

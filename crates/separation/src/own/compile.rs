@@ -626,7 +626,13 @@ fn word_of(text: &Text<'_>, word: &str, at: Range<usize>) -> Result<Part, CaseEr
     if StructuralSystem::from_name(word).is_none() {
         let known: Vec<_> = StructuralSystem::ALL.iter().map(|s| s.name()).collect();
         let message = format!("\"{}\" is no structural system", shortened(word));
-        let help = format!("known ones are {}", known.join(", "));
+        let help = match word.trim().parse::<f64>() {
+            Ok(_) => format!(
+                "write a number without quotes, as {}",
+                shortened(word.trim())
+            ),
+            Err(_) => format!("known ones are {}", known.join(", ")),
+        };
         return Err(text.error(at, message, &help));
     }
     Ok(part(Node::Word(word.to_owned()), Kind::Word, at))

@@ -213,6 +213,12 @@ fn wrong_ones_are_refused_with_their_place() {
             43,
             "no structural system",
         ),
+        (
+            "storeys_left == \"3\" ? u_left : 0",
+            NONE,
+            33,
+            "write a number without quotes, as 3",
+        ),
         ("[u_left]", NONE, 17, "cannot stand in an expression"),
         ("u_left.x", NONE, 23, "cannot stand in an expression"),
         ("ceil(height)", NONE, 22, "rounds pure numbers"),

@@ -17,20 +17,21 @@ fn the_example_against_its_measured_history() {
     let measured = &result["measured"];
     close(&measured["first_contact"], 5.2516e-3, 1e-2);
     close(&measured["peak_force"]["peak"], 1557.72e3, 1e-9);
-    close(&measured["impulse"], 20269.0, 1e-3);
-    close(&measured["duration"], 27.548e-3, 1e-3);
+    close(&measured["impulse"], 20270.9, 1e-4);
+    // The true end is 5.13 ms + 28.324 ms: 0.40 ms later, in the tail below the threshold.
+    close(&measured["duration"], 27.800e-3, 1e-3);
     let [exact, jankowski, rigid] = [0, 1, 2].map(|i| &result["models"][i]["against"]);
     close(&exact["peak_force_error_percent"], -1.51, 1e-2);
-    close(&exact["impulse_error_percent"], 0.19, 3e-2);
+    close(&exact["impulse_error_percent"], 0.1815, 1e-2);
     close(&exact["rms_force_difference_percent_of_peak"], 1.068, 1e-3);
     close(&jankowski["peak_force_error_percent"], -21.86, 1e-3);
     close(
         &jankowski["rms_force_difference_percent_of_peak"],
-        15.610,
+        15.540,
         1e-3,
     );
     assert!(rigid["peak_force_error_percent"].is_null());
-    close(&rigid["impulse_error_percent"], 0.19, 3e-2);
+    close(&rigid["impulse_error_percent"], 0.1815, 1e-2);
     // Extrapolated along F^(2/3), 9 us beside the true 5.13 ms.
     close(&exact["first_contact"], 5.1391e-3, 1e-4);
     // With the true time of first contact the difference is the noise.
@@ -46,7 +47,7 @@ fn the_example_against_its_measured_history() {
             "| measured ",
             "1557.7",
             "-21.86",
-            "15.61",
+            "15.54",
             "impulse: each over its own contact",
         ],
     );

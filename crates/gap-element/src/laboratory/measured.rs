@@ -101,7 +101,7 @@ pub struct Difference {
 impl MeasuredForce {
     /// Counts the time of samples of time (s) and force (N) from first contact, and finds peak,
     /// end and impulse of the contact. First contact is at `shift` (s), else where the line
-    /// through the first two samples above `threshold` of the peak meets zero force.
+    /// through the first sample above `threshold` of the peak and one of twice its force meets zero.
     ///
     /// # Errors
     /// A threshold that does not lie between 0 and 1, no force above zero, or a first contact

@@ -48,7 +48,7 @@ pub fn text(
     let found = match arguments.shift {
         Some(_) => "as given by --shift".to_owned(),
         None => format!(
-            "extrapolated to zero force from the first two samples above {} % of the peak; of each law along F^(1/n), n its exponent",
+            "extrapolated to zero force from the first sample above {} % of the peak and one of twice its force; of each law along F^(1/n), n its exponent",
             significant(100.0 * threshold(arguments)?)
         ),
     };

@@ -1,6 +1,6 @@
 //! The first event of every level inside a step.
 
-use pounding_gap_element::{Direction, Guard, Transition};
+use pounding_gap_element::{Direction, Guard, Phase, Transition};
 
 use super::pair::Scene;
 use super::rows::{LevelRows, ModalRow};
@@ -10,7 +10,7 @@ use super::tables::{TERMS, Terms};
 use super::touch::Touch;
 use super::touch_series::TouchSeries;
 use crate::bernstein::first_rise_of_series;
-use crate::contact::Contacts;
+use crate::contact::{Contact, Contacts};
 use crate::events::{Candidate, EventKind};
 use crate::polynomial::{Polynomial, first_rise_near, first_rise_of, fit, value};
 use crate::system::System;
@@ -228,7 +228,24 @@ fn passage(
                 let (delta, rate) = (series.at(&motion.delta, x).0, series.at(&motion.rate, x).0);
                 guard(system, touch, transition, delta, rate)
             };
-            let theta = first_rise_of(at, NEAR)?;
+            let Contact {
+                phase, collision, ..
+            } = &touch.contact;
+            let model = &system.levels()[touch.level].model;
+            // The function of a contact that has let go is not that of its force, which is zero, but of
+            // the law's: affine if that needs no power.
+            let affine = model.is_affine(collision, *phase)
+                && (*phase != Phase::Released || model.smooth_at_closure());
+            let theta = if affine {
+                // As smooth as the motion.
+                let delta = series.at_nodes(&motion.delta);
+                let rate = series.at_nodes(&motion.rate);
+                let samples =
+                    std::array::from_fn(|i| guard(system, touch, transition, delta[i], rate[i]));
+                near(&fit(&samples))?
+            } else {
+                first_rise_of(at, NEAR)?
+            };
             if theta <= 0.0 {
                 return Some(theta);
             }

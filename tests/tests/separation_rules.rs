@@ -233,6 +233,39 @@ fn a_force_that_returns_as_its_dashpot_fades_is_found() {
     }
 }
 
+/// A contact that has let go stores nothing: between that and parting, the ledger counts the energy left
+/// in its spring as lost. A body as good as free at a wall, stopped in between.
+#[test]
+fn what_is_left_in_the_spring_counts_as_lost_once_it_lets_go() {
+    let adams = [("stiffness", 5.0e8), ("damping", 2.0e5)];
+    let adams = registry::build("adams_impact", &ModelParameters::from_pairs(&adams));
+    let laws = [
+        adams.unwrap().into(),
+        kelvin_voigt(SeparationRule::NoTension),
+    ];
+    for law in laws {
+        let free = collide(law.as_ref(), &against_wall(0.3)).unwrap();
+        let parted = free.history.last().unwrap().time;
+        assert!(parted > 1.01 * free.duration, "{parted} {}", free.duration);
+        let body = vec![single_storey("body", MASS, 1.0e-9)];
+        let mut system = System::new(body, constant_ground(0.0, 4.0));
+        let pair = (Floor::Storey(0, 0), Floor::Wall, 0.0, law);
+        let names = ["body".to_owned(), "wall".to_owned()];
+        system.add_gap("gap", names, vec![pair]).unwrap();
+        let system = system.with_initial_state(&[0.0], &[0.3]).unwrap();
+        let outcome = go(&system, 0.5 * (free.duration + parted));
+        let energy = outcome.energy.end;
+        let before = 0.5 * MASS * 0.3 * 0.3;
+        assert!(energy.strain.abs() < 1e-9 * before, "{}", energy.strain);
+        let lost = free.energy_dissipated;
+        assert!(
+            (energy.impact - lost).abs() < 1e-7 * before,
+            "{} {lost}",
+            energy.impact
+        );
+    }
+}
+
 /// Restitution of a free collision with this acceleration, by the classical Runge-Kutta method.
 fn free_restitution(acceleration: impl Fn([f64; 2]) -> f64, speed: f64, step: f64) -> f64 {
     let mut state = [0.0, speed];

@@ -263,7 +263,8 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
     }
 
     /// Recoverable energy (J) at penetration `delta` (m): the part of the work
-    /// done on the contact that its spring would give back. Zero in [`Phase::Released`].
+    /// done on the contact that its spring would give back. In [`Phase::Released`] what it gives once
+    /// it acts again: until then it counts as lost.
     fn stored_energy(
         &self,
         collision: &Collision,

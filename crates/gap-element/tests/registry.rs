@@ -4,7 +4,7 @@
 use pounding_catalogue::DefinitionError;
 use pounding_gap_element::{
     AchievedRestitution, Bodies, GapElementError, ImpactModel, MAXIMUM_CONSTANTS, Memory,
-    ModelDescriptor, ModelParameters, Phase, REQUESTED, SeparationRule, Target, collide, registry,
+    ModelDescriptor, ModelParameters, Phase, REQUESTED, SeparationRule, collide, registry,
 };
 use proptest::prelude::*;
 
@@ -423,29 +423,4 @@ fn the_bilinear_law_without_loss_is_a_spring() {
             "{stored}"
         );
     }
-}
-
-/// What has let go gives nothing back: the energy left in its spring is lost.
-#[test]
-fn a_contact_that_has_let_go_stores_nothing() {
-    let mut releasing = 0;
-    for descriptor in registry::descriptors() {
-        for rule in descriptor.separation_rules {
-            let parameters = descriptor.example_parameters(0.5).with_separation(*rule);
-            let Ok(model) = registry::build(descriptor.name, &parameters) else {
-                continue;
-            };
-            let phases = [Phase::Approach, Phase::Restitution, Phase::Branch(0)];
-            let mut ways = phases.iter().flat_map(|p| model.transitions(*p));
-            if !ways.any(|way| way.target == Target::Phase(Phase::Released)) {
-                continue;
-            }
-            releasing += 1;
-            let (collision, memory) = (model.begin(0.5, 2.0e4), Memory::default());
-            let stored = |phase| model.stored_energy(&collision, &memory, phase, 1.0e-3);
-            assert_eq!(stored(Phase::Released), 0.0, "{} {rule:?}", descriptor.name);
-            assert!(stored(Phase::Approach) > 0.0, "{}", descriptor.name);
-        }
-    }
-    assert!(releasing > 15, "{releasing}");
 }

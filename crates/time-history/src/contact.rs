@@ -1,6 +1,6 @@
 //! The state of every contact level: open, or closed in a phase of a collision.
 
-use pounding_gap_element::{Collision, Force, Memory, Phase};
+use pounding_gap_element::{Collision, Direction, Force, Guard, Memory, Phase, Transition};
 
 use crate::elements::Elements;
 use crate::system::{ContactLevel, System};
@@ -170,14 +170,33 @@ impl Contact {
             .raw_force(&self.collision, &self.memory, self.phase, delta, velocity)
     }
 
-    pub(crate) fn guard(&self, level: &ContactLevel, index: u8, delta: f64, velocity: f64) -> f64 {
-        level
-            .model
-            .guard(index, &self.collision, &self.memory, delta, velocity)
+    /// The function of a transition, positive once it fires, at a penetration and a velocity; of those
+    /// of a stuck contact, which are of forces, not a number.
+    pub(crate) fn transition_function(
+        &self,
+        level: &ContactLevel,
+        transition: Transition,
+        delta: f64,
+        velocity: f64,
+    ) -> f64 {
+        let (collision, memory) = (&self.collision, &self.memory);
+        let value = match transition.guard {
+            Guard::Velocity => velocity,
+            Guard::RawForce => self.raw_force(level, delta, velocity),
+            Guard::Model(index) => level.model.guard(index, collision, memory, delta, velocity),
+            Guard::StickLower | Guard::StickUpper => f64::NAN,
+        };
+        match transition.direction {
+            Direction::Rising => value,
+            Direction::Falling => -value,
+        }
     }
 
-    /// Recoverable energy in the contact (J).
+    /// Recoverable energy in the contact (J): none once it has let go.
     pub(crate) fn stored_energy(&self, level: &ContactLevel, delta: f64) -> f64 {
+        if self.phase == Phase::Released {
+            return 0.0;
+        }
         level
             .model
             .stored_energy(&self.collision, &self.memory, self.phase, delta)

@@ -14,7 +14,7 @@ use crate::dynamics::{Dynamics, Instant, Layout};
 use crate::elements::guard_function;
 use crate::methods::{Context, Method};
 use crate::polynomial::{
-    COEFFICIENTS, Polynomial, difference, first_rise, first_rise_of, fit, fit_nodes, value,
+    COEFFICIENTS, EXACT, Polynomial, difference, first_rise, first_rise_of, fit, fit_nodes, value,
 };
 
 /// What happens at a level, or to an element.
@@ -29,9 +29,6 @@ pub(crate) enum EventKind {
     /// An element leaves its branch.
     Branch(LawGuard),
 }
-
-/// Precision (of theta) of an event, as the search has it of polynomials.
-const PRECISION: f64 = 1.0e-15;
 
 /// An event inside a trial step.
 #[derive(Debug, Clone, Copy)]
@@ -79,7 +76,7 @@ impl Finder {
             let kinds = kinds(context, level);
             for kind in kinds.into_iter().flatten() {
                 let of_law = law_guard(context, method, level, kind);
-                let of_law = of_law.map(|function| first_rise_of(function, PRECISION));
+                let of_law = of_law.map(|function| first_rise_of(function, EXACT));
                 let rise = of_law.unwrap_or_else(|| {
                     first_rise(&self.guard(context, method, level, kind, tau, step))
                 });
@@ -246,15 +243,7 @@ fn law_guard<'a>(
     let delta = penetration(context, method, level);
     let rate = velocity(context, method, level);
     Some(move |x: f64| {
-        let (delta, rate) = (value(&delta, x), value(&rate, x));
-        let function = match transition.guard {
-            Guard::Model(index) => contact.guard(place, index, delta, rate),
-            _ => contact.raw_force(place, delta, rate),
-        };
-        match transition.direction {
-            Direction::Rising => function,
-            Direction::Falling => -function,
-        }
+        contact.transition_function(place, transition, value(&delta, x), value(&rate, x))
     })
 }
 

@@ -162,14 +162,9 @@ impl<'a> Flight<'a> {
         if velocity > CREEP * self.collision.approach_velocity {
             return false;
         }
-        // The spring of floors that have let go acts again once they are pressed together.
-        let phase = match self.phase {
-            Phase::Released => Phase::Approach,
-            other => other,
-        };
         let stored = self
             .model
-            .stored_energy(&self.collision, &self.memory, phase, delta);
+            .stored_energy(&self.collision, &self.memory, self.phase, delta);
         let unread = self.read_at.is_some_and(|t| t > self.time);
         let least = if pressing > 0.0 {
             mass * pressing * delta

@@ -102,10 +102,7 @@ impl ImpactModel for KuwabaraKono {
     fn raw_force(&self, _: &Collision, _: &Memory, _: Phase, delta: f64, velocity: f64) -> f64 {
         delta + self.time * velocity
     }
-    fn stored_energy(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64) -> f64 {
-        if phase == Phase::Released {
-            return 0.0;
-        }
+    fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         elastic(self.stiffness, 1.5, delta).0 * delta / 2.5
     }
     fn transitions(&self, phase: Phase) -> &'static [Transition] {

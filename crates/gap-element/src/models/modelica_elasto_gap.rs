@@ -121,10 +121,7 @@ impl ImpactModel for ElastoGap {
     fn is_affine(&self, _: &Collision, _: Phase) -> bool {
         true
     }
-    fn stored_energy(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64) -> f64 {
-        if phase == Phase::Released {
-            return 0.0;
-        }
+    fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         hunt_crossley::stored_energy(self.stiffness, 1.0, delta)
     }
     fn transitions(&self, phase: Phase) -> &'static [Transition] {

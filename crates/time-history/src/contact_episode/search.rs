@@ -40,16 +40,9 @@ fn transitions<'a>(system: &'a System, touch: &Touch) -> &'a [Transition] {
 /// of a stuck contact do not come up here.
 fn guard(system: &System, touch: &Touch, transition: Transition, delta: f64, rate: f64) -> f64 {
     let level = &system.levels()[touch.level];
-    let value = match transition.guard {
-        Guard::Velocity => rate,
-        Guard::RawForce => touch.contact.raw_force(level, delta, rate),
-        Guard::Model(index) => touch.contact.guard(level, index, delta, rate),
-        Guard::StickLower | Guard::StickUpper => f64::NAN,
-    };
-    match transition.direction {
-        Direction::Rising => value,
-        Direction::Falling => -value,
-    }
+    touch
+        .contact
+        .transition_function(level, transition, delta, rate)
 }
 
 /// The guard of an event of a closed level.

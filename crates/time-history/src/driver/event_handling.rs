@@ -1,8 +1,6 @@
 //! What the driver does at an event: cut the step there, process it, change modes.
 
-use pounding_gap_element::{
-    Direction, Guard as ContactGuard, Memory, Phase, SeparationRule, Target, Transition,
-};
+use pounding_gap_element::{Memory, Phase, SeparationRule, Target, Transition};
 
 use pounding_hysteresis::Guard;
 
@@ -151,13 +149,9 @@ impl Driver<'_> {
         let Some(contact) = self.contacts.contact(event.level) else {
             return f64::INFINITY;
         };
-        let guard = level.model.transitions(contact.phase)[index].guard;
-        let function = |delta: f64, rate: f64| match guard {
-            ContactGuard::Velocity => rate,
-            ContactGuard::RawForce => contact.raw_force(level, delta, rate),
-            ContactGuard::Model(index) => contact.guard(level, index, delta, rate),
-            ContactGuard::StickLower | ContactGuard::StickUpper => f64::INFINITY,
-        };
+        let transition = level.model.transitions(contact.phase)[index];
+        let function =
+            |delta: f64, rate: f64| contact.transition_function(level, transition, delta, rate);
         let delta = self.contacts.penetration(self.system, event.level, u);
         let rate = level.relative(v);
         let here = function(delta, rate);
@@ -404,22 +398,13 @@ impl Driver<'_> {
         }
         let transitions = level.model.transitions(contact.phase);
         let fires = |index: usize, transition: &Transition| {
-            let value = match transition.guard {
-                ContactGuard::Velocity => rate,
-                ContactGuard::RawForce => contact.raw_force(level, delta, rate),
-                ContactGuard::Model(index) => contact.guard(level, index, delta, rate),
-                ContactGuard::StickLower | ContactGuard::StickUpper => return false,
-            };
             let kind = EventKind::Transition(index);
             let event = Candidate {
                 level: l,
                 kind,
                 theta: 0.0,
             };
-            let rises = match transition.direction {
-                Direction::Rising => value,
-                Direction::Falling => -value,
-            };
+            let rises = contact.transition_function(level, *transition, delta, rate);
             rises > self.round_off(event, &self.state)
         };
         let index = (0..transitions.len()).find(|i| fires(*i, &transitions[*i]))?;

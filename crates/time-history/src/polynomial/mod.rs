@@ -29,6 +29,9 @@ const SHORTEST: f64 = 1.0e-13;
 /// Relative size below which a leading coefficient is round-off.
 const ROUND_OFF: f64 = 1.0e-13;
 
+/// Precision (of theta) of a crossing that nothing corrects afterwards.
+pub(crate) const EXACT: f64 = 1.0e-15;
+
 /// Nodes and weights of the Gauss rule with six points on (0, 1), exact to degree 11.
 pub(crate) const GAUSS: [(f64, f64); 6] = [
     (0.033_765_242_898_423_99, 0.085_662_246_189_585_17),
@@ -113,7 +116,7 @@ fn halves(b: &Polynomial) -> (Polynomial, Polynomial) {
 /// at `theta = 0` and divided out: the same root is not found again, while a
 /// function that truly leaves through it is reported at once.
 pub(crate) fn first_rise(p: &Polynomial) -> Option<f64> {
-    first_rise_near(p, 1.0e-15)
+    first_rise_near(p, EXACT)
 }
 
 /// The same to this precision only, for what is corrected by the function itself.

@@ -157,10 +157,7 @@ impl ImpactModel for HuntCrossley {
             dashpot_exponent: self.exponent,
         })
     }
-    fn stored_energy(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64) -> f64 {
-        if phase == Phase::Released {
-            return 0.0;
-        }
+    fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         super::stored_energy(self.stiffness, self.exponent, delta)
     }
     fn transitions(&self, phase: Phase) -> &'static [Transition] {

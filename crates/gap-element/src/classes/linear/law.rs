@@ -163,10 +163,7 @@ impl ImpactModel for LinearClass {
             dashpot_exponent: 0.5 * (self.exponent - 1.0),
         })
     }
-    fn stored_energy(&self, _: &Collision, _: &Memory, phase: Phase, delta: f64) -> f64 {
-        if phase == Phase::Released {
-            return 0.0;
-        }
+    fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
         hunt_crossley::stored_energy(self.stiffness, self.exponent, delta)
     }
     fn transitions(&self, phase: Phase) -> &'static [Transition] {

@@ -95,7 +95,7 @@ fn process_then_scale() {
         assert!((a - 3.0 * (2.0 * b - 0.1)).abs() < 1e-13);
     }
     assert!(done.samples()[400..].iter().all(|a| *a == 0.0));
-    let steps: Vec<_> = done.steps().iter().map(|s| s.step).collect();
+    let steps: Vec<_> = done.steps().iter().map(|s| &*s.step).collect();
     assert_eq!(steps, ["scale", "offset", "pad"]);
     let echo = done.echo().join("\n");
     assert!(echo.contains("offset: offset 0.1 m/s2"), "{echo}");

@@ -3,7 +3,7 @@
 use std::io::Read;
 use std::path::{Path, PathBuf};
 
-use pounding_files::{FileUse, LeftOver, PartFile, ask_of_targets, left_over};
+use pounding_files::{AskedOfTargets, FileUse, LeftOver, PartFile, ask_of_targets, left_over};
 use pounding_results::{Kind, Label};
 use pounding_study::ShardName;
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
@@ -52,10 +52,17 @@ pub fn reads_too(
 /// Holds the files of a command against one another, and each output once more right before its
 /// file takes its place: a link may lead from there to an input by then.
 pub fn inputs_stay(files: &FileUse) -> Result<(), Failure> {
+    inputs_stay_meanwhile(files)?.to_the_end();
+    Ok(())
+}
+
+/// The same, for work that ends before the process does.
+pub fn inputs_stay_meanwhile(files: &FileUse) -> Result<AskedOfTargets, Failure> {
     files.check()?;
     let files = files.clone();
-    ask_of_targets(move |target| files.check_output(target).map_err(|e| e.to_string()));
-    Ok(())
+    Ok(ask_of_targets(move |target| {
+        files.check_output(target).map_err(|e| e.to_string())
+    }))
 }
 
 /// Finds out before the work, not after it, that outputs have no place: tables, pages and figures.
@@ -96,18 +103,21 @@ pub fn no_result_stands(path: &Path) -> Result<(), Failure> {
 pub fn no_result_comes(path: &Path) -> Result<(), Failure> {
     no_result_stands(path)?;
     let output = path.to_owned();
-    asked_again(path, move || no_result_stands(&output));
+    asked_again(path, move || no_result_stands(&output)).to_the_end();
     Ok(())
 }
 
 /// Has a check of an output made once more right before its file takes its place: another process
 /// may have been there.
-fn asked_again(output: &Path, check: impl Fn() -> Result<(), Failure> + Send + Sync + 'static) {
+fn asked_again(
+    output: &Path,
+    check: impl Fn() -> Result<(), Failure> + Send + Sync + 'static,
+) -> AskedOfTargets {
     let output = output.to_owned();
     ask_of_targets(move |target| match target == output {
         true => check().map_err(|failure| failure.reason()),
         false => Ok(()),
-    });
+    })
 }
 
 /// Whether a file has bytes that would be lost. Devices and pipes have none.
@@ -144,7 +154,7 @@ pub fn page_is_spared(path: &Path, named: bool) -> Result<(), Failure> {
     let before = judged(path)?;
     before.iter().for_each(|said| note(said));
     let output = path.to_owned();
-    asked_again(path, move || as_before(&output, &before, judged(&output)));
+    asked_again(path, move || as_before(&output, &before, judged(&output))).to_the_end();
     Ok(())
 }
 
@@ -206,6 +216,12 @@ impl Replaced<'_> {
         if let Some(said) = self.judged(goes_on)? {
             note(&said);
         }
+        self.judged_again().to_the_end();
+        Ok(())
+    }
+
+    /// Has what comes there before the result takes its place judged then.
+    pub fn judged_again(&self) -> AskedOfTargets {
         let before = self.judged(false).unwrap_or_default();
         let (output, file) = (self.output.to_owned(), self.file.map(Path::to_owned));
         let (kind, named, text_sha256) = (self.kind, self.named, self.text_sha256.clone());
@@ -218,11 +234,10 @@ impl Replaced<'_> {
                 named,
             };
             as_before(&output, &before, now.judged(false))
-        });
-        Ok(())
+        })
     }
 
-    /// The same, with what there is to say of the one that is replaced.
+    /// What [`spared`](Self::spared) refuses now, or says of the one that is replaced.
     ///
     /// # Errors
     /// As [`spared`](Self::spared).

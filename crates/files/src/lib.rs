@@ -15,6 +15,6 @@ mod part_file;
 
 pub use file_use::{FileUse, FileUseError, same_file};
 pub use part_file::{
-    LeftOver, PartFile, PlaceTaken, ask_of_targets, free_name, left_over, remove_left_by,
-    remove_part_files, runs_here, write,
+    AskedOfTargets, LeftOver, PartFile, PlaceTaken, ask_of_targets, free_name, left_over,
+    remove_left_by, remove_part_files, runs_here, write,
 };

@@ -18,17 +18,41 @@ fn standing() -> MutexGuard<'static, Vec<PathBuf>> {
 /// What is asked of a target right before a file takes its place; why it may not, if so.
 type Question = dyn Fn(&Path) -> std::result::Result<(), String> + Send + Sync;
 
-/// All questions of this process.
-static QUESTIONS: Mutex<Vec<Box<Question>>> = Mutex::new(Vec::new());
+/// All questions that are asked, each with its number.
+static QUESTIONS: Mutex<Vec<(u64, Box<Question>)>> = Mutex::new(Vec::new());
+
+fn questions() -> MutexGuard<'static, Vec<(u64, Box<Question>)>> {
+    QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// A question that is asked of targets until this is dropped.
+#[derive(Debug)]
+#[must_use = "dropped, the question is asked no more"]
+pub struct AskedOfTargets(u64);
+
+impl AskedOfTargets {
+    /// Has the question asked as long as the process lives.
+    pub fn to_the_end(self) {
+        std::mem::forget(self);
+    }
+}
+
+impl Drop for AskedOfTargets {
+    fn drop(&mut self) {
+        questions().retain(|(number, _)| *number != self.0);
+    }
+}
 
 /// Has this process ask something of every target, as it was named, right before a file takes its
 /// place: what was found out before the work, another process may have changed since. Where the
 /// answer is why it may not, the file gets a name of its own: see [`PlaceTaken`].
 pub fn ask_of_targets(
     question: impl Fn(&Path) -> std::result::Result<(), String> + Send + Sync + 'static,
-) {
-    let mut all = QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner);
-    all.push(Box::new(question));
+) -> AskedOfTargets {
+    let mut all = questions();
+    let number = all.last().map_or(0, |(last, _)| last + 1);
+    all.push((number, Box::new(question)));
+    AskedOfTargets(number)
 }
 
 /// A file that has not taken its place, and stands whole beside it. [`PartFile::finish`] gives it
@@ -140,8 +164,8 @@ impl PartFile {
     /// What the system said; the target is as it was then, and the part file is removed. Or
     /// [`PlaceTaken`]: the target is as it was as well, and the file stands beside it.
     pub fn finish(self) -> Result<()> {
-        let questions = QUESTIONS.lock().unwrap_or_else(PoisonError::into_inner);
-        self.finish_if(|target| questions.iter().try_for_each(|question| question(target)))
+        let all = questions();
+        self.finish_if(|target| all.iter().try_for_each(|(_, question)| question(target)))
     }
 
     fn finish_if(mut self, may: impl Fn(&Path) -> std::result::Result<(), String>) -> Result<()> {

@@ -1,8 +1,9 @@
 //! An accelerogram with its origin.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::direction::Orientation;
 use crate::error::{GroundMotionError, bound};
@@ -13,7 +14,7 @@ use crate::step_record::StepRecord;
 use crate::unit::AccelerationUnit;
 
 /// What the agency did to a series before it published it.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 pub enum Processing {
     /// The file does not say.
     #[default]
@@ -25,12 +26,12 @@ pub enum Processing {
 }
 
 /// Where a record came from and how it was understood.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 pub struct Origin {
     /// File name as given.
     pub file: String,
     /// Name of the format.
-    pub format: &'static str,
+    pub format: Cow<'static, str>,
     /// Header text that names event, station or component.
     pub title: String,
     /// Component as the file names it; empty if it does not.
@@ -98,17 +99,25 @@ pub struct Peak {
     pub time: f64,
 }
 
+/// What an accelerogram tells of itself besides its samples; serialised, it goes with them to
+/// another process.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct AccelerogramHistory {
+    /// Factor applied to the recorded values.
+    scale: f64,
+    /// Velocity (m/s) and displacement (m) at the first sample.
+    initial: Option<(f64, f64)>,
+    origin: Option<Origin>,
+    steps: Vec<StepRecord>,
+}
+
 /// Ground acceleration at even steps, the first sample at time zero.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Accelerogram {
     // Shared by copies; a vector, as a slice would be a second copy while a file is read.
     samples: Arc<Vec<f64>>,
     time_step: f64,
-    scale: f64,
-    /// Velocity (m/s) and displacement (m) at the first sample.
-    initial: Option<(f64, f64)>,
-    origin: Option<Origin>,
-    steps: Vec<StepRecord>,
+    history: AccelerogramHistory,
 }
 
 impl Accelerogram {
@@ -144,22 +153,37 @@ impl Accelerogram {
         Ok(Self {
             samples: Arc::new(samples.into_iter().map(|a| a * factor).collect()),
             time_step,
-            scale: 1.0,
-            initial: None,
-            origin: None,
-            steps: Vec::new(),
+            history: AccelerogramHistory {
+                scale: 1.0,
+                initial: None,
+                origin: None,
+                steps: Vec::new(),
+            },
         })
+    }
+
+    /// What it tells of itself besides its samples.
+    #[must_use]
+    pub fn history(&self) -> &AccelerogramHistory {
+        &self.history
+    }
+
+    /// The same samples with what another accelerogram tells, of which they are a copy.
+    #[must_use]
+    pub fn with_history(mut self, history: AccelerogramHistory) -> Self {
+        self.history = history;
+        self
     }
 
     /// Velocity (m/s) and displacement (m) at the first sample, where the file states them and the
     /// record is still as it was read, but for its scale.
     #[must_use]
     pub fn initial(&self) -> Option<(f64, f64)> {
-        self.initial
+        self.history.initial
     }
 
     pub(crate) fn with_initial(mut self, initial: Option<(f64, f64)>) -> Self {
-        self.initial = initial;
+        self.history.initial = initial;
         self
     }
 
@@ -186,7 +210,7 @@ impl Accelerogram {
                 peak.value
             ));
         }
-        self.origin = Some(origin);
+        self.history.origin = Some(origin);
         self
     }
 
@@ -199,15 +223,16 @@ impl Accelerogram {
     ) -> Result<Self, GroundMotionError> {
         let unit = AccelerationUnit::MetrePerSecondSquared;
         let mut other = Self::new(samples, unit, time_step)?;
-        other.scale = self.scale;
-        other.origin.clone_from(&self.origin);
-        other.steps.clone_from(&self.steps);
+        other.history = AccelerogramHistory {
+            initial: None,
+            ..self.history.clone()
+        };
         Ok(other)
     }
 
     /// Says in which unit (m/s2) the values of its file are.
     pub(crate) fn read_in(&mut self, unit_in_si: f64) {
-        if let Some(origin) = &mut self.origin {
+        if let Some(origin) = &mut self.history.origin {
             origin.unit_in_si = Some(unit_in_si);
         }
     }
@@ -215,7 +240,7 @@ impl Accelerogram {
     /// The same record whose first sample is so much later (s) than before. A printed time that is
     /// not understood is left out, with a warning: it would be that of another sample.
     pub(crate) fn starting_later(mut self, by: f64) -> Self {
-        if let Some(origin) = &mut self.origin {
+        if let Some(origin) = &mut self.history.origin {
             origin.start_later(by);
         }
         self
@@ -223,7 +248,7 @@ impl Accelerogram {
 
     /// The same record with positive values in another direction; `None`: not known.
     pub(crate) fn pointing(mut self, orientation: Option<Orientation>) -> Self {
-        if let Some(origin) = &mut self.origin {
+        if let Some(origin) = &mut self.history.origin {
             origin.orientation = orientation;
         }
         self
@@ -231,7 +256,7 @@ impl Accelerogram {
 
     /// Notes that these steps made it what it is.
     pub(crate) fn note(&mut self, steps: &[StepRecord]) {
-        self.steps.extend_from_slice(steps);
+        self.history.steps.extend_from_slice(steps);
     }
 
     /// Samples (m/s2), scale applied.
@@ -261,19 +286,19 @@ impl Accelerogram {
     /// Factor applied to the recorded values.
     #[must_use]
     pub fn scale(&self) -> f64 {
-        self.scale
+        self.history.scale
     }
 
     /// Where it came from; `None` if it was built in memory.
     #[must_use]
     pub fn origin(&self) -> Option<&Origin> {
-        self.origin.as_ref()
+        self.history.origin.as_ref()
     }
 
     /// What was done to it since it was read or how it was generated, in order.
     #[must_use]
     pub fn steps(&self) -> &[StepRecord] {
-        &self.steps
+        &self.history.steps
     }
 
     /// Peak ground acceleration (m/s2) and its time.
@@ -305,10 +330,16 @@ impl Accelerogram {
             )));
         }
         let mut scaled = self.clone();
-        scaled.scale *= factor;
-        scaled.initial = self.initial.map(|(v, d)| (v * factor, d * factor));
+        scaled.history.scale *= factor;
+        scaled.history.initial = self.initial().map(|(v, d)| (v * factor, d * factor));
         if factor != 1.0 {
             scaled.samples = Arc::new(self.samples.iter().map(|a| a * factor).collect());
+        }
+        let peak = scaled.peak().value;
+        if !(peak.is_finite() && scaled.scale().is_finite()) {
+            return Err(GroundMotionError::Invalid(format!(
+                "scaled by {factor:e}, the record has a peak of {peak} m/s2"
+            )));
         }
         Ok(scaled)
     }
@@ -331,7 +362,7 @@ impl Accelerogram {
     #[must_use]
     pub fn echo(&self) -> Vec<String> {
         let mut lines = Vec::new();
-        if let Some(origin) = &self.origin {
+        if let Some(origin) = &self.history.origin {
             lines.push(format!("{} ({})", origin.file, origin.format));
             if !origin.title.is_empty() {
                 lines.push(origin.title.clone());
@@ -344,7 +375,7 @@ impl Accelerogram {
                 origin.unit, origin.time_step
             ));
         }
-        lines.extend(self.steps.iter().map(ToString::to_string));
+        lines.extend(self.history.steps.iter().map(ToString::to_string));
         let peak = self.peak();
         lines.push(format!(
             "{} samples at {} s, duration {} s, peak {:.5} m/s2 = {:.5} g at {:.4} s, scale {}",
@@ -354,7 +385,7 @@ impl Accelerogram {
             peak.value,
             peak.value / AccelerationUnit::StandardGravity.in_si(),
             peak.time,
-            self.scale
+            self.history.scale
         ));
         lines
     }

@@ -1,5 +1,7 @@
 //! Directions as agencies write them: `90`, `90 deg`, `N00E`, `S 58 W`, `N-S`, `UP`.
 
+use serde::{Deserialize, Serialize};
+
 /// Where the positive values of a component point.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Direction {
@@ -12,7 +14,7 @@ pub(crate) enum Direction {
 }
 
 /// Where the positive values of a component point, as header or metadata state it.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Orientation {
     /// Azimuth (degrees), from north over east.
     pub azimuth: f64,

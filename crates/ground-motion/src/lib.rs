@@ -40,7 +40,7 @@ mod volume;
 mod volume_1;
 mod volume_2;
 
-pub use accelerogram::{Accelerogram, Origin, Peak, Processing};
+pub use accelerogram::{Accelerogram, AccelerogramHistory, Origin, Peak, Processing};
 pub use direction::Orientation;
 pub use error::GroundMotionError;
 pub use formats::{Format, read, read_all, read_all_bytes, read_bytes};

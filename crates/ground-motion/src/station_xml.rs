@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node, ParsingOptions};
+use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::direction::Orientation;
@@ -64,7 +65,7 @@ pub(crate) struct Sensitivity {
 }
 
 /// A file that gives the sensitivity of a record.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct ResponseFile {
     /// Its path as given, or as found beside the record.
     pub file: String,

@@ -1,25 +1,26 @@
 //! What was done to a record, with its numbers.
 
+use std::borrow::Cow;
 use std::fmt;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// One number of a step.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepNumber {
     /// What it is, spelled out.
-    pub name: &'static str,
+    pub name: Cow<'static, str>,
     /// Value (SI).
     pub value: f64,
     /// SI unit; `-` where there is none.
-    pub unit: &'static str,
+    pub unit: Cow<'static, str>,
 }
 
 /// One step of processing or generation as it was done.
-#[derive(Debug, Clone, PartialEq, Serialize)]
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct StepRecord {
     /// Name of the step.
-    pub step: &'static str,
+    pub step: Cow<'static, str>,
     /// What was asked for and what came of it.
     pub numbers: Vec<StepNumber>,
     /// What else the user should know.
@@ -29,14 +30,18 @@ pub struct StepRecord {
 impl StepRecord {
     pub(crate) fn new(step: &'static str) -> Self {
         Self {
-            step,
+            step: step.into(),
             numbers: Vec::new(),
             remarks: Vec::new(),
         }
     }
 
     pub(crate) fn number(mut self, name: &'static str, value: f64, unit: &'static str) -> Self {
-        self.numbers.push(StepNumber { name, value, unit });
+        self.numbers.push(StepNumber {
+            name: name.into(),
+            value,
+            unit: unit.into(),
+        });
         self
     }
 

@@ -203,7 +203,7 @@ fn records_of_steps() {
     assert_eq!(steps[0], ProcessingStep::Sign);
     assert!(matches!(steps[3], ProcessingStep::Scale(_)));
     let done = process(&ground, &steps).unwrap();
-    let names: Vec<&str> = done.steps.iter().map(|s| s.step).collect();
+    let names: Vec<&str> = done.steps.iter().map(|s| &*s.step).collect();
     assert_eq!(names, ["sign", "offset", "pad", "scale"]);
     let json = serde_json::to_value(&done.steps).unwrap();
     assert_eq!(json[2]["numbers"][1]["name"], "after");

@@ -45,7 +45,7 @@ proptest! {
     fn pounding_csv_returns_every_bit(written in any_written()) {
         let text = write_pounding_csv(&written).unwrap();
         let read = read_all_bytes("a.csv", text.as_bytes(), &keep()).unwrap();
-        prop_assert_eq!(read.series[0].origin.format, "pounding_csv");
+        prop_assert_eq!(&read.series[0].origin.format, "pounding_csv");
         prop_assert_eq!(&read.series[0].samples, &written.samples);
         prop_assert_eq!(&read.series[0].component, "N10E");
         prop_assert_eq!(&read.series[0].origin.history, &["Step: made up".to_owned()]);

@@ -10,6 +10,7 @@ use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, Format, GroundMotionError, Quantity, ReadOptions, read,
 };
+use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
@@ -98,6 +99,26 @@ impl Motion {
         };
         let record = py.detach(|| read(&path, &options)).map_err(refused)?;
         Ok(Self::of(record, Some(here(path))))
+    }
+
+    /// A motion as it was in another process: samples (m/s2) and what [`Self::history_json`] told.
+    #[staticmethod]
+    fn restored(
+        acceleration: PyReadonlyArray1<'_, f64>,
+        time_step: f64,
+        history: &str,
+        file: Option<PathBuf>,
+    ) -> PyResult<Self> {
+        let history = serde_json::from_str(history)
+            .map_err(|e| PyValueError::new_err(format!("a motion is damaged: {e}")))?;
+        let made = Self::new(acceleration, time_step, "m/s2")?;
+        let record = Arc::unwrap_or_clone(made.record).with_history(history);
+        Ok(Self::of(record, file))
+    }
+
+    /// What it tells of itself besides its samples, as JSON.
+    fn history_json(&self) -> Result<String, Problem> {
+        json(self.record.history())
     }
 
     /// Accelerations (m/s2); a copy, which may be changed.

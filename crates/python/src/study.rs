@@ -7,8 +7,8 @@ use std::time::Duration;
 
 use pounding_cli::Failure;
 use pounding_cli::answers::{
-    Analysis, AskedOfGaps, Check, Compared, Finished, Replaced, answered_by_child, of_check,
-    overridden, text_sha256,
+    Analysis, AskedOfGaps, Check, Compared, Finished, Replaced, answered_by_child,
+    inputs_stay_meanwhile, of_check, overridden, text_sha256,
 };
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
@@ -65,7 +65,7 @@ fn run_study(
         }
         files.writes("result", &output);
         files.fills("the folder of its finished runs", parts_folder(&output));
-        files.check().map_err(|e| Problem::from(Failure::from(e)))?;
+        let _inputs_stay = inputs_stay_meanwhile(&files)?;
         writable(&output).map_err(failed)?;
         let replaced = Replaced {
             output: &output,
@@ -75,6 +75,7 @@ fn run_study(
             named,
         };
         let note = replaced.judged(resume)?;
+        let _judged_again = replaced.judged_again();
         if resume && output.is_file() {
             let mut arguments = call(&study, &output, evaluated && read.ida.is_some());
             arguments.push(format!("--threads={}", threads.max(1)).into());

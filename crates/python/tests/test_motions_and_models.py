@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +39,17 @@ def test_units_and_scales() -> None:
         pounding.Motion([0.0, np.nan], 0.1)
     with pytest.raises(ValueError, match="2 dimensions"):
         pounding.Motion([[0.0, 1.0]], 0.1)
+
+
+def test_a_motion_keeps_where_it_comes_from_in_another_process() -> None:
+    motion = pounding.read_motion(RECORD, name="el centro").scaled_by(1.5)
+    copied = pickle.loads(pickle.dumps(motion))
+    assert copied.origin == motion.origin and motion.origin["sha256"]
+    assert copied.name == "el centro" and copied._native.file == motion._native.file
+    assert copied._native.description == motion._native.description
+    assert np.array_equal(copied.acceleration, motion.acceleration)
+    with pytest.raises(pounding.RecordError, match="has a peak of inf"):
+        motion.scaled_by(1e308)
 
 
 @pytest.mark.parametrize("values", [["1", "2"], [True, False], np.array([1, 2], "datetime64[s]")])

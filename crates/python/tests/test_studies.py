@@ -129,6 +129,31 @@ def test_a_result_takes_the_place_of_none_of_another_kind(folder: Path) -> None:
         pounding.sweep(other, output=of_study).close()
 
 
+def test_a_result_that_comes_while_a_study_runs_stays(folder: Path) -> None:
+    study = small_study(folder)
+    widths = ", ".join(f'"{width} mm"' for width in range(1, 2001))
+    study.write_text(study.read_text().split("values")[0] + f"values = [{widths}]\n")
+    run = pounding.run(pounding.Case.from_file(EXAMPLES / "three_storey_pair" / "case.toml"))
+    came, output = folder / "run.h5", study.with_suffix(".h5")
+    run.to_hdf5(came)
+    left: list[int] = []
+
+    def another_process(done: int, total: int) -> None:
+        if not left:
+            shutil.copyfile(came, output)
+            left.append(total - done)
+
+    with pytest.raises(pounding.OutputError, match="is the result of a run"):
+        pounding.sweep(study, threads=2, progress=another_process)
+    assert left[0] > 0
+    assert output.read_bytes() == came.read_bytes()
+    with h5py.File(study.with_name("small-2.h5")) as aside:
+        assert aside["runs/peak_force"].shape[0] == 2000
+    # Another study asks nothing of the first one's place.
+    output.unlink()
+    pounding.sweep(study, threads=2).close()
+
+
 @pytest.mark.skipif(sys.platform == "win32", reason="the interpreter is a shell script here")
 def test_a_result_that_stands_is_read_by_another_process(
     folder: Path, monkeypatch: pytest.MonkeyPatch

@@ -176,7 +176,7 @@ fn every_series(
     unused(&source, format)?;
     let own = Sha256::new().chain_update(bytes);
     for s in &mut series {
-        s.origin.format = format.name;
+        s.origin.format = format.name.into();
         let response = s.origin.response.as_ref();
         let all = response.map_or(own.clone(), |r| own.clone().chain_update(&r.sha256));
         s.origin.sha256 = all.finalize().iter().map(|b| format!("{b:02x}")).collect();

@@ -84,7 +84,7 @@ fn direction(of: &Accelerogram) -> Option<Direction> {
         let step = line.strip_prefix("Step:").map(str::trim_start);
         step.is_some_and(|s| turns(s.split(':').next().unwrap_or(s)))
     };
-    if of.steps().iter().any(|s| turns(s.step)) || origin.history.iter().any(before) {
+    if of.steps().iter().any(|s| turns(&s.step)) || origin.history.iter().any(before) {
         return None;
     }
     let stated = origin.orientation.map(Orientation::direction);

@@ -49,7 +49,7 @@ impl Written {
         let origin = record.origin();
         if let Some(o) = origin {
             remarks.extend(o.history.iter().cloned());
-            remarks.push(source(&o.file, o.format, &o.sha256));
+            remarks.push(source(&o.file, &o.format, &o.sha256));
             remarks.push(format!("Read: unit {}, time step {}", o.unit, o.time_step));
             remarks.extend(o.warnings.iter().map(|w| format!("Note: {w}")));
         }
@@ -99,7 +99,7 @@ impl Written {
                 .history
                 .iter()
                 .cloned()
-                .chain([source(&origin.file, origin.format, &origin.sha256)])
+                .chain([source(&origin.file, &origin.format, &origin.sha256)])
                 .collect(),
         })
     }

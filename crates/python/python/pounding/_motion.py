@@ -139,8 +139,10 @@ class Motion:
         return cls(trace.data, trace.stats.delta, unit=unit, name=name)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Motions travel to other processes as their samples."""
-        return Motion, (self.acceleration, self.time_step, "m/s2", self.name)
+        """Motions travel to other processes as their samples, with where they come from."""
+        native = self._native
+        state = (native.acceleration, native.time_step, native.history_json(), native.file)
+        return _restored, (state, self.name)
 
     def __len__(self) -> int:
         return len(self.acceleration)
@@ -150,6 +152,10 @@ class Motion:
             f"<pounding.Motion {self.name!r}: {len(self)} samples at {self.time_step:g} s, "
             f"peak {self.peak:.4g} m/s2>"
         )
+
+
+def _restored(state: tuple[Any, ...], name: str) -> Motion:
+    return Motion._of(_native.Motion.restored(*state), name)
 
 
 def read_motion(path: str | os.PathLike[str], *, name: str | None = None, **options: Any) -> Motion:

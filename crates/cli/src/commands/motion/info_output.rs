@@ -253,7 +253,7 @@ pub struct Files<'f> {
 #[derive(Serialize)]
 struct File<'f> {
     file: &'f str,
-    format: Option<&'static str>,
+    format: Option<&'f str>,
     sha256: Option<&'f str>,
     series: Vec<OneSeries<'f>>,
 }
@@ -302,7 +302,7 @@ impl<'f> Files<'f> {
             let origin = f.series.first().map(|s| &s.series.origin);
             File {
                 file: &f.file,
-                format: origin.map(|o| o.format),
+                format: origin.map(|o| &*o.format),
                 sha256: origin.map(|o| o.sha256.as_str()),
                 series: f.series.iter().map(OneSeries::of).collect(),
             }

@@ -46,7 +46,7 @@ pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
     };
     let more = writing::Matched {
         misfit: matched.misfit,
-        method: matched.steps.first().map(|s| s.step),
+        method: matched.steps.first().map(|s| &*s.step),
         damping: target.damping(),
         svg: arguments.output.svg.as_deref(),
     };

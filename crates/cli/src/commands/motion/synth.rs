@@ -28,7 +28,7 @@ pub fn synth(arguments: &SynthArguments) -> Result<(), Failure> {
 }
 
 fn finish(made: &Generated, grid: &GridArguments) -> Result<(), Failure> {
-    let name = made.steps.first().map_or("motion", |s| s.step);
+    let name = made.steps.first().map_or("motion", |s| &*s.step);
     let title = format!("Synthetic motion, {name}");
     writing::finish(&grid.output, &made.accelerogram, &title, None)
 }

@@ -107,7 +107,10 @@ pub fn finish(
 pub fn step_text(step: &StepRecord) -> String {
     let mut text = format!("\n{}\n", step.step);
     for number in &step.numbers {
-        let unit = if number.unit == "-" { "" } else { number.unit };
+        let unit = match &*number.unit {
+            "-" => "",
+            unit => unit,
+        };
         let value = six_digits(number.value);
         text.push_str(&format!("  {:34} {value:>14} {unit}\n", number.name).replace(" \n", "\n"));
     }

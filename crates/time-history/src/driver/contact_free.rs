@@ -83,8 +83,8 @@ impl Driver<'_> {
             self.largest_residual = self.largest_residual.max(residual);
             self.last_ground = Some(Grounds {
                 first: ground.samples[sample + advanced],
-                interval: sample + advanced,
-                tau: 0.0,
+                interval: sample + advanced - 1,
+                tau: ground.time_step,
             });
             self.statistics.steps += advanced as u64;
             self.at_once.fill(0);

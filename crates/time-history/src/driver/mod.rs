@@ -311,7 +311,7 @@ impl<'a> Driver<'a> {
         recorders: &mut [&mut dyn Recorder],
     ) -> Result<(), TimeHistoryError> {
         let ground = segment.ground(from);
-        if !(self.last_ground).is_some_and(|last| self.system.same_ground(ground, last)) {
+        if self.system.jumps_into(ground, self.last_ground) {
             // A jump of the ground acceleration, as at the end of a record.
             self.method.restart(true);
             if let Some(exact) = &mut self.exact {

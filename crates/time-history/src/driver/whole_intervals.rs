@@ -62,13 +62,7 @@ impl Driver<'_> {
     /// Leads the run over an interval; false if that is no proof that no gap closes in it.
     fn whole_interval(&mut self, exact: &mut ExactSteps, segment: &Segment, fresh: bool) -> bool {
         let system = self.system;
-        let jumps = match fresh {
-            true => {
-                let ground = segment.ground(0.0);
-                !(self.last_ground).is_some_and(|last| system.same_ground(ground, last))
-            }
-            false => system.jumps_into(segment, self.last_ground),
-        };
+        let jumps = system.jumps_into(segment.ground(0.0), self.last_ground);
         let ExactSteps {
             propagation,
             series,

@@ -197,6 +197,8 @@ pub(crate) struct Motions {
     pub intervals: Vec<Interval>,
     /// Loads after the last of the intervals.
     pub after: Vec<f64>,
+    /// Whether any of them jumps there.
+    pub jumps_at_end: bool,
     /// Motion and weight of every degree of freedom: its acceleration relative to the ground
     /// is less by the product. A displacement of the ground has the weight -1.
     pub grounds: Vec<(usize, f64)>,
@@ -259,6 +261,7 @@ impl Motions {
             forces: Vec::new(),
             intervals: Vec::new(),
             after: Vec::new(),
+            jumps_at_end: false,
             grounds: Vec::new(),
             loads: Vec::new(),
             pushed: Vec::new(),
@@ -418,13 +421,11 @@ impl Motions {
         let mut intervals: Vec<Interval> = times.windows(2).map(over).collect();
         for k in 1..intervals.len() {
             let (before, now) = intervals.split_at_mut(k);
-            let (before, now) = (&before[k - 1], &mut now[0]);
-            let end = |[a, slope]: &[f64; 2]| a + slope * before.length;
-            let mut both = before.loads.iter().map(end).zip(&now.loads);
-            now.jumps = both.any(|(a, [b, _])| !same(a, *b));
+            now[0].jumps = before[k - 1].jumps_at_end(&now[0].loads);
         }
         let end = times.last().copied().unwrap_or(0.0);
         let after = self.loads_over(end, 2.0 * LONGEST_DELAY + end, 0.0);
+        self.jumps_at_end = intervals.last().is_some_and(|i| i.jumps_at_end(&after));
         self.after = after.iter().map(|load| load[0]).collect();
         self.intervals = intervals;
     }
@@ -447,9 +448,17 @@ impl Motions {
     }
 }
 
-/// Whether two accelerations are one but for round-off.
-fn same(a: f64, b: f64) -> bool {
-    (a - b).abs() <= 1.0e-12 * a.abs().max(b.abs())
+impl Interval {
+    /// Whether any load is another one at the end than that with which the next interval begins,
+    /// beyond round-off, also that of times: it counts by the largest value of a load, as any value
+    /// may be next to zero.
+    fn jumps_at_end(&self, next: &[[f64; 2]]) -> bool {
+        let jumps = |([start, slope], [next, _]): (&[f64; 2], &[f64; 2])| {
+            let end = start + slope * self.length;
+            (end - next).abs() > 1.0e-9 * start.abs().max(end.abs()).max(next.abs())
+        };
+        self.loads.iter().zip(next).any(jumps)
+    }
 }
 
 impl Motions {
@@ -668,25 +677,28 @@ impl System {
         lines
     }
 
-    /// Whether no load jumps between two instants at the same time.
-    pub(crate) fn same_ground(&self, a: Grounds, b: Grounds) -> bool {
-        match &self.motions {
-            None => a.first == b.first,
-            Some(motions) => (0..motions.after.len()).all(|load| {
-                let [a, b] = [a, b].map(|at| motions.acceleration((load, 1.0), at));
-                same(a, b)
-            }),
+    /// Whether a load jumps where an interval begins; `last` is what the one before ended with,
+    /// `None` if there is none. Round-off is no jump.
+    pub(crate) fn jumps_into(&self, now: Grounds, last: Option<Grounds>) -> bool {
+        let Some(last) = last else {
+            return true;
+        };
+        // Inside an interval all loads are linear.
+        if last.interval == now.interval {
+            return false;
         }
-    }
-
-    /// Whether a ground acceleration jumps where an interval begins; `last` is what the one
-    /// before ended with.
-    pub(crate) fn jumps_into(&self, segment: &Segment, last: Option<Grounds>) -> bool {
-        let known = self.motions.as_ref();
-        let known = known.and_then(|motions| motions.intervals.get(segment.interval));
-        match known {
-            Some(interval) => interval.jumps,
-            None => !last.is_some_and(|last| self.same_ground(segment.ground(0.0), last)),
+        match &self.motions {
+            // Samples, as `value + slope * length` is the next one but for round-off.
+            None => {
+                let samples = &self.ground.samples;
+                let end = samples.get(last.interval + 1).copied().unwrap_or(0.0);
+                let start = samples[..samples.len() - 1].get(now.interval);
+                end != start.copied().unwrap_or(0.0)
+            }
+            Some(motions) => match motions.intervals.get(now.interval) {
+                Some(interval) => interval.jumps,
+                None => motions.jumps_at_end && now.interval == motions.intervals.len(),
+            },
         }
     }
 

@@ -244,6 +244,100 @@ fn a_second_excursion_counts_what_the_first_has_used() {
 }
 
 #[test]
+fn the_unloading_stiffness_falls_at_turning_points_of_reloading_too() {
+    let first = 100.0 * (1.0 - EXCURSION / (0.5 - EXCURSION));
+    let zero = 0.03 - 1.1 / first;
+    // Put in, and dissipated at the first turning point.
+    let work = 0.005 + 0.021;
+    let before = work - 1.21 / (2.0 * first);
+    // Halfway to the target (-0.01, -1) of the other side.
+    let force = (zero + 0.005) / (zero + 0.01);
+    let dissipated = before + 0.5 * force * (zero + 0.005) - force * force / (2.0 * first);
+    let second = first * (1.0 - (dissipated - before) / (0.5 - dissipated));
+    follows(
+        "peak_oriented",
+        &[("unloading_capacity", 50.0)],
+        &[
+            (0.03, 1.1),
+            (zero, 0.0),
+            (-0.005, -force),
+            (-0.004, -force + 0.001 * second),
+        ],
+    );
+}
+
+/// The rule of Ibarra, Medina and Krawinkler names load reversals in the inelastic range: one at the
+/// target or right before it is like one beyond it.
+#[test]
+fn repeated_cycles_deteriorate_as_growing_ones_do() {
+    for law in ["peak_oriented", "pinching"] {
+        for reloading in [0.0, 30.0] {
+            let dissipated = |growth: f64| {
+                let path: Vec<f64> = (0..20)
+                    .flat_map(|k| [1.0, -1.0].map(|side| side * (0.03 + growth * f64::from(k))))
+                    .collect();
+                let mut set = vec![
+                    ("unloading_capacity", 30.0),
+                    ("reloading_capacity", reloading),
+                ];
+                if law == "pinching" {
+                    set.extend(PINCHED);
+                }
+                run(law, &set, &path).last().unwrap().dissipated
+            };
+            let constant = dissipated(0.0);
+            for growth in [1e-9, -1e-9] {
+                let other = dissipated(growth);
+                assert!(
+                    (other / constant - 1.0).abs() < 1e-5,
+                    "{law}, {reloading}: {other} for {constant}"
+                );
+            }
+        }
+    }
+}
+
+/// As its capacity runs out the published stiffness falls to zero, which would give back any energy.
+#[test]
+fn no_turning_point_gives_back_more_than_was_put_in() {
+    // Weyl's sequence of the golden section: amplitudes without a pattern.
+    let share = |k: usize| (k as f64 * 0.618_033_988_749_895).fract();
+    let mut least: f64 = 1.0;
+    for law in ["bilinear", "peak_oriented", "pinching"] {
+        for case in 0..200 {
+            let mut set = vec![("unloading_capacity", 2.0 + 13.0 * share(case + 1))];
+            if law == "pinching" {
+                set.extend(PINCHED);
+            }
+            let turning: Vec<f64> = (0..30)
+                .map(|k| (0.1 * share(7 * case + k + 3) + 0.005) * [1.0, -1.0][k % 2])
+                .collect();
+            let mut path = Vec::new();
+            let mut from = 0.0;
+            for to in &turning {
+                path.extend((1..=20).map(|i| from + (to - from) * f64::from(i) / 20.0));
+                from = *to;
+            }
+            let points = run(law, &set, &path);
+            let mut before = 0.0;
+            for (i, point) in points.iter().enumerate() {
+                assert!(
+                    point.dissipated >= before - 1e-15,
+                    "{law}, case {case}, point {i}: {} after {before}",
+                    point.dissipated
+                );
+                if i % 20 == 19 {
+                    before = point.dissipated;
+                    least = least.min(point.force.abs());
+                }
+            }
+        }
+    }
+    // Elements failed on the way.
+    assert_eq!(least, 0.0);
+}
+
+#[test]
 fn exhausted_elements_carry_nothing_ever_after() {
     // Capacity 0.03 < 2 EXCURSION: fails on crossing zero force.
     let points = run(

@@ -162,10 +162,12 @@ impl Deteriorating {
             .between(f64::NEG_INFINITY, target)
     }
 
-    /// Towards the break point.
+    /// Towards the break point, or below it: a leg steeper than the unloading stiffness would give
+    /// back more than it took.
     fn first_leg(&self, history: &History, side: f64, from: Point) -> Branch {
         let to = history.side(side).break_point;
         let slope = (to.force - from.force) / (to.deformation - from.deformation);
+        let slope = slope.min(history.unloading_stiffness);
         Branch::line(FIRST_LEG, side, from.mirrored(side), slope)
             .towards(side)
             .between(f64::NEG_INFINITY, to.deformation)
@@ -209,22 +211,35 @@ impl Deteriorating {
     }
 
     /// Unloading stiffness if the path turned here; `None` where its capacity is
-    /// exhausted. It falls on the envelope only.
+    /// exhausted. It falls where loading dissipates: not on the elastic lines of the bilinear rule.
     fn stiffness_on_turning(&self, history: &History, deformation: f64) -> Option<f64> {
         let present = history.unloading_stiffness;
-        if !(ENVELOPE..FROM_ENVELOPE).contains(&history.branch.kind) {
+        let inelastic = match history.branch.kind {
+            ENVELOPE..FROM_ENVELOPE => true,
+            FIRST_LEG | SECOND_LEG => self.reloading != Reloading::Bilinear,
+            _ => false,
+        };
+        if !inelastic {
             return Some(present);
         }
         let force = history.branch.force(deformation);
-        let dissipated = self.work(history, deformation) - 0.5 * force * force / present;
+        let stored = 0.5 * force * force / present;
+        let dissipated = self.work(history, deformation) - stored;
         let energy = dissipated - history.reckoned_unloading;
         let rate = self.rate(self.capacities.unloading, energy, dissipated)?;
-        Some(present * (1.0 - rate))
+        // The published rule lets the stiffness fall to zero as its capacity runs out, and what is
+        // stored rise above all bounds: no more is given back than was put in since it last fell.
+        let least = stored / (stored + energy.max(0.0));
+        let left = match least.is_finite() {
+            true => (1.0 - rate).max(least),
+            false => 1.0 - rate,
+        };
+        Some(present * left)
     }
 
-    /// A turning point on the envelope: what the side and the unloading stiffness
-    /// learn from it. Whether the element survives.
-    fn learn(&self, history: &mut History, side: f64, at: Point, stretch: u8) -> bool {
+    /// A turning point of loading: what the side and the unloading stiffness learn from it.
+    /// Whether the element survives.
+    fn learn(&self, history: &mut History, side: f64, at: Point, kind: u8) -> bool {
         let deformation = side * at.deformation;
         let dissipated = self.dissipated(history, deformation);
         let Some(stiffness) = self.stiffness_on_turning(history, deformation) else {
@@ -234,9 +249,11 @@ impl Deteriorating {
         // With the new stiffness: a turning point right after this one adds nothing.
         history.reckoned_unloading = dissipated;
         let memory = history.side_mut(side);
-        memory.peak.deformation = memory.peak.deformation.max(at.deformation);
+        if (ENVELOPE..FROM_ENVELOPE).contains(&kind) {
+            memory.peak.deformation = memory.peak.deformation.max(at.deformation);
+        }
         let falling = [Stretch::Softening, Stretch::Residual].map(|s| ENVELOPE + s as u8);
-        if self.reloading == Reloading::Bilinear && falling.contains(&stretch) {
+        if self.reloading == Reloading::Bilinear && falling.contains(&kind) {
             memory.force_limit = memory.force_limit.min(at.force);
         }
         true
@@ -299,7 +316,7 @@ impl PathLaw for Deteriorating {
             SECOND_LEG => FROM_SECOND_LEG,
             _ => FROM_ENVELOPE,
         };
-        if from == FROM_ENVELOPE && !self.learn(history, side, at, kind) {
+        if !self.learn(history, side, at, kind) {
             // The capacity of the unloading stiffness is exhausted: what is stored
             // is lost as well.
             self.switch(history, failed(side, at.deformation));

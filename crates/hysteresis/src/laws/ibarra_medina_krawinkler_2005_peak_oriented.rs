@@ -13,7 +13,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         citation: "the rule most used",
     }],
     title: "Deteriorating peak-oriented law of Ibarra, Medina and Krawinkler",
-    formula: "envelope min(h + Ks x, Fref - Kc x), at least the residual force; unloading with Ku to zero force, reloading towards the target on the envelope; deterioration by (E / (gamma Fy xy - sum E))^c at zero force (strength, cap, target) and at turning points of the envelope (Ku)",
+    formula: "envelope min(h + Ks x, Fref - Kc x), at least the residual force; unloading with Ku to zero force, reloading towards the target on the envelope; deterioration by (E / (gamma Fy xy - sum E))^c at zero force (strength, cap, target) and at turning points of loading (Ku)",
     citation: "Ibarra, Medina and Krawinkler, Earthquake Engineering and Structural Dynamics 34 (2005) 1489",
     parameters: &OWN,
     rate_dependent: false,
@@ -34,7 +34,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     ],
     example_amplitude: 0.06,
     traps: &[
-        "The unloading stiffness falls at turning points of the envelope; what is stored rises with that, and the dissipated energy steps back a little.",
+        "Where the unloading stiffness falls, what is stored rises, and the dissipated energy steps back: no further than to what it was at the turning point before, which bounds the stiffness from below. The published rule has no bound, and gives back more energy than was put in as its capacity runs out.",
         "Exhausted capacity, or a strength that reaches zero, leaves an element without force for ever.",
         "The residual strength does not deteriorate.",
     ],

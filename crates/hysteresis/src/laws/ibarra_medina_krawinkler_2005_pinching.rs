@@ -33,7 +33,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     ],
     example_amplitude: 0.06,
     traps: &[
-        "The unloading stiffness falls at turning points of the envelope; what is stored rises with that, and the dissipated energy steps back a little.",
+        "Where the unloading stiffness falls, what is stored rises, and the dissipated energy steps back: no further than to what it was at the turning point before, which bounds the stiffness from below. The published rule has no bound, and gives back more energy than was put in as its capacity runs out.",
         "Exhausted capacity, or a strength that reaches zero, leaves an element without force for ever.",
         "The residual strength does not deteriorate.",
     ],

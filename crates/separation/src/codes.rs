@@ -183,11 +183,7 @@ impl Rules {
         let of = |provision: &Provision| {
             let requirement = match sides {
                 Sides::Between(situation) => provision.between(situation),
-                Sides::Wall {
-                    structure,
-                    elevation,
-                    site,
-                } => provision.boundary(structure, *elevation, site),
+                Sides::Wall { structure, site } => provision.boundary(structure, site),
             };
             requirement.map(|requirement| CodeWidth {
                 provision: provision.clone(),
@@ -263,8 +259,6 @@ pub enum Sides {
     Wall {
         /// The building.
         structure: Box<Structure>,
-        /// Height of the level above ground (m).
-        elevation: f64,
         /// The site.
         site: Site,
     },
@@ -752,6 +746,7 @@ mod tests {
         Structure {
             displacement: Some(u),
             height: 9.0,
+            elevation: 9.0,
             storeys: 3,
             ..Structure::default()
         }
@@ -761,7 +756,6 @@ mod tests {
         Sides::Between(Box::new(Situation {
             left: structure(0.08),
             right: structure(0.06),
-            elevation: 9.0,
             site: Site {
                 floors_aligned: Some(aligned),
                 design_ground_acceleration: Some(2.5),
@@ -838,7 +832,6 @@ mod tests {
     fn remedies_name_rules_that_there_are() {
         let wall = || Sides::Wall {
             structure: Box::new(structure(0.08)),
-            elevation: 9.0,
             site: Site::default(),
         };
         for (code, sides, says) in [
@@ -1069,7 +1062,7 @@ mod tests {
         let widths: Vec<f64> = found.requirement.readings.iter().map(|r| r.width).collect();
         assert!((widths[0] - 0.14 / 3.0).abs() < 1e-12 && (widths[1] - 0.28 / 3.0).abs() < 1e-12);
         assert!(found.requirement.undecided().is_some());
-        sides.elevation = 90.0;
+        (sides.left.elevation, sides.right.elevation) = (90.0, 90.0);
         let found = rules.width(&Sides::Between(sides)).unwrap();
         assert_eq!(found.provision.name(), "nch_433_boundary_minimum");
         assert!((found.requirement.width - 0.36).abs() < 1e-12);

@@ -55,8 +55,8 @@ impl Basis {
 /// How a provision computes.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Rule {
-    /// One building, height of the level (m).
-    Boundary(fn(&mut Working, &Structure, f64, &Site) -> Result<f64, SeparationError>),
+    /// One building.
+    Boundary(fn(&mut Working, &Structure, &Site) -> Result<f64, SeparationError>),
     /// One building, as before; `None` of a building that the rule does not speak of, which beside
     /// one that it speaks of adds nothing, and in words what it speaks of.
     BoundaryOfSome(
@@ -91,7 +91,8 @@ pub struct ProvisionDescriptor {
     pub elastic_displacement_factor: Option<&'static str>,
     /// Formula in plain characters. `u` is the unreduced peak displacement, `d` that
     /// under the reduced forces of the code, `I u / R` unless given; `h` the height of
-    /// the level.
+    /// the level: of a boundary rule that of the building's own floor, of one between two
+    /// buildings the higher of both floors.
     pub formula: &'static str,
     /// Inputs that it needs beside heights and storeys.
     pub inputs: &'static [Input],
@@ -171,13 +172,12 @@ impl ProvisionDescriptor {
     pub fn boundary(
         &self,
         structure: &Structure,
-        elevation: f64,
         site: &Site,
     ) -> Result<Requirement, SeparationError> {
         let width = |rule, formula: &str| {
             let mut working = Working::new(self.name);
             let width = match rule {
-                Rule::Boundary(rule) => rule(&mut working, structure, elevation, site)?,
+                Rule::Boundary(rule) => rule(&mut working, structure, site)?,
                 Rule::BoundaryOfSome(rule, speaks_of) => rule(&mut working, structure)?
                     .ok_or_else(|| working.not_applicable(speaks_of))?,
                 Rule::Between(_) | Rule::Seat(_) => return Err(working.needs_a_neighbour()),
@@ -213,7 +213,7 @@ impl ProvisionDescriptor {
                 }
                 Rule::Boundary(rule) => {
                     let side = |working: &mut Working, structure: &Structure| {
-                        rule(working, structure, situation.elevation, &situation.site)
+                        rule(working, structure, &situation.site)
                     };
                     let left = side(&mut working, &situation.left)?;
                     let right = side(&mut working, &situation.right)?;

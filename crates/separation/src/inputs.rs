@@ -210,6 +210,9 @@ pub struct Structure {
     pub name: String,
     /// Height of the whole structure above ground (m).
     pub height: f64,
+    /// Height above ground at which it meets the other one at the level (m): that of its own
+    /// floor, or of where its column is hit.
+    pub elevation: f64,
     /// Number of storeys.
     pub storeys: usize,
     /// Peak displacement at the level under the design motion, not reduced by `R` (m):
@@ -281,8 +284,6 @@ pub struct Situation {
     pub left: Structure,
     /// Right structure.
     pub right: Structure,
-    /// Height of the level above ground (m).
-    pub elevation: f64,
     /// What both share.
     pub site: Site,
 }

@@ -178,12 +178,11 @@ impl Provision {
     pub fn boundary(
         &self,
         structure: &Structure,
-        elevation: f64,
         site: &Site,
     ) -> Result<Requirement, SeparationError> {
         match self {
-            Self::BuiltIn(p) => p.boundary(structure, elevation, site),
-            Self::Own(rule) => rule.boundary(structure, elevation, site),
+            Self::BuiltIn(p) => p.boundary(structure, site),
+            Self::Own(rule) => rule.boundary(structure, site),
         }
     }
 

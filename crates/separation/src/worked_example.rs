@@ -14,6 +14,7 @@ pub fn worked_example() -> Situation {
     let left = Structure {
         name: "left".to_owned(),
         height: 21.0,
+        elevation: 18.0,
         storeys: 7,
         displacement: Some(0.08),
         response_modification: Some(8.0),
@@ -40,7 +41,6 @@ pub fn worked_example() -> Situation {
     Situation {
         left,
         right,
-        elevation: 18.0,
         site: Site {
             floors_aligned: Some(false),
             same_owner: Some(true),
@@ -62,14 +62,9 @@ impl ProvisionDescriptor {
     /// # Errors
     /// As [`Self::boundary`] and [`Self::between`]; none for a provision of the registry.
     pub fn of_worked_example(&self) -> Result<Requirement, SeparationError> {
-        let Situation {
-            left,
-            elevation,
-            site,
-            ..
-        } = &worked_example();
+        let Situation { left, site, .. } = &worked_example();
         match self.place() {
-            Place::Boundary => self.boundary(left, *elevation, site),
+            Place::Boundary => self.boundary(left, site),
             Place::Between | Place::Seat => self.between(&worked_example()),
         }
     }

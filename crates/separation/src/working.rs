@@ -1,7 +1,7 @@
 //! The working of a provision: every factor with its number.
 
 use crate::error::SeparationError;
-use crate::inputs::{Input, Site, Structure};
+use crate::inputs::{Input, Site, Situation, Structure};
 use crate::remedy;
 
 /// One number that went into a gap.
@@ -219,9 +219,21 @@ impl Working {
         self.need(site.floors_aligned, Input::FloorsAligned, "")
     }
 
-    /// Elevation of the level (m).
-    pub(crate) fn elevation(&mut self, elevation: f64) -> f64 {
-        self.note("h", elevation, "m")
+    /// `h` of one building: the elevation of its own floor at the level (m).
+    pub(crate) fn elevation(&mut self, s: &Structure) -> f64 {
+        self.note(format!("h({})", s.name), s.elevation, "m")
+    }
+
+    /// `h` of a rule between two buildings that has one height (m): the elevation of the level, and
+    /// of floors that differ the higher one. No text that was seen speaks of such floors, and no
+    /// rule asks for less at a greater height.
+    pub(crate) fn common_elevation(&mut self, situation: &Situation) -> f64 {
+        let Situation { left, right, .. } = situation;
+        if left.elevation == right.elevation {
+            return self.note("h", left.elevation, "m");
+        }
+        let higher = self.elevation(left).max(self.elevation(right));
+        self.note("h of the higher floor", higher, "m")
     }
 }
 

@@ -189,8 +189,12 @@ fn the_sweep_of_one_gap_in_a_row_covers_its_width() {
     assert_eq!(all.sweep.unwrap().widths[20], 1.05 * maximum);
 }
 
-/// Two buildings of so many storeys of so many metres, in this order.
-fn of_storeys(left: (usize, f64), right: (usize, f64), more: &str) -> Case {
+/// Levels where floors lie level with floors.
+const MATCHING: &str = "levels = \"matching\"";
+
+/// Two buildings of so many storeys of so many metres, in this order, with what the gap says of its
+/// levels.
+fn of_storeys(left: (usize, f64), right: (usize, f64), levels: &str, more: &str) -> Case {
     let building = |name: &str, (storeys, height): (usize, f64)| {
         format!(
             "[[building]]\nname = \"{name}\"\nstoreys = {storeys}\nmass = \"100 t\"\nstiffness = \"300 MN/m\"\nheight = {height}\ndamping = {{ ratio = 0.05, modes = [1, 2] }}\n"
@@ -199,9 +203,9 @@ fn of_storeys(left: (usize, f64), right: (usize, f64), more: &str) -> Case {
     let record = root().join("ground_motions/el_centro_1940_ns.csv");
     let text = building("A", left)
         + &building("B", right)
-        + "[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"200 mm\"\nlevels = \"matching\"\nmodel = \"anagnostopoulos_2004\"\nstiffness = \"93.5 MN/m\"\nrestitution = 0.65\n"
+        + "[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = \"200 mm\"\nmodel = \"anagnostopoulos_2004\"\nstiffness = \"93.5 MN/m\"\nrestitution = 0.65\n"
         + &format!(
-            "[ground_motion]\nfile = '{}'\n[analysis]\nduration = \"2 s\"\n{more}",
+            "{levels}\n[ground_motion]\nfile = '{}'\n[analysis]\nduration = \"2 s\"\n{more}",
             record.display()
         );
     Case::parse(&text, &root().join("case.toml")).unwrap()
@@ -218,13 +222,36 @@ fn floors_are_aligned_where_those_of_both_buildings_face_one_another() {
         ((3, 3.0), (3, 3.0), 0.7),
     ] {
         for (left, right) in [(one, other), (other, one)] {
-            let case = of_storeys(left, right, "[separation]\nsame_owner = true\n");
+            let case = of_storeys(left, right, MATCHING, "[separation]\nsame_owner = true\n");
             let check = check(&case, &[], &options());
             let mut codes = check.gaps[0].codes.iter();
             let rule = codes.find(|c| c.provision.name() == "en_1998_1_2004_between");
             let found = rule.unwrap().records[0][0].as_ref().unwrap();
             let factor = found.factors.iter().find(|f| f.name == "reduction");
             assert_eq!(factor.unwrap().value, reduction, "{left:?} {right:?}");
+        }
+    }
+}
+
+/// Roofs at 6 and 10 m that act on each other, whichever stands on the left: 5 mm a metre on either
+/// side is 80 mm, and 1/100 of the higher one 100 mm.
+#[test]
+fn floors_at_different_elevations_have_their_own_heights() {
+    let (low, high) = ((2, 3.0), (2, 5.0));
+    for (left, right) in [(low, high), (high, low)] {
+        let case = of_storeys(left, right, "levels = [[2, 2]]\nfloor_to_floor = true", "");
+        let check = check(&case, &[], &options());
+        for (name, width) in [
+            ("iran_2800_boundary_by_height", 0.08),
+            ("japan_practice", 0.1),
+        ] {
+            let mut codes = check.gaps[0].codes.iter();
+            let found = codes
+                .find(|c| c.provision.name() == name)
+                .unwrap()
+                .width(0)
+                .unwrap();
+            assert!((found - width).abs() < 1.0e-12, "{name} {left:?}: {found}");
         }
     }
 }

@@ -75,7 +75,7 @@ fn head() -> String {
         statuses.push_str(&format!("| {name} | {} | {meaning} |\n", count(name)));
     }
     format!(
-        "# Provisions for the gap\n\n{} provisions of {} codes. A provision is a reminder of what a code asks for, not the code: compare it with the\nstandard before it enters a design report. How `pounding gap` applies them is said in [the gap check](gap-check.md); rules of\nyour own, with status `yours`, in [own rules](own-rules.md).\n\n| status | provisions | meaning |\n|---|---|---|\n{statuses}\nDates of editions that name no text are recalled, not seen; of a model code they are those of its publication, and it is in force\nwhere it was adopted. `u` is the unreduced peak displacement of a building without contact, `d` that under the reduced forces of\nthe code, `I u / R` unless given; `h` is the elevation of the level. A *between* rule gives the distance of two buildings, a\n*boundary* rule that of one building from the property line.\n\n{}",
+        "# Provisions for the gap\n\n{} provisions of {} codes. A provision is a reminder of what a code asks for, not the code: compare it with the\nstandard before it enters a design report. How `pounding gap` applies them is said in [the gap check](gap-check.md); rules of\nyour own, with status `yours`, in [own rules](own-rules.md).\n\n| status | provisions | meaning |\n|---|---|---|\n{statuses}\nDates of editions that name no text are recalled, not seen; of a model code they are those of its publication, and it is in force\nwhere it was adopted. `u` is the unreduced peak displacement of a building without contact, `d` that under the reduced forces of\nthe code, `I u / R` unless given; `h` is the elevation of the level: of two floors at different ones\nthat of the building's own floor in what is asked of one building, and that of the higher floor in what is asked of both. A *between* rule\ngives the distance of two buildings, a *boundary* rule that of one building from the property line.\n\n{}",
         descriptors().len(),
         codes().len(),
         example()
@@ -84,12 +84,7 @@ fn head() -> String {
 
 /// What is given in the worked example.
 fn example() -> String {
-    let Situation {
-        left,
-        right,
-        elevation,
-        site,
-    } = worked_example();
+    let Situation { left, right, site } = worked_example();
     let mm = |u: Option<f64>| number(u.unwrap_or(f64::NAN) * 1.0e3);
     let plain = |x: Option<f64>| number(x.unwrap_or(f64::NAN));
     let mut rows = String::new();
@@ -151,7 +146,7 @@ fn example() -> String {
     let flag = |given: Option<bool>| given.map_or("-", |yes| if yes { "true" } else { "false" });
     format!(
         "## The worked example\n\nTwo frames, at the roof of the lower one, {} m above ground. Every provision is worked for it by hand, in mm: of a *boundary*\nrule the distance of the left building. The tests evaluate what is written and compare it with the program.\n\n| | left | right |\n|---|---|---|\n{rows}\n`floors_aligned = {}`, `same_owner = {}`, `neighbour_has_gap = {}`, `fortification_intensity = {}`, `soil_zone = \"II\"`,\n`design_ground_acceleration = \"0.25 g\"`, `seismic_coefficient = {}`, `spectral_acceleration_1s = {}`.\n",
-        number(elevation),
+        number(left.elevation),
         flag(site.floors_aligned),
         flag(site.same_owner),
         flag(site.neighbour_has_gap),

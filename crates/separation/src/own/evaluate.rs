@@ -14,7 +14,6 @@ use pounding_catalogue::STANDARD_GRAVITY;
 pub(super) enum Given<'g> {
     One {
         structure: &'g Structure,
-        elevation: f64,
         site: &'g Site,
     },
     Both(&'g Situation),
@@ -225,9 +224,8 @@ impl<'g> Evaluation<'g> {
 
     /// What the case says of a name.
     fn named(&mut self, part: &Part, named: Named) -> Result<Value, SeparationError> {
-        let of_site = |site: &Site, elevation: f64| {
+        let of_site = |site: &Site| {
             Some(match named.meaning {
-                Meaning::Height => Some(Value::Number(elevation)),
                 Meaning::Gravity => Some(Value::Number(STANDARD_GRAVITY)),
                 Meaning::FloorsAligned => site.floors_aligned.map(Value::Truth),
                 Meaning::SameOwner => site.same_owner.map(Value::Truth),
@@ -251,20 +249,11 @@ impl<'g> Evaluation<'g> {
             })
         };
         let value = match self.given {
-            Given::One {
-                structure,
-                elevation,
-                site,
-            } => match of_site(site, *elevation) {
+            Given::One { structure, site } => match of_site(site) {
                 Some(value) => self.needed(named, value, "")?,
                 None => self.needed(named, of_structure(structure, named), &structure.name)?,
             },
-            Given::Both(Situation {
-                left,
-                right,
-                elevation,
-                site,
-            }) => match (of_site(site, *elevation), named.of) {
+            Given::Both(Situation { left, right, site }) => match (of_site(site), named.of) {
                 (Some(value), _) => self.needed(named, value, "")?,
                 (None, Of::Left) => self.needed(named, of_structure(left, named), &left.name)?,
                 (None, Of::Right) => self.needed(named, of_structure(right, named), &right.name)?,
@@ -322,6 +311,7 @@ impl<'g> Evaluation<'g> {
 fn of_structure(s: &Structure, named: Named) -> Option<Value> {
     let number = match named.meaning {
         Meaning::Displacement => s.displacement,
+        Meaning::Height => Some(s.elevation),
         Meaning::BuildingHeight => Some(s.height),
         Meaning::Storeys => Some(s.storeys as f64),
         Meaning::ResponseModification => s.response_modification,

@@ -160,18 +160,13 @@ impl OwnRule {
     pub fn boundary(
         &self,
         structure: &Structure,
-        elevation: f64,
         site: &Site,
     ) -> Result<Requirement, SeparationError> {
         let mut working = Working::new(self.name());
         if self.text.between {
             return Err(working.needs_a_neighbour());
         }
-        let given = Given::One {
-            structure,
-            elevation,
-            site,
-        };
+        let given = Given::One { structure, site };
         let width = evaluate::width(self, &given, &mut working)?;
         working.finish(&self.formula(), (width, site), None)
     }
@@ -189,11 +184,7 @@ impl OwnRule {
             return working.finish(&self.formula(), (width, site), None);
         }
         let mut side = |structure: &Structure| {
-            let given = Given::One {
-                structure,
-                elevation: situation.elevation,
-                site,
-            };
+            let given = Given::One { structure, site };
             evaluate::width(self, &given, &mut working)
         };
         let (left, right) = (side(&situation.left)?, side(&situation.right)?);

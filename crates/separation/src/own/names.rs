@@ -96,9 +96,9 @@ static NAMES: &[RuleName] = &[
     name(
         "height",
         "m",
-        false,
+        true,
         Meaning::Height,
-        "elevation of the level above ground",
+        "elevation of the building's own floor at the level above ground",
     ),
     name(
         "building_height",

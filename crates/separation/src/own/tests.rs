@@ -116,13 +116,8 @@ fn twenty_right_ones() {
 #[test]
 fn a_boundary_rule() {
     let rule = compiled(&file("boundary", "max(u, 0.001 * height)", "")).unwrap();
-    let Situation {
-        left,
-        elevation,
-        site,
-        ..
-    } = &worked_example();
-    let own = rule.boundary(left, *elevation, site).unwrap();
+    let Situation { left, site, .. } = &worked_example();
+    let own = rule.boundary(left, site).unwrap();
     assert!((own.width - 0.08).abs() < 1.0e-12);
     let both = rule.between(&worked_example()).unwrap();
     assert!((both.width - 0.14).abs() < 1.0e-12);
@@ -130,11 +125,32 @@ fn a_boundary_rule() {
         assert!(both.explanation.contains(part), "{}", both.explanation);
     }
     let between = compiled(&file("between", "u_left", "")).unwrap();
-    let refused = between.boundary(left, *elevation, site);
+    let refused = between.boundary(left, site);
     assert!(matches!(
         refused,
         Err(SeparationError::NotApplicable { .. })
     ));
+}
+
+/// Floors at 22 and 19.2 m: a boundary rule takes each building's own, 110 and 96 mm; one between
+/// two says which, and nothing where it does not.
+#[test]
+fn the_height_is_that_of_either_floor() {
+    let mut situation = worked_example();
+    (situation.left.elevation, situation.right.elevation) = (22.0, 19.2);
+    let rule = |kind, expression| compiled(&file(kind, expression, "")).unwrap();
+    let found = |kind, expression| rule(kind, expression).between(&situation);
+    for (kind, expression, width) in [
+        ("boundary", "0.005 * height", 0.206),
+        ("between", "max(height_left, height_right) / 100", 0.22),
+        ("between", "height_right / 100", 0.192),
+    ] {
+        let width_found = found(kind, expression).unwrap().width;
+        assert!((width_found - width).abs() < 1e-12, "{width_found}");
+    }
+    let refused = found("between", "height / 100").unwrap_err().to_string();
+    let says = "`height` is not the same for both buildings: write height_left and height_right";
+    assert!(refused.contains(says), "{refused}");
 }
 
 /// Found when the rule is read: message, line and column.

@@ -57,9 +57,10 @@ mod tests {
         let own = |height, elevation| {
             let structure = Structure {
                 height,
+                elevation,
                 ..Structure::default()
             };
-            BOUNDARY.boundary(&structure, elevation, &Site::default())
+            BOUNDARY.boundary(&structure, &Site::default())
         };
         for elevation in [5.0, 20.0] {
             assert!((own(20.0, elevation).unwrap().width - 0.2).abs() < 1.0e-12);
@@ -82,7 +83,6 @@ mod tests {
             BOUNDARY.between(&Situation {
                 left: structure(left),
                 right: structure(right),
-                elevation: 12.0,
                 ..Situation::default()
             })
         };

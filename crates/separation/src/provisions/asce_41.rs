@@ -11,24 +11,21 @@ use crate::working::{Working, root};
 /// Part of the height beyond which no gap is asked for.
 const CAP: f64 = 0.04;
 
-fn cap(working: &mut Working, elevation: f64) -> f64 {
-    working.note("cap", CAP, "-") * working.elevation(elevation)
-}
-
 fn boundary(
     working: &mut Working,
     structure: &Structure,
-    elevation: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
     let displacement = working.displacement(structure)?;
-    Ok(displacement.min(cap(working, elevation)))
+    let cap = working.note("cap", CAP, "-") * working.elevation(structure);
+    Ok(displacement.min(cap))
 }
 
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
     let left = working.displacement(&situation.left)?;
     let right = working.displacement(&situation.right)?;
-    Ok(root(left, right).min(cap(working, situation.elevation)))
+    let cap = working.note("cap", CAP, "-") * working.common_elevation(situation);
+    Ok(root(left, right).min(cap))
 }
 
 static EDITION: Edition = Edition {
@@ -72,20 +69,21 @@ mod tests {
     /// 80 and 60 mm: 100 mm; at a height of 2 m no more than 80 mm.
     #[test]
     fn by_hand() {
-        let structure = |u| Structure {
+        let structure = |u, elevation| Structure {
             displacement: Some(u),
+            elevation,
             ..Structure::default()
         };
-        let mut situation = Situation {
-            left: structure(0.08),
-            right: structure(0.06),
-            elevation: 9.0,
-            ..Situation::default()
-        };
-        assert!((BETWEEN.between(&situation).unwrap().width - 0.1).abs() < 1.0e-12);
-        situation.elevation = 2.0;
-        assert!((BETWEEN.between(&situation).unwrap().width - 0.08).abs() < 1.0e-12);
-        let own = |h| BOUNDARY.boundary(&situation.left, h, &situation.site);
+        for (elevation, width) in [(9.0, 0.1), (2.0, 0.08)] {
+            let situation = Situation {
+                left: structure(0.08, elevation),
+                right: structure(0.06, elevation),
+                ..Situation::default()
+            };
+            let found = BETWEEN.between(&situation).unwrap().width;
+            assert!((found - width).abs() < 1.0e-12);
+        }
+        let own = |h| BOUNDARY.boundary(&structure(0.08, h), &Site::default());
         assert!((own(9.0).unwrap().width - 0.08).abs() < 1.0e-12);
         assert!((own(1.0).unwrap().width - 0.04).abs() < 1.0e-12);
     }

@@ -34,7 +34,6 @@ fn maximum_displacement(
 fn boundary(
     working: &mut Working,
     structure: &Structure,
-    _: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
     maximum_displacement(working, structure)
@@ -241,7 +240,7 @@ mod tests {
             let descriptor = |place: &str| find(&format!("{family}_{place}")).unwrap();
             let between = descriptor("between").between(&situation).unwrap();
             assert!((between.width - 0.068_75).abs() < 1.0e-12, "{family}");
-            let own = descriptor("boundary").boundary(&situation.left, 9.0, &Site::default());
+            let own = descriptor("boundary").boundary(&situation.left, &Site::default());
             assert!((own.unwrap().width - 0.055).abs() < 1.0e-12, "{family}");
         }
         // The same displacement given under reduced forces: d = Ie u / R = 12.5 mm.

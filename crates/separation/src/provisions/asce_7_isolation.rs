@@ -67,7 +67,6 @@ fn total_maximum(
 fn by_7_10(
     working: &mut Working,
     structure: &Structure,
-    _: f64,
     site: &Site,
 ) -> Result<f64, SeparationError> {
     total_maximum(working, structure, site, LEAST_7_10)
@@ -76,7 +75,6 @@ fn by_7_10(
 fn by_7_16(
     working: &mut Working,
     structure: &Structure,
-    _: f64,
     site: &Site,
 ) -> Result<f64, SeparationError> {
     total_maximum(working, structure, site, LEAST_7_16)
@@ -155,7 +153,7 @@ mod tests {
             ..Site::default()
         };
         let width = |provision: &ProvisionDescriptor, eccentricity| {
-            let own = provision.boundary(&structure(eccentricity), 0.6, &site);
+            let own = provision.boundary(&structure(eccentricity), &site);
             own.unwrap().width
         };
         for provision in [&ASCE_7_10, &ASCE_7_16, &ASCE_7_22] {
@@ -169,7 +167,7 @@ mod tests {
             ..structure(2.0)
         };
         assert!(matches!(
-            ASCE_7_10.boundary(&swapped, 0.6, &site),
+            ASCE_7_10.boundary(&swapped, &site),
             Err(SeparationError::OutOfRange { .. })
         ));
     }

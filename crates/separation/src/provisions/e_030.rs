@@ -13,16 +13,16 @@ use crate::working::Working;
 const PART: f64 = 2.0 / 3.0;
 
 /// `s` of 2018: `max(0.006 h, 30 mm)`.
-fn s_2018(working: &mut Working, elevation: f64, _: &Site) -> Result<f64, SeparationError> {
-    Ok((0.006 * working.elevation(elevation)).max(0.03))
+fn s_2018(_: &mut Working, h: f64, _: &Site) -> Result<f64, SeparationError> {
+    Ok((0.006 * h).max(0.03))
 }
 
 /// `s` of 2026: `max(0.02 Z S h, 30 mm)`, with `Z S` from the design ground acceleration `Z S g`.
-fn s_2026(working: &mut Working, elevation: f64, site: &Site) -> Result<f64, SeparationError> {
+fn s_2026(working: &mut Working, h: f64, site: &Site) -> Result<f64, SeparationError> {
     let given = site.design_ground_acceleration;
     let acceleration = working.need(given, Input::DesignGroundAcceleration, "")?;
     let zone_and_soil = working.note("Z S", acceleration / STANDARD_GRAVITY, "-");
-    Ok((0.02 * zone_and_soil * working.elevation(elevation)).max(0.03))
+    Ok((0.02 * zone_and_soil * h).max(0.03))
 }
 
 type Least = fn(&mut Working, f64, &Site) -> Result<f64, SeparationError>;
@@ -38,11 +38,11 @@ macro_rules! rules_with {
             pub(super) fn boundary(
                 working: &mut Working,
                 structure: &Structure,
-                elevation: f64,
                 site: &Site,
             ) -> Result<f64, SeparationError> {
                 let displacement = working.displacement(structure)?;
-                let half = 0.5 * LEAST(working, elevation, site)?;
+                let height = working.elevation(structure);
+                let half = 0.5 * LEAST(working, height, site)?;
                 Ok((PART * displacement).max(working.note("s / 2", half, "m")))
             }
 
@@ -50,16 +50,21 @@ macro_rules! rules_with {
                 working: &mut Working,
                 situation: &Situation,
             ) -> Result<f64, SeparationError> {
-                LEAST(working, situation.elevation, &situation.site)
+                let height = working.common_elevation(situation);
+                LEAST(working, height, &situation.site)
             }
 
             pub(super) fn without_joint(
                 working: &mut Working,
                 situation: &Situation,
             ) -> Result<f64, SeparationError> {
-                let half = 0.5 * LEAST(working, situation.elevation, &situation.site)?;
-                let half = working.note("s / 2 of either building", half, "m");
-                Ok(half + half)
+                let mut half = |structure: &Structure| -> Result<f64, SeparationError> {
+                    let height = working.elevation(structure);
+                    let half = 0.5 * LEAST(working, height, &situation.site)?;
+                    let name = format!("s / 2({})", structure.name);
+                    Ok(working.note(name, half, "m"))
+                };
+                Ok(half(&situation.left)? + half(&situation.right)?)
             }
         }
     };
@@ -201,18 +206,18 @@ mod tests {
 
     use super::*;
 
-    fn structure(u: f64) -> Structure {
+    fn structure(u: f64, elevation: f64) -> Structure {
         Structure {
             displacement: Some(u),
+            elevation,
             ..Structure::default()
         }
     }
 
     fn situation(elevation: f64) -> Situation {
         Situation {
-            left: structure(0.09),
-            right: structure(0.06),
-            elevation,
+            left: structure(0.09, elevation),
+            right: structure(0.06, elevation),
             site: Site {
                 design_ground_acceleration: Some(0.45 * 1.1 * STANDARD_GRAVITY),
                 ..Site::default()
@@ -232,7 +237,7 @@ mod tests {
         assert!((WITHOUT_JOINT_2018.between(&s).unwrap().width - 0.054).abs() < 1.0e-12);
         let own = |u, h| {
             BOUNDARY_2018
-                .boundary(&structure(u), h, &s.site)
+                .boundary(&structure(u, h), &s.site)
                 .unwrap()
                 .width
         };
@@ -251,7 +256,7 @@ mod tests {
         assert!((WITHOUT_JOINT_2026.between(&s).unwrap().width - 0.0891).abs() < 1.0e-12);
         let own = |u| {
             BOUNDARY_2026
-                .boundary(&structure(u), 9.0, &s.site)
+                .boundary(&structure(u, 9.0), &s.site)
                 .unwrap()
                 .width
         };

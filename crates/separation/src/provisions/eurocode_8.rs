@@ -17,7 +17,6 @@ fn reduction(working: &mut Working, site: &Site) -> Result<f64, SeparationError>
 fn boundary(
     working: &mut Working,
     structure: &Structure,
-    _: f64,
     site: &Site,
 ) -> Result<f64, SeparationError> {
     Ok(working.displacement(structure)? * reduction(working, site)?)
@@ -113,7 +112,6 @@ mod tests {
         let situation = |aligned, owner| Situation {
             left: structure(0.08),
             right: structure(0.06),
-            elevation: 9.0,
             site: Site {
                 floors_aligned: Some(aligned),
                 same_owner: Some(owner),
@@ -126,7 +124,7 @@ mod tests {
                 assert!((descriptor.between(&s).unwrap().width - between).abs() < 1.0e-12);
             }
             for descriptor in [&FIRST_BOUNDARY, &SECOND_BOUNDARY] {
-                let width = descriptor.boundary(&s.left, 9.0, &s.site).unwrap().width;
+                let width = descriptor.boundary(&s.left, &s.site).unwrap().width;
                 assert!((width - own).abs() < 1.0e-12);
                 let both = descriptor.between(&s).unwrap().width;
                 assert!((both - own * 1.75).abs() < 1.0e-12);

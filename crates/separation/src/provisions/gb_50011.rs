@@ -111,7 +111,6 @@ mod tests {
             let situation = Situation {
                 left: structure(left, height),
                 right: structure(right, 60.0),
-                elevation: height,
                 site: Site {
                     fortification_intensity: Some(intensity),
                     ..Site::default()

@@ -14,7 +14,6 @@ const HIGH_IMPORTANCE: f64 = 1.2;
 fn by_height(
     working: &mut Working,
     structure: &Structure,
-    elevation: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
     if structure.storeys > 8 {
@@ -27,13 +26,12 @@ fn by_height(
         );
         return Err(working.not_applicable(reason));
     }
-    Ok(0.005 * working.elevation(elevation))
+    Ok(0.005 * working.elevation(structure))
 }
 
 fn by_analysis(
     working: &mut Working,
     structure: &Structure,
-    _: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
     working.displacement(structure)
@@ -51,7 +49,7 @@ fn tehran(working: &mut Working, situation: &Situation) -> Result<f64, Separatio
     if low(left) && low(right) {
         return Err(working.not_applicable("it speaks of more than 12 m or 4 storeys"));
     }
-    Ok(0.01 * working.elevation(situation.elevation))
+    Ok(0.01 * working.common_elevation(situation))
 }
 
 static EDITION: Edition = Edition {
@@ -145,12 +143,12 @@ mod tests {
             displacement: Some(u),
             storeys,
             height,
+            elevation: height,
             ..Structure::default()
         };
         Situation {
             left: structure(0.08),
             right: structure(0.06),
-            elevation: height,
             site: Site::default(),
         }
     }
@@ -159,7 +157,7 @@ mod tests {
     #[test]
     fn by_hand() {
         let s = situation(6, 18.0);
-        let own = |c: &ProvisionDescriptor| c.boundary(&s.left, 18.0, &s.site).unwrap().width;
+        let own = |c: &ProvisionDescriptor| c.boundary(&s.left, &s.site).unwrap().width;
         assert!((own(&BOUNDARY_BY_HEIGHT) - 0.09).abs() < 1.0e-12);
         assert!((own(&BOUNDARY_BY_ANALYSIS) - 0.08).abs() < 1.0e-12);
         assert!((BETWEEN.between(&s).unwrap().width - 0.1).abs() < 1.0e-12);

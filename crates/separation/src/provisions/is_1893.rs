@@ -96,7 +96,6 @@ mod tests {
             let mut situation = Situation {
                 left: structure(0.2),
                 right: structure(0.06),
-                elevation: 9.0,
                 site: Site {
                     floors_aligned: Some(aligned),
                     ..Site::default()

@@ -92,7 +92,6 @@ mod tests {
             let situation = Situation {
                 left: structure(left, 4),
                 right: structure(right, 9),
-                elevation: 12.0,
                 site: Site {
                     seismic_coefficient: Some(coefficient),
                     ..Site::default()

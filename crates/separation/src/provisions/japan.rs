@@ -9,7 +9,7 @@ use crate::status::Status;
 use crate::working::Working;
 
 fn practice(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    Ok(0.01 * working.elevation(situation.elevation))
+    Ok(0.01 * working.common_elevation(situation))
 }
 
 static PRACTICE_OF_JAPAN: Edition = Edition {
@@ -43,14 +43,23 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+    use crate::inputs::Structure;
 
-    /// 9 m: 90 mm.
+    /// 9 m: 90 mm. Floors at 22 and 19.2 m: 220 mm, on whichever side the higher one lies.
     #[test]
     fn by_hand() {
-        let situation = Situation {
-            elevation: 9.0,
-            ..Situation::default()
-        };
-        assert!((PRACTICE.between(&situation).unwrap().width - 0.09).abs() < 1.0e-12);
+        for (left, right, width) in [(9.0, 9.0, 0.09), (22.0, 19.2, 0.22), (19.2, 22.0, 0.22)] {
+            let structure = |elevation| Structure {
+                elevation,
+                ..Structure::default()
+            };
+            let situation = Situation {
+                left: structure(left),
+                right: structure(right),
+                ..Situation::default()
+            };
+            let found = PRACTICE.between(&situation).unwrap().width;
+            assert!((found - width).abs() < 1.0e-12, "{left} {right}: {found}");
+        }
     }
 }

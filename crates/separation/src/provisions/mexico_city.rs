@@ -18,38 +18,34 @@ const SIMPLIFIED: [f64; 3] = [0.007, 0.009, 0.012];
 fn part(
     working: &mut Working,
     parts: [f64; 3],
-    elevation: f64,
+    structure: &Structure,
     site: &Site,
 ) -> Result<f64, SeparationError> {
     let zone = working.need(site.soil_zone, Input::SoilZone, "")?;
     let part = working.note("part of h for the zone", zone.choose(parts), "-");
-    Ok(part * working.elevation(elevation))
+    Ok(part * working.elevation(structure))
 }
 
 fn boundary(
     working: &mut Working,
     structure: &Structure,
-    elevation: f64,
     site: &Site,
 ) -> Result<f64, SeparationError> {
     let displacement = working.displacement(structure)?;
-    Ok((displacement + part(working, ADDITIONS, elevation, site)?).max(LEAST))
+    Ok((displacement + part(working, ADDITIONS, structure, site)?).max(LEAST))
 }
 
 fn boundary_simplified(
     working: &mut Working,
-    _: &Structure,
-    elevation: f64,
+    structure: &Structure,
     site: &Site,
 ) -> Result<f64, SeparationError> {
-    Ok(part(working, SIMPLIFIED, elevation, site)?.max(LEAST))
+    Ok(part(working, SIMPLIFIED, structure, site)?.max(LEAST))
 }
 
 /// Half where both are alike: equal height, kind of structure and floors.
 fn halved(working: &mut Working, situation: &Situation, sum: f64) -> Result<f64, SeparationError> {
-    let Situation {
-        left, right, site, ..
-    } = situation;
+    let Situation { left, right, site } = situation;
     let systems = (
         working.need(left.system, Input::StructuralSystem, &left.name)?,
         working.need(right.system, Input::StructuralSystem, &right.name)?,
@@ -60,14 +56,8 @@ fn halved(working: &mut Working, situation: &Situation, sum: f64) -> Result<f64,
 }
 
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let Situation {
-        left,
-        right,
-        elevation,
-        site,
-    } = situation;
-    let sum =
-        boundary(working, left, *elevation, site)? + boundary(working, right, *elevation, site)?;
+    let Situation { left, right, site } = situation;
+    let sum = boundary(working, left, site)? + boundary(working, right, site)?;
     halved(working, situation, sum)
 }
 
@@ -75,14 +65,9 @@ fn between_simplified(
     working: &mut Working,
     situation: &Situation,
 ) -> Result<f64, SeparationError> {
-    let Situation {
-        left,
-        right,
-        elevation,
-        site,
-    } = situation;
-    let sum = boundary_simplified(working, left, *elevation, site)?
-        + boundary_simplified(working, right, *elevation, site)?;
+    let Situation { left, right, site } = situation;
+    let sum =
+        boundary_simplified(working, left, site)? + boundary_simplified(working, right, site)?;
     halved(working, situation, sum)
 }
 
@@ -133,12 +118,11 @@ const BASE: [f64; 3] = [0.0, 0.003, 0.006];
 fn boundary_2020(
     working: &mut Working,
     structure: &Structure,
-    elevation: f64,
     site: &Site,
 ) -> Result<f64, SeparationError> {
     let mut width = working.displacement(structure)?;
     // The zone is asked for either way: what is added is a fact of the building's model.
-    let base = part(working, BASE, elevation, site)?;
+    let base = part(working, BASE, structure, site)?;
     if !structure.base_moves {
         width += working.note(format!("base({})", structure.name), base, "m");
     }
@@ -215,6 +199,7 @@ mod tests {
         ] {
             let structure = Structure {
                 displacement: Some(u),
+                elevation: 10.0,
                 base_moves,
                 ..Structure::default()
             };
@@ -222,7 +207,7 @@ mod tests {
                 soil_zone: Some(zone),
                 ..Site::default()
             };
-            let own = BOUNDARY_2020.boundary(&structure, 10.0, &site).unwrap();
+            let own = BOUNDARY_2020.boundary(&structure, &site).unwrap();
             assert!(
                 (own.width - width).abs() < 1.0e-12,
                 "{zone:?}: {}",
@@ -238,6 +223,7 @@ mod tests {
         let structure = |u, system| Structure {
             displacement: Some(u),
             height: 10.0,
+            elevation: 10.0,
             system: Some(system),
             ..Structure::default()
         };
@@ -256,7 +242,6 @@ mod tests {
             let situation = Situation {
                 left: structure(0.08, frame),
                 right: structure(0.06, other),
-                elevation: 10.0,
                 site: site(SoilZone::Two, aligned),
             };
             let found = |c: &ProvisionDescriptor| c.between(&situation).unwrap().width;
@@ -266,9 +251,9 @@ mod tests {
             assert!((found(&BOUNDARY_SIMPLIFIED) - 0.18).abs() < 1.0e-12);
         }
         let small = structure(0.02, frame);
-        let own = BOUNDARY.boundary(&small, 10.0, &site(SoilZone::One, true));
+        let own = BOUNDARY.boundary(&small, &site(SoilZone::One, true));
         assert_eq!(own.unwrap().width, 0.05);
-        let own = BOUNDARY_SIMPLIFIED.boundary(&small, 10.0, &site(SoilZone::Three, true));
+        let own = BOUNDARY_SIMPLIFIED.boundary(&small, &site(SoilZone::Three, true));
         assert!((own.unwrap().width - 0.12).abs() < 1.0e-12);
     }
 }

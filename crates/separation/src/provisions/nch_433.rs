@@ -17,19 +17,13 @@ fn own(working: &mut Working, structure: &Structure, thirds: f64) -> Result<f64,
 fn boundary<const THIRDS: u8>(
     working: &mut Working,
     structure: &Structure,
-    _: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
     own(working, structure, f64::from(THIRDS))
 }
 
-fn minimum(
-    working: &mut Working,
-    _: &Structure,
-    elevation: f64,
-    _: &Site,
-) -> Result<f64, SeparationError> {
-    Ok((0.002 * working.elevation(elevation)).max(0.015))
+fn minimum(working: &mut Working, structure: &Structure, _: &Site) -> Result<f64, SeparationError> {
+    Ok((0.002 * working.elevation(structure)).max(0.015))
 }
 
 fn between<const THIRDS: u8>(
@@ -146,7 +140,7 @@ mod tests {
             ..Situation::default()
         };
         situation.left.elastic_displacement = Some(0.015);
-        let own = BOUNDARY.boundary(&situation.left, 9.0, &situation.site);
+        let own = BOUNDARY.boundary(&situation.left, &situation.site);
         let both = BETWEEN.between(&situation);
         for (found, narrow, wide) in [(own, 0.03, 0.06), (both, 0.05, 0.1)] {
             let found = found.unwrap();
@@ -156,7 +150,13 @@ mod tests {
             let undecided = found.undecided().unwrap();
             assert!(undecided.contains("none is chosen"), "{undecided}");
         }
-        let least = |h| BOUNDARY_MINIMUM.boundary(&situation.left, h, &situation.site);
+        let least = |elevation| {
+            let structure = Structure {
+                elevation,
+                ..structure(0.06)
+            };
+            BOUNDARY_MINIMUM.boundary(&structure, &situation.site)
+        };
         assert!((least(6.0).unwrap().width - 0.015).abs() < 1.0e-12);
         assert!((least(9.0).unwrap().width - 0.018).abs() < 1.0e-12);
     }

@@ -64,7 +64,6 @@ mod tests {
             let situation = Situation {
                 left: structure(0.08),
                 right: structure(0.06),
-                elevation: 9.0,
                 site: Site {
                     floors_aligned: Some(aligned),
                     ..Site::default()

@@ -45,11 +45,10 @@ fn noted(working: &mut Working, structure: &Structure, part: f64) -> f64 {
 fn boundary(
     working: &mut Working,
     structure: &Structure,
-    elevation: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
     let part = noted(working, structure, setback(structure.storeys).free);
-    Ok(part * working.elevation(elevation))
+    Ok(part * working.elevation(structure))
 }
 
 fn beside_existing(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
@@ -59,17 +58,16 @@ fn beside_existing(working: &mut Working, situation: &Situation) -> Result<f64, 
         return Err(working.not_applicable(reason));
     }
     let aligned = working.floors_aligned(site)?;
-    let mut part = |structure: &Structure| {
+    let mut width = |structure: &Structure| {
         let setback = setback(structure.storeys);
         let part = if aligned {
             setback.aligned
         } else {
             setback.unaligned
         };
-        noted(working, structure, part)
+        noted(working, structure, part) * working.elevation(structure)
     };
-    let most = part(&situation.left).max(part(&situation.right));
-    Ok(most * working.elevation(situation.elevation))
+    Ok(width(&situation.left).max(width(&situation.right)))
 }
 
 static EDITION: Edition = Edition {
@@ -149,12 +147,12 @@ mod tests {
             let structure = |u, storeys| Structure {
                 displacement: Some(u),
                 storeys,
+                elevation: 9.0,
                 ..Structure::default()
             };
             let situation = |floors_aligned, neighbour_has_gap| Situation {
                 left: structure(0.08, storeys),
                 right: structure(0.06, 1),
-                elevation: 9.0,
                 site: Site {
                     floors_aligned: Some(floors_aligned),
                     neighbour_has_gap: Some(neighbour_has_gap),
@@ -171,7 +169,7 @@ mod tests {
                 refused,
                 Err(SeparationError::NotApplicable { .. })
             ));
-            let found = BOUNDARY.boundary(&s.left, 9.0, &s.site).unwrap();
+            let found = BOUNDARY.boundary(&s.left, &s.site).unwrap();
             assert!((found.width - own).abs() < 1.0e-12, "{storeys}");
             assert!((WITHIN.between(&s).unwrap().width - 0.14).abs() < 1.0e-12);
         }

@@ -20,7 +20,7 @@ fn minimum(working: &mut Working, situation: &Situation) -> Result<f64, Separati
     let acceleration = working.note("a_g S", acceleration, "m/s2");
     let ratio = (2.0 * acceleration / STANDARD_GRAVITY).min(1.0);
     let ratio = working.note("min(1, 2 a_g S / g)", ratio, "-");
-    Ok(0.01 * working.elevation(situation.elevation) * ratio)
+    Ok(0.01 * working.common_elevation(situation) * ratio)
 }
 
 static EDITION: Edition = Edition {
@@ -112,12 +112,12 @@ mod tests {
         let structure = |u, height| Structure {
             displacement: Some(u),
             height,
+            elevation: 9.0,
             ..Structure::default()
         };
         let situation = |acceleration: f64| Situation {
             left: structure(0.08, 9.0),
             right: structure(0.06, 15.0),
-            elevation: 9.0,
             site: Site {
                 design_ground_acceleration: Some(acceleration * STANDARD_GRAVITY),
                 ..Site::default()

@@ -11,7 +11,6 @@ use crate::working::Working;
 fn boundary(
     working: &mut Working,
     structure: &Structure,
-    _: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
     working.displacement(structure)
@@ -72,7 +71,7 @@ mod tests {
             right: structure(0.06),
             ..Situation::default()
         };
-        let own = BOUNDARY.boundary(&situation.left, 9.0, &situation.site);
+        let own = BOUNDARY.boundary(&situation.left, &situation.site);
         assert!((own.unwrap().width - 0.08).abs() < 1.0e-12);
         assert!((BETWEEN.between(&situation).unwrap().width - 0.14).abs() < 1.0e-12);
     }

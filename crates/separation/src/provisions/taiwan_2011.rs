@@ -18,7 +18,6 @@ fn own(working: &mut Working, structure: &Structure) -> Result<f64, SeparationEr
 fn boundary(
     working: &mut Working,
     structure: &Structure,
-    _: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
     own(working, structure)
@@ -85,7 +84,7 @@ mod tests {
             right: structure(0.06),
             ..Situation::default()
         };
-        let own = BOUNDARY.boundary(&situation.left, 9.0, &situation.site);
+        let own = BOUNDARY.boundary(&situation.left, &situation.site);
         assert!((own.unwrap().width - 0.100_8).abs() < 1.0e-12);
         assert!((BETWEEN.between(&situation).unwrap().width - 0.176_4).abs() < 1.0e-12);
     }

@@ -34,7 +34,7 @@ fn tdy_2007(working: &mut Working, situation: &Situation) -> Result<f64, Separat
 }
 
 fn minimum(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let height = working.elevation(situation.elevation);
+    let height = working.common_elevation(situation);
     // A height that is a whole number of steps but for round-off is one.
     let steps = ((height - 6.0).max(0.0) / 3.0 - 1.0e-9).ceil().max(0.0);
     Ok(0.03 + 0.01 * working.note("begun steps of 3 m above 6 m", steps, "-"))
@@ -154,7 +154,6 @@ mod tests {
             let mut situation = Situation {
                 left: structure(0.3),
                 right: structure(0.06),
-                elevation: 9.0,
                 site: Site {
                     floors_aligned: Some(aligned),
                     ..Site::default()
@@ -178,8 +177,13 @@ mod tests {
             (9.1, 0.05),
             (12.0, 0.05),
         ] {
-            let situation = Situation {
+            let structure = Structure {
                 elevation,
+                ..Structure::default()
+            };
+            let situation = Situation {
+                left: structure.clone(),
+                right: structure,
                 ..Situation::default()
             };
             for descriptor in [&TBDY_2018_MINIMUM, &TDY_2007_MINIMUM] {

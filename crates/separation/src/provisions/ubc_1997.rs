@@ -15,7 +15,6 @@ fn maximum(working: &mut Working, structure: &Structure) -> Result<f64, Separati
 fn boundary(
     working: &mut Working,
     structure: &Structure,
-    _: f64,
     _: &Site,
 ) -> Result<f64, SeparationError> {
     maximum(working, structure)
@@ -111,7 +110,7 @@ mod tests {
             (&NSCP_BOUNDARY, &NSCP_BETWEEN),
         ] {
             let site = Site::default();
-            let width = own.boundary(&situation.left, 9.0, &site).unwrap().width;
+            let width = own.boundary(&situation.left, &site).unwrap().width;
             assert!((width - 0.056).abs() < 1.0e-12);
             let width = between.between(&situation).unwrap().width;
             assert!((width - 0.07).abs() < 1.0e-12);

@@ -184,7 +184,6 @@ fn answer_at(
     (level, sides): (usize, [Option<(usize, usize)>; 2]),
     (ownership, rules): (Option<Ownership>, &Rules),
 ) -> Result<LevelAnswer, SeparationError> {
-    let buildings = place.system.buildings();
     let structures = [0, 1].map(|side| {
         sides[side].map(|at| {
             let peaks = records.iter();
@@ -193,24 +192,18 @@ fn answer_at(
                 .collect();
             let mut yields = records.iter().map(|r| &r.isolated[at.0]);
             let inelastic = yields.any(|b| !b.inelastic_storeys().is_empty());
-            inputs.structure(&buildings[at.0], at.0, (statistic.of(&peaks), inelastic))
+            let peak = (statistic.of(&peaks), inelastic);
+            inputs.structure(place, (level, side), at.0, peak)
         })
     });
     let displacement = [0, 1].map(|i: usize| structures[i].as_ref().and_then(|s| s.displacement));
     let moves = records.iter().map(|r| r.ground_moves(place.gap, level));
     let moves: Vec<f64> = moves.collect();
     let site = inputs.site(place, statistic.of(&moves));
-    let elevation = place.elevation(level);
     let sides = match structures {
-        [Some(left), Some(right)] => Sides::Between(Box::new(Situation {
-            left,
-            right,
-            elevation,
-            site,
-        })),
+        [Some(left), Some(right)] => Sides::Between(Box::new(Situation { left, right, site })),
         [Some(one), None] | [None, Some(one)] => Sides::Wall {
             structure: Box::new(one),
-            elevation,
             site,
         },
         [None, None] => {

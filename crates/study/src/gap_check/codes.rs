@@ -9,7 +9,7 @@ use pounding_separation::{
     Structure, Verification, YieldingOscillator, choose_code, code_in_country, codes,
     correlation_coefficient, descriptors, find,
 };
-use pounding_shear_building::{EDGE_DISPLACEMENTS, ShearBuilding, are_level};
+use pounding_shear_building::{EDGE_DISPLACEMENTS, are_level};
 use pounding_time_history::{BuildingOutcome, Gap, System};
 
 use super::SAME;
@@ -194,10 +194,6 @@ impl GapPlace<'_> {
         (1.0 - share).abs() * lower + share.abs() * upper
     }
 
-    pub(super) fn elevation(&self, level: usize) -> f64 {
-        self.system.levels_of(self.gap())[level].place.elevation()
-    }
-
     /// Provided width of a level (m).
     pub(super) fn width(&self, level: usize) -> f64 {
         self.system.levels_of(self.gap())[level].width
@@ -274,19 +270,24 @@ impl<'a> Inputs<'a> {
         }
     }
 
-    /// A building with its displacement at a level (m), and whether it yields.
+    /// A building where it meets a level, on the left (0) or the right (1), with its displacement
+    /// there (m), and whether it yields.
     pub(super) fn structure(
         &self,
-        building: &ShearBuilding,
+        place: &GapPlace<'_>,
+        (level, side): (usize, usize),
         index: usize,
         (displacement, inelastic): (f64, bool),
     ) -> Structure {
+        let building = &place.system.buildings()[index];
+        let levels = place.system.levels_of(place.gap());
         let of = |list: &Option<Vec<f64>>| list.as_ref().and_then(|l| l.get(index)).copied();
         let systems = self.systems.as_ref();
         let on_isolators = building.isolator().is_some() || !self.isolators;
         Structure {
             name: building.name().to_owned(),
             height: building.elevations().last().copied().unwrap_or(0.0),
+            elevation: levels[level].place.elevations[side].unwrap_or(0.0),
             storeys: building.storeys(),
             displacement: Some(displacement),
             // Of the run that the displacement is taken from. Links that yield leave the
@@ -546,27 +547,20 @@ pub(crate) fn by_code(
     inputs: &Inputs<'_>,
     records: &[RecordDemand],
 ) -> Vec<CodeGap> {
-    let buildings = place.system.buildings();
     let structure = |at: Option<(usize, usize)>, place_of, record: &RecordDemand| {
         at.map(|(index, storey)| {
             let isolated = &record.isolated[index];
             let displacement = place.displacement(place_of, (index, storey), isolated);
             let inelastic = !isolated.inelastic_storeys().is_empty();
-            inputs.structure(&buildings[index], index, (displacement, inelastic))
+            inputs.structure(place, place_of, index, (displacement, inelastic))
         })
     };
     let apply = |descriptor: &Provision, record: &RecordDemand, level: usize, sides: &[_; 2]| {
-        let elevation = place.elevation(level);
         let site = inputs.site(place, record.ground_moves(place.gap, level));
         let [left, right] = [0, 1].map(|side| structure(sides[side], (level, side), record));
         match (left, right) {
-            (Some(left), Some(right)) => descriptor.between(&Situation {
-                left,
-                right,
-                elevation,
-                site,
-            }),
-            (Some(one), None) | (None, Some(one)) => descriptor.boundary(&one, elevation, &site),
+            (Some(left), Some(right)) => descriptor.between(&Situation { left, right, site }),
+            (Some(one), None) | (None, Some(one)) => descriptor.boundary(&one, &site),
             (None, None) => Err(SeparationError::NotApplicable {
                 provision: descriptor.name().to_owned(),
                 reason: "the level lies between two walls".to_owned(),

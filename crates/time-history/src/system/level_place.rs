@@ -33,13 +33,6 @@ impl LevelPlace {
         self.elevations.map(or_wall).join(" / ")
     }
 
-    /// Elevation of the left floor, or of the right one beside a wall on the left (m).
-    #[must_use]
-    pub fn elevation(&self) -> f64 {
-        let [left, right] = self.elevations;
-        left.or(right).unwrap_or(0.0)
-    }
-
     /// Whether both floors are level within a tolerance (m). A wall is level with every
     /// floor.
     #[must_use]
@@ -102,7 +95,7 @@ mod tests {
             across: None,
         };
         assert_eq!(wall.to_string(), "wall-2 (wall | 6 m)");
-        assert!(wall.is_level(0.0) && wall.elevation() == 6.0);
+        assert!(wall.is_level(0.0));
         let point = LevelPlace {
             across: Some(-5.0),
             ..place

@@ -80,7 +80,7 @@ impl Working {
     }
 
     /// The requirement with its explanation: the width by the code, and what the ground on
-    /// both sides of the gap adds to it.
+    /// both sides of the gap adds to it. A negative zero is zero.
     pub(crate) fn finish(
         mut self,
         formula: &str,
@@ -100,6 +100,7 @@ impl Working {
             formula.push_str(", plus the relative displacement of the ground u_g");
             width += self.note("u_g", ground, "m");
         }
+        width = unsigned_zero(width);
         let factors: Vec<String> = self.factors.iter().map(shown).collect();
         let mut explanation = format!("{formula}; {}; {:.1} mm", factors.join(", "), width * 1e3);
         if let Some(caution) = &caution {
@@ -121,7 +122,7 @@ impl Working {
 
     /// Notes a number and hands it on.
     pub(crate) fn note(&mut self, name: impl Into<String>, value: f64, unit: &'static str) -> f64 {
-        let name = name.into();
+        let (name, value) = (name.into(), unsigned_zero(value));
         let known = |f: &Factor| f.name == name && f.value == value;
         if !self.factors.iter().any(known) {
             self.factors.push(Factor { name, value, unit });
@@ -235,6 +236,11 @@ impl Working {
         let higher = self.elevation(left).max(self.elevation(right));
         self.note("h of the higher floor", higher, "m")
     }
+}
+
+/// The value, with zero for a negative zero, as rounded and negated expressions of users give.
+fn unsigned_zero(value: f64) -> f64 {
+    value + 0.0
 }
 
 fn shown(factor: &Factor) -> String {

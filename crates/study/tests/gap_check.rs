@@ -256,6 +256,32 @@ fn floors_at_different_elevations_have_their_own_heights() {
     }
 }
 
+/// A rule that asks for nothing at the lowest level, by rounding up or by a limit, and for 10 and 20 mm,
+/// or 30 and 60 mm, above: the roof governs, also beside a lowest level without any width. Where
+/// nothing is asked of any level, the highest is shown.
+#[test]
+fn a_level_that_needs_nothing_does_not_govern() {
+    for (expression, width, required) in [
+        ("ceil((height - base) / step) * w", "\"30 mm\"", 0.02),
+        ("max(0, (height - base) / 100)", "\"30 mm\"", 0.06),
+        ("max(0, (height - base) / 100)", "[0, 0.05, 0.05]", 0.06),
+        ("0 * (height - base)", "[0, 0.05, 0.05]", 0.0),
+    ] {
+        let more = format!(
+            "[separation]\ncode = \"mine\"\n[[separation.rule]]\nname = \"mine\"\nkind = \"between\"\nexpression = \"{expression}\"\ninputs = {{ base = \"3 m\", step = \"3 m\", w = \"10 mm\" }}\n"
+        );
+        let case = of_storeys((3, 3.0), (3, 3.0), MATCHING, &more);
+        let text = case.source.replace("\"200 mm\"", width);
+        let case = Case::parse(&text, &root().join("case.toml")).unwrap();
+        let check = check(&case, &[], &options());
+        let answer = check.gaps[0].code.as_ref().unwrap();
+        let (level, governing) = answer.cases[0].governing().unwrap();
+        let found = governing.width.requirement.width;
+        assert_eq!(level, 2, "{expression}");
+        assert!((found - required).abs() < 1e-12, "{expression}: {found}");
+    }
+}
+
 /// Every provision either computes or says what is missing; with all inputs only those
 /// that do not apply are left.
 #[test]

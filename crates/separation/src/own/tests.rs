@@ -132,6 +132,18 @@ fn a_boundary_rule() {
     ));
 }
 
+/// A begun step of nothing is zero, without a sign, also summed over both sides.
+#[test]
+fn a_negative_zero_is_zero() {
+    let more = "inputs = { step = \"3 m\", base = \"18 m\", w = \"10 mm\" }\ndefinitions = { s = \"ceil((height - base) / step) * w\" }";
+    for kind in ["between", "boundary"] {
+        let rule = compiled(&file(kind, "s", more)).unwrap();
+        let found = rule.between(&worked_example()).unwrap();
+        assert_eq!(found.width.to_bits(), 0.0_f64.to_bits(), "{kind}");
+        assert!(!found.explanation.contains("-0"), "{}", found.explanation);
+    }
+}
+
 /// Floors at 22 and 19.2 m: a boundary rule takes each building's own, 110 and 96 mm; one between
 /// two says which, and nothing where it does not.
 #[test]

@@ -56,10 +56,13 @@ pub struct LevelAnswer {
 }
 
 impl LevelAnswer {
-    /// Provided over required width (-).
+    /// Provided over required width (-); infinite where nothing is required, also of no width.
     #[must_use]
     pub fn ratio(&self) -> f64 {
-        self.provided / self.width.requirement.width
+        match self.width.requirement.width {
+            0.0 => f64::INFINITY,
+            required => self.provided / required,
+        }
     }
 
     /// Whether the provided width is no less; `None` for a rule that does not hold for
@@ -73,8 +76,9 @@ impl LevelAnswer {
 }
 
 impl OwnershipAnswer {
-    /// The level with the least ratio of provided to required width (from zero), with its
-    /// answer; `None` where the code says nothing.
+    /// The level with the least ratio of provided to required width (from zero), of equals the
+    /// highest, with its answer: one that needs nothing only where none needs anything. `None`
+    /// where the code says nothing.
     #[must_use]
     pub fn governing(&self) -> Option<(usize, &LevelAnswer)> {
         let levels = self.levels.iter().enumerate().rev();

@@ -192,10 +192,10 @@ fn the_sweep_of_one_gap_in_a_row_covers_its_width() {
 /// Levels where floors lie level with floors.
 const MATCHING: &str = "levels = \"matching\"";
 
-/// Two buildings of so many storeys of so many metres, in this order, with what the gap says of its
+/// Two buildings of so many storeys of these heights (m), in this order, with what the gap says of its
 /// levels.
-fn of_storeys(left: (usize, f64), right: (usize, f64), levels: &str, more: &str) -> Case {
-    let building = |name: &str, (storeys, height): (usize, f64)| {
+fn of_storeys(left: (usize, &str), right: (usize, &str), levels: &str, more: &str) -> Case {
+    let building = |name: &str, (storeys, height): (usize, &str)| {
         format!(
             "[[building]]\nname = \"{name}\"\nstoreys = {storeys}\nmass = \"100 t\"\nstiffness = \"300 MN/m\"\nheight = {height}\ndamping = {{ ratio = 0.05, modes = [1, 2] }}\n"
         )
@@ -216,10 +216,10 @@ fn of_storeys(left: (usize, f64), right: (usize, f64), levels: &str, more: &str)
 #[test]
 fn floors_are_aligned_where_those_of_both_buildings_face_one_another() {
     for (one, other, reduction) in [
-        ((3, 3.0), (6, 1.5), 1.0),
-        ((3, 3.0), (8, 1.5), 1.0),
-        ((3, 3.0), (6, 3.0), 0.7),
-        ((3, 3.0), (3, 3.0), 0.7),
+        ((3, "3.0"), (6, "1.5"), 1.0),
+        ((3, "3.0"), (8, "1.5"), 1.0),
+        ((3, "3.0"), (6, "3.0"), 0.7),
+        ((3, "3.0"), (3, "3.0"), 0.7),
     ] {
         for (left, right) in [(one, other), (other, one)] {
             let case = of_storeys(left, right, MATCHING, "[separation]\nsame_owner = true\n");
@@ -237,7 +237,7 @@ fn floors_are_aligned_where_those_of_both_buildings_face_one_another() {
 /// side is 80 mm, and 1/100 of the higher one 100 mm.
 #[test]
 fn floors_at_different_elevations_have_their_own_heights() {
-    let (low, high) = ((2, 3.0), (2, 5.0));
+    let (low, high) = ((2, "3.0"), (2, "5.0"));
     for (left, right) in [(low, high), (high, low)] {
         let case = of_storeys(left, right, "levels = [[2, 2]]\nfloor_to_floor = true", "");
         let check = check(&case, &[], &options());
@@ -256,6 +256,37 @@ fn floors_at_different_elevations_have_their_own_heights() {
     }
 }
 
+/// Storeys of 3 m beside two of 3 and 4 m: the roof at 7 m has no floor opposite, and the check says
+/// so, from either side, unless it acts on one. So it does of levels that leave out roofs that face one
+/// another.
+#[test]
+fn a_lower_roof_that_lies_at_no_level_is_said() {
+    let (low, high) = ((2, "[3, 4]"), (3, "3"));
+    let warned = |left, right, levels: &str| {
+        let case = of_storeys(left, right, levels, "");
+        let told = check(&case, &[], &options()).warnings;
+        told.into_iter().find(|w| w.contains("lies at no level"))
+    };
+    for (left, right, own, other) in [(low, high, "A", "B"), (high, low, "B", "A")] {
+        let said = warned(left, right, MATCHING).unwrap();
+        for part in [
+            &format!("the roof of \"{own}\" at 7 m, storey 2, lies"),
+            "levels up to 3 m",
+            &format!("columns of \"{other}\""),
+        ] {
+            assert!(said.contains(part), "{part}: {said}");
+        }
+        let acts = "levels = [[1, 1], [2, 2]]\nfloor_to_floor = true";
+        assert_eq!(warned(left, right, acts), None);
+    }
+    assert_eq!(warned(high, (2, "3"), MATCHING), None);
+    let said = warned(high, (3, "3"), "levels = [[1, 1], [2, 2]]").unwrap();
+    assert!(
+        said.contains("at 9 m, storey 3, lies") && said.contains("levels up to 6 m"),
+        "{said}"
+    );
+}
+
 /// A rule that asks for nothing at the lowest level, by rounding up or by a limit, and for 10 and 20 mm,
 /// or 30 and 60 mm, above: the roof governs, also beside a lowest level without any width. Where
 /// nothing is asked of any level, the highest is shown.
@@ -270,7 +301,7 @@ fn a_level_that_needs_nothing_does_not_govern() {
         let more = format!(
             "[separation]\ncode = \"mine\"\n[[separation.rule]]\nname = \"mine\"\nkind = \"between\"\nexpression = \"{expression}\"\ninputs = {{ base = \"3 m\", step = \"3 m\", w = \"10 mm\" }}\n"
         );
-        let case = of_storeys((3, 3.0), (3, 3.0), MATCHING, &more);
+        let case = of_storeys((3, "3.0"), (3, "3.0"), MATCHING, &more);
         let text = case.source.replace("\"200 mm\"", width);
         let case = Case::parse(&text, &root().join("case.toml")).unwrap();
         let check = check(&case, &[], &options());

@@ -147,7 +147,7 @@ pub(crate) struct GapPlace<'a> {
 }
 
 impl GapPlace<'_> {
-    fn gap(&self) -> &Gap {
+    pub(super) fn gap(&self) -> &Gap {
         &self.system.gaps()[self.gap]
     }
 

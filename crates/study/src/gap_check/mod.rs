@@ -6,6 +6,7 @@ mod codes;
 mod collapse;
 mod demand;
 mod error;
+mod lower_roof;
 mod parallel;
 mod records;
 mod repeated;
@@ -317,7 +318,7 @@ pub fn gap_check_dealt(
     let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
     let condition = chosen.code.as_ref().and_then(|code| code.suite.spectrum);
     let spectrum = SuiteSpectrum::of(case, records, condition, options.threads)?;
-    let mut gaps = Vec::new();
+    let (mut gaps, mut roofs) = (Vec::new(), Vec::new());
     for index in 0..first.assembly.system.gaps().len() {
         let place = codes::GapPlace {
             system: &first.assembly.system,
@@ -334,6 +335,7 @@ pub fn gap_check_dealt(
             code_answer::code_answer(code, &place, &inputs, records, (demand, spectrum.clone()))
         });
         gaps.push(report);
+        roofs.extend(lower_roof::left_out(&place));
     }
     let sweep = swept.map(|asked| {
         let tell = |done, _| progress(records.len() + done, total);
@@ -355,6 +357,7 @@ pub fn gap_check_dealt(
         sweep: sweep.transpose()?,
         warnings: warnings(case, records)
             .into_iter()
+            .chain(roofs)
             .chain(separation.warnings())
             .chain(repeated.warnings(&names))
             .collect(),

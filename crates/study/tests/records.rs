@@ -78,6 +78,51 @@ fn alone(text: &str, folder: &Path) -> Vec<f64> {
     storeys.map(|s| s.displacement.value).collect()
 }
 
+/// The warning of records that are one motion stands in the result of every shard, also of one that
+/// reads only its own: a copy under another name, times two by its samples, and scaled by its own
+/// process. One that is filtered, or of another earthquake, is another motion.
+#[test]
+fn records_of_one_motion_are_told_in_every_shard() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name);
+    let record = std::fs::read_to_string(root().join("ground_motions/el_centro_1940_ns.csv"));
+    let record = record.unwrap();
+    let doubled: Vec<String> = record
+        .lines()
+        .map(
+            |line| match line.split_once(',').map(|(t, a)| (t, a.parse::<f64>())) {
+                Some((t, Ok(a))) => format!("{t},{}", 2.0 * a),
+                _ => line.to_owned(),
+            },
+        )
+        .collect();
+    assert_ne!(doubled.join("\n"), record.trim_end());
+    std::fs::write(path("copy.csv"), &record).unwrap();
+    std::fs::write(path("doubled.csv"), doubled.join("\n") + "\n").unwrap();
+    let text = "[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\", \"copy.csv\", \"doubled.csv\", \"MOTIONS/kobe_1995_jma_ns.csv\", { name = \"tripled\", file = \"copy.csv\", process = [{ scale = 3 }] }, { name = \"filtered\", file = \"copy.csv\", process = [{ filter = { high_pass = \"1 Hz\" } }] }]\n";
+    let study = study(folder.path(), "", text).unwrap();
+    for (index, shared) in [(1, None), (1, Some("shared")), (2, Some("shared"))] {
+        let options = SweepOptions {
+            output: path(&format!("out_{index}.h5")),
+            csv: None,
+            threads: 1,
+            shard: Shard { index, count: 2 },
+            resume: false,
+            store_every: std::time::Duration::from_secs(5),
+            keep_going: false,
+            shared: shared.map(path),
+        };
+        let go_on = &mut |_: &_| std::ops::ControlFlow::Continue(());
+        let told = sweep(&study, &options, go_on).unwrap().warnings;
+        let told: Vec<_> = told.iter().filter(|w| w.contains("same motion")).collect();
+        let [told] = told.as_slice() else {
+            panic!("{told:?}");
+        };
+        let says = "el_centro_1940_ns, copy, doubled and tripled are the same motion, at most scaled, reversed or cut: they are one record, of 3 records in all";
+        assert!(told.starts_with(says), "{index} {shared:?}: {told}");
+    }
+}
+
 /// The process of the case acts on every record of a study; a record's own takes its place.
 #[test]
 fn records_keep_the_process_of_the_case() {

@@ -31,6 +31,7 @@ pub use records::{
     CaseUnderRecord, RecordFiles, SkippedFile, distinct, record_files, under_records,
 };
 pub use repeated::Repeated;
+pub(crate) use repeated::Shape;
 pub use required::{LognormalFit, RequiredGap};
 pub use spectra::{SuiteSpectra, SuiteTarget};
 pub use statistics::binomial_bounds;

@@ -18,9 +18,9 @@ pub struct Repeated {
 impl Repeated {
     /// Copies among the records of a case.
     pub(crate) fn among(records: &[CaseUnderRecord]) -> Self {
-        let of = |r: usize| &records[r].assembly.accelerogram;
-        let same = |a: usize, b: usize| are_one_motion(of(a), of(b));
-        Self::by(records.len(), same)
+        let shapes = records.iter().map(|r| Shape::of(&r.assembly.accelerogram));
+        let shapes: Vec<Shape<'_>> = shapes.collect();
+        Self::by(records.len(), |a, b| shapes[a].is_that_of(&shapes[b]))
     }
 
     /// Copies among so many records, of which two are one motion or not.
@@ -58,30 +58,56 @@ const OVERLAP: f64 = 0.9;
 /// of any format leave out, far less than any two components do.
 const DIFFERENCE: f64 = 1.0e-3;
 
-/// Whether a record is the other one times a factor, cut at other times or in other digits.
-fn are_one_motion(a: &Accelerogram, b: &Accelerogram) -> bool {
-    if (a.time_step() - b.time_step()).abs() > 1.0e-9 * a.time_step() {
-        return false;
+/// What tells a motion from others: its samples with the place of their peak.
+#[derive(Debug)]
+pub(crate) struct Shape<'a> {
+    samples: &'a [f64],
+    time_step: f64,
+    peak: Option<usize>,
+    /// Sum of all squares.
+    squares: f64,
+}
+
+impl<'a> Shape<'a> {
+    pub(crate) fn of(record: &'a Accelerogram) -> Self {
+        let samples = record.samples();
+        Self {
+            samples,
+            time_step: record.time_step(),
+            peak: place_of_peak(samples),
+            squares: samples.iter().map(|x| x * x).sum(),
+        }
     }
-    let [first, second] = [a, b].map(Accelerogram::samples);
-    let (Some(i), Some(j)) = (place_of_peak(first), place_of_peak(second)) else {
-        // Both are zero throughout, or one of them.
-        return place_of_peak(first) == place_of_peak(second);
-    };
-    let before = i.min(j);
-    let after = (first.len() - i).min(second.len() - j);
-    let shorter = first.len().min(second.len());
-    if ((before + after) as f64) < OVERLAP * shorter as f64 {
-        return false;
+
+    /// Whether the record is the other one times a factor, cut at other times or in other digits.
+    pub(crate) fn is_that_of(&self, other: &Self) -> bool {
+        if (self.time_step - other.time_step).abs() > 1.0e-9 * self.time_step {
+            return false;
+        }
+        let (first, second) = (self.samples, other.samples);
+        let (Some(i), Some(j)) = (self.peak, other.peak) else {
+            // Both are zero throughout, or one of them.
+            return self.peak == other.peak;
+        };
+        let before = i.min(j);
+        let after = (first.len() - i).min(second.len() - j);
+        let shorter = first.len().min(second.len());
+        if ((before + after) as f64) < OVERLAP * shorter as f64 {
+            return false;
+        }
+        let factor = second[j] / first[i];
+        let (mut difference, mut whole) = (0.0, 0.0);
+        let common = first[i - before..i + after].iter();
+        for (x, y) in common.zip(&second[j - before..j + after]) {
+            difference += (factor * x - y) * (factor * x - y);
+            whole += y * y;
+            // More than all samples allow: other motions part within a few of them.
+            if difference > DIFFERENCE * DIFFERENCE * other.squares {
+                return false;
+            }
+        }
+        difference <= DIFFERENCE * DIFFERENCE * whole
     }
-    let factor = second[j] / first[i];
-    let (mut difference, mut whole) = (0.0, 0.0);
-    let common = first[i - before..i + after].iter();
-    for (x, y) in common.zip(&second[j - before..j + after]) {
-        difference += (factor * x - y) * (factor * x - y);
-        whole += y * y;
-    }
-    difference <= DIFFERENCE * DIFFERENCE * whole
 }
 
 /// The first of the largest absolute values, if any is not zero.
@@ -118,6 +144,10 @@ mod tests {
             sines.sum::<f64>() * (-(t - 5.0) * (t - 5.0) / 8.0).exp()
         };
         (0..1000).map(at).collect()
+    }
+
+    fn are_one_motion(a: &Accelerogram, b: &Accelerogram) -> bool {
+        Shape::of(a).is_that_of(&Shape::of(b))
     }
 
     #[test]

@@ -10,6 +10,7 @@ use sha2::{Digest, Sha256};
 
 use super::shared_records::{self, SharedRecords};
 use crate::error::StudyError;
+use crate::gap_check::Shape;
 use crate::study_file::{IntensityMeasure, RecordKind, RecordSource, Study, Target};
 use pounding_files::checksum::hexadecimal;
 
@@ -21,6 +22,9 @@ pub(crate) struct Motion {
     pub record: Option<Arc<Accelerogram>>,
     /// Hash of the bytes of its file, or of its samples if it is synthetic.
     pub sha256: String,
+    /// Name and hash of the first record of the study that is the same motion, or its own; empty
+    /// until it is held against the others.
+    pub first: String,
     /// Intensity as recorded, if the study scales to one.
     pub intensity: Option<f64>,
     /// Time of its peak acceleration (s).
@@ -63,12 +67,35 @@ impl Motions {
             Some(known) => Ok(known),
             None => read(study, &source.kind),
         });
-        let motions = Self { all: all.collect() };
+        let mut motions = Self { all: all.collect() };
         motions.check(study, keep_failures)?;
+        motions.find_copies(&study.records);
         if let Some(shared) = &mut shared {
             shared.add(&study.records, &motions.all)?;
         }
         Ok(motions)
+    }
+
+    /// Finds the first record of each motion, as far as they were read: those that another process
+    /// has read it has held against one another.
+    fn find_copies(&mut self, sources: &[RecordSource]) {
+        let read = |motion: &Result<Motion, String>| motion.as_ref().ok()?.record.clone();
+        let records: Vec<_> = self.all.iter().map(read).collect();
+        let mut firsts: Vec<(String, Shape<'_>)> = Vec::new();
+        for ((motion, record), source) in self.all.iter_mut().zip(&records).zip(sources) {
+            let (Ok(motion), Some(record)) = (motion, record) else {
+                continue;
+            };
+            let shape = Shape::of(record);
+            motion.first = match firsts.iter().find(|(_, first)| first.is_that_of(&shape)) {
+                Some((first, _)) => first.clone(),
+                None => {
+                    let own = format!("{} {}", source.name, motion.sha256);
+                    firsts.push((own.clone(), shape));
+                    own
+                }
+            };
+        }
     }
 
     /// Reads those that runs need and that were only known until now.
@@ -97,7 +124,10 @@ impl Motions {
                     "it has changed since the study was begun (SHA-256 {}, now {})",
                     known.sha256, made.sha256
                 )),
-                made => made,
+                made => made.map(|made| Motion {
+                    first: known.first.clone(),
+                    ..made
+                }),
             };
         }
         self.check(study, keep_failures)
@@ -165,6 +195,7 @@ pub(crate) fn motion(
         }
     };
     Ok(Motion {
+        first: String::new(),
         intensity: measure.map(|m| m.of(&record)).transpose()?,
         peak_time: record.peak().time,
         record: Some(Arc::new(record)),

@@ -133,15 +133,7 @@ impl<'s> Runner<'s> {
                 missing.join(", ")
             ));
         }
-        // The hash is that of the file, of which another component is another motion.
-        let known = |r: usize| {
-            let component = match &study.records[r].kind {
-                RecordKind::File { case, .. } => case.ground_motion.component.as_deref(),
-                _ => None,
-            };
-            let motion = motions.all[r].as_ref().ok()?;
-            Some((motion.sha256.as_str(), component))
-        };
+        let known = |r: usize| Some(&motions.all[r].as_ref().ok()?.first);
         // One file that is read in several ways is no repetition.
         let once = study.readings.is_empty();
         let same = |a: usize, b: usize| once && known(a).is_some() && known(a) == known(b);

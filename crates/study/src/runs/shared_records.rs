@@ -44,6 +44,8 @@ struct Known {
     file: PathBuf,
     stamp: Stamp,
     sha256: String,
+    /// See [`Motion::first`].
+    first: String,
     /// The bits of the intensity, so that none is lost.
     intensity: Option<u64>,
     /// The bits of the time of the peak.
@@ -99,6 +101,7 @@ impl SharedRecords {
         Some(Motion {
             record: None,
             sha256: known.sha256.clone(),
+            first: known.first.clone(),
             intensity: known.intensity.map(f64::from_bits),
             peak_time: f64::from_bits(known.peak_time),
         })
@@ -148,6 +151,7 @@ impl SharedRecords {
                 file,
                 stamp,
                 sha256: motion.sha256.clone(),
+                first: motion.first.clone(),
                 intensity: motion.intensity.map(f64::to_bits),
                 peak_time: motion.peak_time.to_bits(),
             });

@@ -121,12 +121,20 @@ pub enum StudyError {
         reason: String,
     },
     /// A result in the place of a merged one that does not hold all of its shards.
-    #[error("{path} is not replaced: {reason}, and what is merged does not hold all of its runs")]
+    #[error("{path} is not replaced: {reason}, which is not among what is merged")]
     NotMerged {
         /// The file.
         path: PathBuf,
         /// What it is.
         reason: String,
+    },
+    /// The name of a shard for a merged result, by which commands would take it for that shard.
+    #[error("{path} has the name of a shard, {shard}, which a merged result is not")]
+    NamedAsShard {
+        /// The file.
+        path: PathBuf,
+        /// Number of the shard and of all, as I of N.
+        shard: String,
     },
     /// Another process works on the same runs.
     #[error("another process is working in {folder}")]
@@ -263,6 +271,7 @@ impl StudyError {
             Self::NotMerged { .. } => {
                 "name another result with -o, merge this one with the others, or move it away if it is of no use"
             }
+            Self::NamedAsShard { .. } => "name another result with -o",
             Self::Busy { .. } => "wait for it, or name another result with -o",
             Self::ResultFile(error) => return Some(error.help()),
             Self::FileUse(error) => return Some(error.help()),

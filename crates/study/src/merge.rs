@@ -7,6 +7,7 @@ use pounding_results::Label;
 use pounding_results::study::{Description, MergeOptions, ResultWriter, Shards};
 
 use crate::error::StudyError;
+use crate::shard_name::ShardName;
 use crate::sweep::{default_result, of_this_study};
 use crate::table::RunTable;
 
@@ -33,7 +34,7 @@ pub struct MergeReport {
 ///
 /// # Errors
 /// [`StudyError::FileUse`] if the output or the table is one of the files,
-/// as [`Shards::open`], [`StudyError::NotMerged`] if runs of the study would be lost that stand
+/// as [`Shards::open`], [`StudyError::NamedAsShard`], [`StudyError::NotMerged`] if runs of the study would be lost that stand
 /// in the place of the output alone, or [`StudyError::ResultFile`].
 pub fn merge(
     files: &[PathBuf],
@@ -58,7 +59,8 @@ pub fn merge(
         ..MergeReport::default()
     };
     let whole = shards.description();
-    spare_what_is_not_merged(whole, output)?;
+    refuse_name_of_shard(output)?;
+    spare_what_is_not_merged(&shards, output)?;
     let mut writer = ResultWriter::create(output, whole, shards.count()?)?;
     if let Some(study) = study_file(files, whole, output) {
         writer = writer.of_study_file(whole, &study);
@@ -91,19 +93,31 @@ fn study_file(shards: &[PathBuf], merged: &Description, output: &Path) -> Option
     (says_it && content == merged.study.as_bytes()).then_some(file)
 }
 
-/// A result of the study stays where it holds shards that these files do not: what has been
-/// computed is not lost by a wrong name.
-fn spare_what_is_not_merged(merged: &Description, output: &Path) -> Result<(), StudyError> {
+/// A merged result has no name of a shard: in a folder of shards it would be taken for one.
+fn refuse_name_of_shard(output: &Path) -> Result<(), StudyError> {
+    let name = output.file_name().map(|name| name.to_string_lossy());
+    match name.and_then(|name| ShardName::of(&name)) {
+        Some(shard) => Err(StudyError::NamedAsShard {
+            path: output.to_owned(),
+            shard: format!("{} of {}", shard.index, shard.count),
+        }),
+        None => Ok(()),
+    }
+}
+
+/// A result of the study stays where it holds shards that these files do not, of which those of
+/// another dealing are: what has been computed is not lost by a wrong name, and no other set of shards
+/// loses one.
+fn spare_what_is_not_merged(shards: &Shards, output: &Path) -> Result<(), StudyError> {
+    let merged = shards.description();
     let Some(found) = Label::of(output).and_then(|label| label.study) else {
         return Ok(());
     };
-    let held = merged.part.is_whole()
-        || found.part.count() == merged.part.count()
-            && found
-                .part
-                .shards()
-                .iter()
-                .all(|shard| merged.part.shards().contains(shard));
+    let merges = |shard: &usize| merged.part.is_whole() || merged.part.shards().contains(shard);
+    let held = match found.part.is_whole() {
+        true => merged.part.is_whole(),
+        false => found.part.count() == shards.dealing() && found.part.shards().iter().all(merges),
+    };
     match found.sha256 == merged.study_sha256 && !held {
         true => Err(StudyError::NotMerged {
             path: output.to_owned(),

@@ -230,6 +230,30 @@ fn a_merge_replaces_no_runs_that_it_does_not_hold() {
     assert!(bench.bytes("other.h5") == whole);
 }
 
+/// Two dealings of a study in one folder are two sets of shards: no merge of one takes a shard, or a
+/// name, of the other.
+#[test]
+fn a_merge_takes_no_place_of_another_dealing() {
+    let bench = Bench::new(MIXED);
+    shards(&bench, 3);
+    bench.text("sweep study.toml --shard 1/7 -o other.h5");
+    let before = bench.bytes("other.h5");
+    let named = "folder/s.shard-2-of-7.h5";
+    std::fs::create_dir(bench.path("folder")).unwrap();
+    for (output, says) in [
+        ("other.h5", "it is shard 1/7 of this study"),
+        (named, "has the name of a shard, 2 of 7"),
+    ] {
+        for merged in ["1.h5 2.h5 3.h5", "1.h5 --partial"] {
+            let told = bench.complaint(&format!("merge {merged} -o {output}"), 2);
+            for part in [output, says, "name another result with -o"] {
+                assert!(told.contains(part), "{part}: {told}");
+            }
+        }
+    }
+    assert!(bench.bytes("other.h5") == before && !bench.path(named).exists());
+}
+
 /// One of the two has to be there.
 #[test]
 fn the_help_of_a_merge_shows_what_it_needs() {

@@ -337,6 +337,12 @@ impl Shards {
         &self.description
     }
 
+    /// In how many shards the study is dealt, also where all of them are here.
+    #[must_use]
+    pub fn dealing(&self) -> usize {
+        self.owners.len()
+    }
+
     /// Number of rows of the merged result.
     ///
     /// # Errors

@@ -61,9 +61,13 @@ exceeds = "1e9 N"
 "#;
 
 fn bench() -> Bench {
+    bench_of(CASE)
+}
+
+fn bench_of(case: &str) -> Bench {
     let bench = Bench::new(STUDY);
     let motions = super::root().join("ground_motions");
-    let case = CASE.replace("MOTIONS", motions.to_str().unwrap());
+    let case = case.replace("MOTIONS", motions.to_str().unwrap());
     std::fs::write(bench.path("case.toml"), case).unwrap();
     bench
 }
@@ -163,6 +167,38 @@ fn a_collapse_has_reached_every_state() {
         (&0.into(), &collapsed.into())
     );
     assert!(bench.bytes("merged.h5") == bench.bytes("out.h5"));
+}
+
+/// A light building that falls where the heavy one hits it, and stands by itself with demands of 164 mm
+/// at 4.58 m/s2 and 237 mm at 5.78 m/s2: pounding at a gap of 200 mm and a limit of that on the isolated
+/// demand are one state, which is not reached at the first.
+#[test]
+fn a_limit_on_the_isolated_demand_asks_the_buildings_without_contact() {
+    let building = |name: &str, rest: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nstoreys = 2\nheight = \"4 m\"\ndamping = {{ modal = 0.05 }}\n{rest}\n"
+        )
+    };
+    let case = building(
+        "light",
+        "mass = \"100 t\"\nstiffness = [\"9 MN/m\", \"8 MN/m\"]\np_delta = true\nlaw = { model = \"bilinear\", yield_force = \"250 kN\" }",
+    ) + &building("heavy", "mass = \"120 t\"\nstiffness = \"60 MN/m\"")
+        + "[[gap]]\nbetween = [\"light\", \"heavy\"]\nwidth = \"60 mm\"\nmodel = \"anagnostopoulos_2004\"\nstiffness = \"500 MN/m\"\nrestitution = 0.6\n"
+        + &CASE[CASE.find("[ground_motion]").unwrap()..CASE.find("[analysis]").unwrap()];
+    let bench = bench_of(&case);
+    bench.study("case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/kobe_1995_jma_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [2.179, 4.576, 5.775]\n[ida]\ngaps = [\"200 mm\"]\n[[ida.limit]]\nname = \"isolated\"\ndemand = \"isolated_demand\"\nexceeds = \"200 mm\"\n[[ida.limit]]\nname = \"drift\"\ndemand = \"drift_ratio\"\nbuilding = \"light\"\nexceeds = 0.9\n");
+    let told: Value = serde_json::from_str(&bench.text("ida study.toml -o out.h5 --json")).unwrap();
+    let reached = |state: &Value| {
+        let counts = state["counts"].as_array().unwrap().iter();
+        counts
+            .map(|c| c["reached"].as_u64().unwrap())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(told["levels"][1]["collapsed"], 1, "{told}");
+    assert_eq!(reached(&told["gaps"][0]["widths"][0]), [0, 0, 1]);
+    assert_eq!(reached(&told["limits"][1]), [0, 0, 1]);
+    // Other demands are above everything in a collapse.
+    assert_eq!(reached(&told["limits"][2]), [0, 1, 1]);
 }
 
 /// A study in which every run collapses has an answer; one run alone still ends with 3.

@@ -9,6 +9,8 @@ use crate::study_file::{DemandKind, Limit};
 
 /// The demand that asks the buildings without gaps.
 const ISOLATED: &str = "isolated_demand";
+/// The demand that counts.
+const IMPACTS: &str = "impacts";
 
 /// Columns over which the maximum value is taken.
 #[derive(Debug, Clone, PartialEq)]
@@ -89,7 +91,7 @@ fn no_jump(layout: &Layout, gaps: &[(String, Vec<String>)], building: Option<&st
         let mut gaps = gaps.iter().filter(|(name, _)| name == gap);
         gaps.any(|(_, sides)| building.is_none_or(|b| sides.iter().any(|side| side == b)))
     };
-    let levels = layout.range("impacts").zip(layout.range(FORCE));
+    let levels = layout.range(IMPACTS).zip(layout.range(FORCE));
     let levels = levels.zip(&layout.levels);
     let levels = levels.filter(|(_, level)| beside(&level.of));
     Needs::NoJump(levels.map(|(columns, _)| columns).collect())
@@ -142,14 +144,20 @@ pub(super) fn usual(layout: &Layout, gaps: &[(String, Vec<String>)]) -> Vec<Dema
             (FORCE, "N"),
             ("peak_column_shear", "N"),
             ("impulse_max", "N s"),
-            ("impacts", "1"),
+            (IMPACTS, "1"),
         ] {
             // Not all studies have columns that are hit.
             if layout.range(name).is_empty() {
                 continue;
             }
+            // A maximum, as all are, which the word alone would have for a sum.
+            let title = if name == IMPACTS {
+                "impacts at one level"
+            } else {
+                name
+            };
             demands.push(Demand {
-                name: format!("{name}: {gap}"),
+                name: format!("{title}: {gap}"),
                 unit,
                 columns: chosen(layout.range(name), mine),
                 isolated: name == ISOLATED,
@@ -193,7 +201,7 @@ pub(super) fn of_limit(
         DemandKind::ContactForce => (FORCE, "N", Axis::Level),
         DemandKind::ColumnShear => ("peak_column_shear", "N", Axis::Level),
         DemandKind::Impulse => ("impulse_max", "N s", Axis::Level),
-        DemandKind::Impacts => ("impacts", "1", Axis::Level),
+        DemandKind::Impacts => (IMPACTS, "1", Axis::Level),
         DemandKind::IsolatedDemand => ("isolated_demand", "m", Axis::Level),
     };
     let mine = |column: usize| match axis {

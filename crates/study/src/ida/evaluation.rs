@@ -264,7 +264,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     let pounds = |r: &Run| r.collapsed || r.demands[first_impacts..].iter().any(|n| *n > 0.0);
     let mut results = vec![evaluation.limit(POUNDING, &pounds)?];
     for (i, (demand, exceeds)) in limits.iter().enumerate() {
-        let reached = |r: &Run| r.collapsed || r.demands[first_limit + i] > *exceeds;
+        let reached = |r: &Run| r.demands[first_limit + i] > *exceeds;
         results.push(evaluation.limit(&demand.name, &reached)?);
     }
     let variable = &study.variables[settings.intensity];

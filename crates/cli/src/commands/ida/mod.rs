@@ -10,7 +10,7 @@ use pounding_files::checksum::WithoutChecksum;
 use pounding_report::page::{Inputs, Picture};
 use pounding_report::pictures::ida::fragility;
 use pounding_study::{
-    IdaReport, ResultReader, Study, StudyError, SweepOptions, SweepReport, evaluate,
+    IdaReport, IdaSettings, ResultReader, Study, StudyError, SweepOptions, SweepReport, evaluate,
 };
 
 use crate::arguments::IdaArguments;
@@ -50,7 +50,10 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.running.report.as_deref(),
     ])?;
     let sweep = run(&study, &options, into)?;
-    all_failed(&sweep, shard)?;
+    if let Err(failed) = all_failed(&sweep, shard) {
+        tell(arguments, (&study, &sweep, &options), None)?;
+        return Err(failed);
+    }
     if shard.is_some() {
         return part(arguments, &study, &sweep, &options);
     }
@@ -63,18 +66,33 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     if let Some(path) = &arguments.table {
         write_table(path, &report)?;
     }
-    let answer = numbers::Answer {
-        analysis: numbers::Analysis::of(&report, settings.confidence),
-        sweep: Finished::of(&sweep, &options),
-    };
     if let Some(path) = &arguments.running.report {
         write_page(path, &study, &result, &report)?;
     }
+    tell(
+        arguments,
+        (&study, &sweep, &options),
+        Some((&report, settings)),
+    )
+}
+
+/// Prints what the runs are, and what they say, if they do.
+fn tell(
+    arguments: &IdaArguments,
+    (study, sweep, options): (&Study, &SweepReport, &SweepOptions),
+    said: Option<(&IdaReport, &IdaSettings)>,
+) -> Result<(), Failure> {
     if arguments.json {
-        return print(&pretty(&answer)?);
+        return print(&pretty(&numbers::Answer {
+            analysis: said
+                .map(|(report, settings)| numbers::Analysis::of(report, settings.confidence)),
+            sweep: Finished::of(sweep, options),
+        })?);
     }
-    let mut text = summary(&study, &sweep, &options);
-    text.push_str(&tables::report(&report, settings));
+    let mut text = summary(study, sweep, options);
+    if let Some((report, settings)) = said {
+        text.push_str(&tables::report(report, settings));
+    }
     print(&text)
 }
 

@@ -8,9 +8,9 @@ use crate::study::Finished;
 /// The object that `ida --json` prints.
 #[derive(Serialize)]
 pub struct Answer<'a> {
-    /// What the runs say.
+    /// What the runs say; nothing where all of them failed.
     #[serde(flatten)]
-    pub analysis: Analysis<'a>,
+    pub analysis: Option<Analysis<'a>>,
     /// The runs themselves.
     pub sweep: Finished<'a>,
 }

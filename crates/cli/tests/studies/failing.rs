@@ -143,7 +143,7 @@ fn all_records_unreadable_are_a_result_of_failures() {
             assert!(bench.path("out.h5").exists());
             let output = bench.run(&format!("{call} --keep-going --json"));
             assert_eq!(output.status.code(), Some(3));
-            let told: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+            let told: Value = serde_json::from_slice(&output.stdout).unwrap();
             let runs = told.get("sweep").unwrap_or(&told);
             assert_eq!((&runs["runs"], &runs["failed"]), (&4.into(), &4.into()));
             std::fs::remove_file(bench.path("out.h5")).unwrap();

@@ -10,8 +10,9 @@ use std::f64::consts::PI;
 use crate::accelerogram::Accelerogram;
 use crate::error::GroundMotionError;
 use crate::matching::least_squares::{LeastSquares, Rows};
+use crate::matching::misfit::{Deviations, misfit};
 use crate::matching::peaks::Change;
-use crate::matching::{Adjustment, MatchOptions, Matched, drift, iterate, misfit, spectrum};
+use crate::matching::{Adjustment, MatchOptions, Matched, drift, iterate, spectrum};
 use crate::spectra::{TargetSpectrum, inverse_transform, transform};
 
 /// Exponent of the ratio: below one, iterations swing less.
@@ -20,9 +21,6 @@ const RELAXATION: f64 = 0.7;
 const GREATEST_RATIO: f64 = 3.0;
 /// Octaves beyond the band over which the ratio fades to one.
 const FADE: f64 = 1.0;
-/// Periods at which an iteration by ratios is held against the one before, for each that
-/// is matched.
-const LOOKED_AT: usize = 8;
 
 struct FourierAmplitudes {
     /// Whether ratios still bring the motion nearer.
@@ -56,20 +54,17 @@ impl Adjustment for FourierAmplitudes {
         record: &Accelerogram,
         target: &TargetSpectrum,
         periods: &[f64],
+        deviations: &Deviations,
     ) -> Result<Accelerogram, GroundMotionError> {
         let (from, to) = (periods[0], periods[periods.len() - 1]);
-        let worst = |r: &Accelerogram| {
-            let count = LOOKED_AT * (periods.len() - 1) + 1;
-            misfit(r, target, from, to, count).map(|m| m.worst)
-        };
         if self.by_ratios {
             let next = multiplied(record, target, periods)?;
-            if worst(&next)? < worst(record)? {
+            if misfit(&next, target, from, to)?.worst < deviations.misfit.worst {
                 return Ok(next);
             }
             self.by_ratios = false;
         }
-        let rows = Rows::of(record, target, periods)?;
+        let rows = Rows::of(record, target, periods, deviations);
         let changes = bands(record, periods);
         self.least_squares.improve(record, target, &rows, &changes)
     }

@@ -8,8 +8,9 @@ use nalgebra::{DMatrix, DVector};
 
 use crate::accelerogram::Accelerogram;
 use crate::error::GroundMotionError;
+use crate::matching::misfit::Deviations;
 use crate::matching::peaks::{Change, Row};
-use crate::spectra::{Evaluation, TargetSpectrum, logarithmic_periods, response_spectrum};
+use crate::spectra::TargetSpectrum;
 
 /// Damping of the least squares as a part of the largest diagonal element: at the start, and
 /// its factors after success and failure.
@@ -25,13 +26,8 @@ const LEAST_WEIGHT: f64 = 0.02;
 /// Powers of the deviations whose sum is lowered: the next where one comes to its end.
 /// The higher, the more the worst deviation counts alone.
 const POWERS: [f64; 3] = [4.0, 8.0, 16.0];
-/// Deviations from this part of the worst on, at places where they are largest, get a
-/// row and changes of their own.
-const EXTRA_FROM: f64 = 0.7;
 /// Periods nearer than this are the same (logarithms).
 const SAME_PERIOD: f64 = 2.0e-3;
-/// Places looked at for each period that is matched.
-const LOOKED_AT: usize = 8;
 
 /// State that one iteration hands to the next.
 pub(crate) struct LeastSquares {
@@ -51,18 +47,16 @@ pub(crate) struct Rows {
 impl Rows {
     /// Those between the periods, the periods themselves, and where the worst deviations
     /// are.
-    ///
-    /// # Errors
-    /// Periods that the record cannot have.
     pub(crate) fn of(
         record: &Accelerogram,
         target: &TargetSpectrum,
         periods: &[f64],
-    ) -> Result<Self, GroundMotionError> {
+        deviations: &Deviations,
+    ) -> Self {
         let mut all: Vec<f64> = periods.windows(2).map(|p| (p[0] * p[1]).sqrt()).collect();
         let between = all.len();
         all.extend(periods);
-        for period in worst_places(record, target, periods)? {
+        for period in deviations.worst_places() {
             let known = all[between..]
                 .iter()
                 .any(|t| libm::log(t / period).abs() < SAME_PERIOD);
@@ -71,11 +65,11 @@ impl Rows {
             }
         }
         let rows = rows_of(record.samples(), &all, target, record.time_step());
-        Ok(Self {
+        Self {
             periods: all,
             rows,
             between,
-        })
+        }
     }
 }
 
@@ -83,31 +77,6 @@ fn rows_of(samples: &[f64], all: &[f64], target: &TargetSpectrum, h: f64) -> Vec
     all.iter()
         .map(|&period| Row::of(samples, period, target, h))
         .collect()
-}
-
-/// Periods where the deviation is greater than at both neighbours and near the worst.
-fn worst_places(
-    record: &Accelerogram,
-    target: &TargetSpectrum,
-    periods: &[f64],
-) -> Result<Vec<f64>, GroundMotionError> {
-    let (from, to) = (periods[0], periods[periods.len() - 1]);
-    let places = logarithmic_periods(from, to, LOOKED_AT * (periods.len() - 1) + 1)?;
-    let linear = Evaluation::PiecewiseLinear;
-    let spectrum = response_spectrum(record, &places, target.damping(), linear)?;
-    let deviations: Vec<f64> = places
-        .iter()
-        .zip(&spectrum.pseudo_acceleration)
-        .map(|(t, a)| (a / target.nearest(*t) - 1.0).abs())
-        .collect();
-    let worst = deviations.iter().copied().fold(0.0, f64::max);
-    Ok((1..places.len() - 1)
-        .filter(|&i| {
-            let d = deviations[i];
-            d >= EXTRA_FROM * worst && d >= deviations[i - 1] && d >= deviations[i + 1]
-        })
-        .map(|i| places[i])
-        .collect())
 }
 
 impl LeastSquares {

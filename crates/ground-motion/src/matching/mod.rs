@@ -3,6 +3,7 @@
 mod drift;
 mod frequency_domain;
 mod least_squares;
+mod misfit;
 mod peaks;
 mod wavelets;
 
@@ -11,6 +12,7 @@ use serde::Serialize;
 use crate::accelerogram::Accelerogram;
 use crate::error::{GroundMotionError, ascending, positive, within};
 use crate::generators::achieved;
+use crate::matching::misfit::{Deviations, MOST_PERIODS};
 use crate::processing::band_factor;
 use crate::spectra::{
     Evaluation, ResponseSpectrum, TargetSpectrum, logarithmic_periods, response_spectrum,
@@ -18,13 +20,12 @@ use crate::spectra::{
 use crate::step_record::StepRecord;
 
 pub use frequency_domain::match_by_fourier_amplitudes;
+pub use misfit::{Misfit, misfit};
 pub use wavelets::match_by_wavelets;
 
 const STEP: &str = "spectrum matching";
 /// Most iterations that are meant: what is not reached by then is not reached at all.
 const MOST_ITERATIONS: f64 = 1.0e5;
-/// The result is held against the target at this many periods for each that is matched.
-const CHECKED_PER_MATCHED: usize = 8;
 
 /// What is asked of a match.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -33,9 +34,10 @@ pub struct MatchOptions {
     pub from: f64,
     /// Last period (s).
     pub to: f64,
-    /// Periods matched, evenly spaced in their logarithm.
+    /// Periods matched from the start, evenly spaced in their logarithm: iterations that bring
+    /// nothing add those between them where the deviation is largest.
     pub periods: usize,
-    /// Maximum deviation as a part of the target: at eight times as many periods.
+    /// Maximum deviation as a part of the target: at any period of the band.
     pub tolerance: f64,
     /// Iterations at most.
     pub iterations: usize,
@@ -55,17 +57,6 @@ impl MatchOptions {
     }
 }
 
-/// How far a spectrum is from a target.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
-pub struct Misfit {
-    /// Maximum deviation as a part of the target.
-    pub worst: f64,
-    /// Period where it is (s).
-    pub period: f64,
-    /// Mean of the absolute deviations as parts of the target.
-    pub mean: f64,
-}
-
 /// A matched motion.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Matched {
@@ -75,34 +66,6 @@ pub struct Matched {
     pub misfit: Misfit,
     /// What was done.
     pub steps: Vec<StepRecord>,
-}
-
-/// The misfit of a record over a band of periods (s), at `count` of them.
-///
-/// # Errors
-/// A band beyond the target, or periods that the record cannot have.
-pub fn misfit(
-    record: &Accelerogram,
-    target: &TargetSpectrum,
-    from: f64,
-    to: f64,
-    count: usize,
-) -> Result<Misfit, GroundMotionError> {
-    let periods = logarithmic_periods(from, to, count)?;
-    let spectrum = spectrum(record, target, &periods)?;
-    let mut misfit = Misfit {
-        worst: 0.0,
-        period: from,
-        mean: 0.0,
-    };
-    for (period, value) in periods.iter().zip(&spectrum.pseudo_acceleration) {
-        let deviation = (value / target.at(*period)? - 1.0).abs();
-        misfit.mean += deviation / periods.len() as f64;
-        if deviation > misfit.worst {
-            (misfit.worst, misfit.period) = (deviation, *period);
-        }
-    }
-    Ok(misfit)
 }
 
 fn spectrum(
@@ -122,12 +85,13 @@ fn spectrum(
 trait Adjustment {
     const NAME: &'static str;
 
-    /// The motion with its spectrum nearer the target.
+    /// The motion with its spectrum nearer the target, given its deviations from it.
     fn improve(
         &mut self,
         record: &Accelerogram,
         target: &TargetSpectrum,
         periods: &[f64],
+        deviations: &Deviations,
     ) -> Result<Accelerogram, GroundMotionError>;
 }
 
@@ -155,7 +119,7 @@ fn iterate<A: Adjustment>(
         "number of periods",
         options.periods as f64,
         2.0,
-        500.0,
+        MOST_PERIODS as f64,
     )?;
     let iterations = options.iterations as f64;
     within(
@@ -165,11 +129,8 @@ fn iterate<A: Adjustment>(
         0.0,
         MOST_ITERATIONS,
     )?;
-    let periods = logarithmic_periods(options.from, options.to, options.periods)?;
-    let check = |r: &Accelerogram| {
-        let count = CHECKED_PER_MATCHED * (options.periods - 1) + 1;
-        misfit(r, target, options.from, options.to, count)
-    };
+    let mut periods = logarithmic_periods(options.from, options.to, options.periods)?;
+    let check = |r: &Accelerogram| Deviations::of(r, target, options.from, options.to);
     // No adjustment changes where the ground ends: it must be at rest before.
     let end = drift::left_behind(record.samples(), record.time_step());
     let at_rest = drift::ending_at_rest(record, record.samples().to_vec())?;
@@ -180,20 +141,24 @@ fn iterate<A: Adjustment>(
         options.to,
     )?;
     let mut current = at_rest.scaled_by(factor)?;
-    let before = check(&current)?;
+    let mut now = check(&current)?;
+    let before = now.misfit;
     let mut best = (current.clone(), before);
     let mut done = 0;
     while best.1.worst > options.tolerance && done < options.iterations {
-        let next = adjustment.improve(&current, target, &periods)?;
+        let next = adjustment.improve(&current, target, &periods, &now)?;
         done += 1;
         if next == current {
             // Nothing more to be had.
             break;
         }
         current = next;
-        let now = check(&current)?;
-        if now.worst < best.1.worst {
-            best = (current.clone(), now);
+        now = check(&current)?;
+        if now.misfit.worst < best.1.worst {
+            best = (current.clone(), now.misfit);
+        } else {
+            // What is furthest off lies between the periods, out of their reach.
+            now.add_to(&mut periods, target.damping());
         }
     }
     let (mut accelerogram, misfit) = best;

@@ -11,6 +11,7 @@ use std::f64::consts::TAU;
 use crate::accelerogram::Accelerogram;
 use crate::error::GroundMotionError;
 use crate::matching::least_squares::{LeastSquares, Rows};
+use crate::matching::misfit::Deviations;
 use crate::matching::peaks::{AtPeak, Change, Row};
 use crate::matching::{Adjustment, MatchOptions, Matched, drift, iterate};
 use crate::spectra::TargetSpectrum;
@@ -43,9 +44,10 @@ impl Adjustment for Wavelets {
         record: &Accelerogram,
         target: &TargetSpectrum,
         periods: &[f64],
+        deviations: &Deviations,
     ) -> Result<Accelerogram, GroundMotionError> {
         let (h, count) = (record.time_step(), record.samples().len());
-        let rows = Rows::of(record, target, periods)?;
+        let rows = Rows::of(record, target, periods, deviations);
         let wavelets: Vec<Change> = rows.rows[rows.between..]
             .iter()
             .flat_map(|r| r.peaks.iter().map(move |p| (r, p)))

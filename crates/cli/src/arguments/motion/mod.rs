@@ -307,7 +307,7 @@ pub struct MatchArguments {
     /// Last period of the band
     #[arg(long, default_value = "3 s", allow_hyphen_values = true)]
     pub to: String,
-    /// Periods that are matched; the result is held against eight times as many
+    /// Periods that are matched from the start; the result is held against all of the band
     #[arg(long, default_value_t = 80)]
     pub periods: usize,
     /// Maximum deviation from the target

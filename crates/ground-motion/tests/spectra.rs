@@ -280,6 +280,42 @@ fn smoothing() {
     assert!(line.konno_ohmachi(&[1.0], -1.0).is_err());
 }
 
+/// 20 s at 5 ms: lines from 0.05 Hz to 100 Hz, and with as many zeros behind them from 0.025 Hz.
+#[test]
+fn frequencies_without_a_line_are_refused() {
+    let ground = of(|t| (TAU * 5.0 * t).sin(), 4000, 0.005);
+    let (spectrum, padded) = (
+        fourier_spectrum(&ground, 0),
+        fourier_spectrum(&ground, 8000),
+    );
+    for (spectrum, frequency, wanted) in [
+        (&spectrum, 0.05, None),
+        (&spectrum, 100.0, None),
+        (&padded, 0.025, None),
+        (
+            &spectrum,
+            0.049,
+            Some("0.049 Hz is below the first line of the spectrum, 0.05 Hz"),
+        ),
+        (&padded, 0.024, Some("one over 40 s")),
+        (
+            &spectrum,
+            101.0,
+            Some("101 Hz is above half the sampling rate, 100 Hz"),
+        ),
+    ] {
+        let found = spectrum.konno_ohmachi(&[1.0, frequency], 40.0);
+        match (found, wanted) {
+            (Ok(amplitudes), None) => assert!(amplitudes.iter().all(|a| a.is_finite())),
+            (Err(error), Some(wanted)) => {
+                assert!(error.to_string().contains(wanted), "{error}");
+                assert!(error.help().is_some());
+            }
+            (found, wanted) => panic!("{frequency} Hz: {found:?}, not {wanted:?}"),
+        }
+    }
+}
+
 #[test]
 fn targets_and_periods() {
     let target = TargetSpectrum::new(vec![0.1, 1.0, 4.0], vec![5.0, 5.0, 1.25], 0.05).unwrap();

@@ -5,7 +5,7 @@ use realfft::num_complex::Complex64;
 use serde::Serialize;
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, positive};
+use crate::error::{GroundMotionError, bound, positive};
 
 /// Coefficients `sum a_j exp(-2 pi i j k/n)`, k = 0..=n/2, of `length` samples: those
 /// given and zeros after them.
@@ -69,7 +69,51 @@ pub fn fourier_spectrum(record: &Accelerogram, least_length: usize) -> FourierSp
     }
 }
 
+/// Round-off of frequencies that are an end of the spectrum.
+const ROUND_OFF: f64 = 1.0e-9;
+
 impl FourierSpectrum {
+    /// First line (Hz), one over the length, and half the sampling rate.
+    #[must_use]
+    pub fn range(&self) -> (f64, f64) {
+        (1.0 / self.length, 0.5 / self.time_step)
+    }
+
+    /// Refuses a frequency (Hz) of which the samples tell nothing.
+    fn holds(&self, frequency: f64) -> Result<(), GroundMotionError> {
+        let (first, highest) = self.range();
+        let refused = |reason, remedy| {
+            Err(GroundMotionError::NotPossible {
+                step: "Fourier spectrum",
+                reason,
+                remedy,
+            })
+        };
+        if frequency > highest * (1.0 + ROUND_OFF) {
+            refused(
+                format!(
+                    "{} Hz is above half the sampling rate, {} Hz: samples {} s apart hold nothing of it",
+                    bound(frequency),
+                    bound(highest),
+                    bound(self.time_step)
+                ),
+                "give frequencies up to half the sampling rate",
+            )
+        } else if frequency < first * (1.0 - ROUND_OFF) {
+            refused(
+                format!(
+                    "{} Hz is below the first line of the spectrum, {} Hz, which is one over {} s",
+                    bound(frequency),
+                    bound(first),
+                    bound(self.length)
+                ),
+                "give frequencies from the first line on, or put zeros behind the record (`pounding motion process FILE --pad \"after=60 s\" -o OUT`), which puts the lines nearer",
+            )
+        } else {
+            Ok(())
+        }
+    }
+
     /// One-sided power spectral density of the acceleration over a duration (s), in
     /// (m/s2)^2/Hz: its integral over frequency is the mean square over that duration.
     ///
@@ -100,7 +144,9 @@ impl FourierSpectrum {
     /// The weights sum to one; the constant term has none.
     ///
     /// # Errors
-    /// A frequency or a coefficient that is not positive.
+    /// A coefficient that is not positive, or a frequency beyond the lines of the spectrum: below
+    /// the first one, or above half the sampling rate. The window would take the lines at that
+    /// end for it.
     pub fn konno_ohmachi(
         &self,
         centres: &[f64],
@@ -111,6 +157,7 @@ impl FourierSpectrum {
         let mut smoothed = Vec::with_capacity(centres.len());
         for &centre in centres {
             positive(STEP, "frequency", centre)?;
+            self.holds(centre)?;
             let (mut sum, mut weights) = (0.0, 0.0);
             for (f, a) in self.frequencies.iter().zip(&self.amplitudes).skip(1) {
                 let weight = window(bandwidth * libm::log10(f / centre));

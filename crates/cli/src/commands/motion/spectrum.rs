@@ -117,6 +117,7 @@ fn named(error: GroundMotionError, arguments: &SpectrumArguments) -> Failure {
             _ if arguments.at.is_some() => Some("at"),
             _ => Some("from"),
         },
+        GroundMotionError::NotPossible { .. } if arguments.at.is_some() => Some("at"),
         _ => None,
     };
     match option {
@@ -229,8 +230,12 @@ fn fourier(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure
         (whole.frequencies, whole.amplitudes, how)
     } else {
         let bandwidth = value(&arguments.smoothing, "smoothing", Dimension::NUMBER)?;
-        let highest = FREQUENCIES.1.min(0.5 / record.time_step());
-        let default = (FREQUENCIES.0, highest, FREQUENCIES.2);
+        let (first, highest) = whole.range();
+        let default = (
+            FREQUENCIES.0.max(first),
+            FREQUENCIES.1.min(highest),
+            FREQUENCIES.2,
+        );
         let centres = places(arguments, default, Dimension::FREQUENCY)?;
         let amplitudes = whole
             .konno_ohmachi(&centres, bandwidth)

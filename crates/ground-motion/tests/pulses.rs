@@ -3,6 +3,7 @@
 
 use std::f64::consts::{PI, TAU};
 
+use pounding_ground_motion::GroundMotionError;
 use pounding_ground_motion::generators::{
     Envelope, Generated, MakrisRoussos2000, MavroeidisPapageorgiou2003, PulseType, Ricker1953,
     Sine, TimeGrid,
@@ -316,6 +317,81 @@ fn smooth_pulses_leave_the_velocity_of_their_formula() {
             };
             let left = ground(&ricker.generate(grid(step, 8.0)).unwrap()).end_velocity();
             assert!(left.abs() < 1e-6, "{step}: {left}");
+        }
+    }
+}
+
+/// A motion of each kind of pulse with a period (s), at 10 ms.
+fn of_period(period: f64) -> [Result<Generated, GroundMotionError>; 4] {
+    let grid = grid(0.01, 8.0);
+    let (amplitude, frequency) = (0.8, 1.0 / period);
+    let sine = Sine {
+        amplitude,
+        frequency,
+        phase: 0.0,
+        length: 4.0,
+        envelope: Envelope::Constant,
+    };
+    let ricker = Ricker1953 {
+        amplitude,
+        period,
+        centre: 4.0,
+    };
+    let velocity_pulse = MavroeidisPapageorgiou2003 {
+        amplitude,
+        frequency,
+        oscillation: 2.0,
+        phase: 0.0,
+        centre: 4.0,
+    };
+    let trigonometric = MakrisRoussos2000 {
+        pulse: PulseType::B,
+        amplitude,
+        period,
+        start: 1.0,
+    };
+    [
+        sine.generate(grid),
+        ricker.generate(grid),
+        velocity_pulse.generate(grid),
+        trigonometric.generate(grid),
+    ]
+}
+
+/// Part of a sine that straight lines between `count` samples of a period have, by the sum of
+/// their product with it.
+fn part_of_a_sine(count: f64) -> f64 {
+    let value = |i: f64| (TAU * i / count).sin();
+    let line = |x: f64| {
+        let (i, part) = (x.floor(), x.fract());
+        value(i) + part * (value(i + 1.0) - value(i))
+    };
+    let (periods, points) = (100.0, 400_000);
+    let at = |k: i32| f64::from(k) * periods * count / f64::from(points);
+    (0..points)
+        .map(|k| 2.0 * line(at(k)) * (TAU * at(k) / count).sin())
+        .sum::<f64>()
+        / f64::from(points)
+}
+
+#[test]
+fn periods_that_the_time_step_does_not_show() {
+    // Half the sampling rate and above: zeros, or another motion.
+    for period in [0.02, 1.0 / 60.0, 0.01] {
+        for made in of_period(period) {
+            let error = made.unwrap_err();
+            assert!(error.to_string().contains("below 50 Hz"), "{error}");
+            assert!(error.help().is_some());
+        }
+    }
+    for (period, told) in [(0.025, true), (0.08, true), (0.1, false), (0.5, false)] {
+        let lost = 100.0 * (1.0 - part_of_a_sine(period / 0.01));
+        // From 3 % on it is said.
+        assert_eq!(lost > 3.3, told, "{lost}");
+        for made in of_period(period) {
+            let remarks = made.unwrap().steps[0].remarks.join("; ");
+            let remark = format!("have {lost:.0} % less");
+            assert_eq!(remarks.contains(&remark), told, "{remark}: {remarks}");
         }
     }
 }

@@ -6,7 +6,6 @@ use std::f64::consts::{PI, TAU};
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::{Generated, Generator, TimeGrid};
 use crate::spectra::zero;
-use crate::step_record::StepRecord;
 
 const STEP: &str = MakrisRoussos2000::GENERATOR.name;
 
@@ -67,10 +66,11 @@ impl MakrisRoussos2000 {
     /// The motion.
     ///
     /// # Errors
-    /// Numbers out of range, or a pulse that does not fit into the duration.
+    /// Numbers out of range, a period of two time steps or less, or a pulse that does not fit into the duration.
     pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
         positive(STEP, "amplitude", self.amplitude)?;
         positive(STEP, "period", self.period)?;
+        let step = grid.record(STEP, 1.0 / self.period)?;
         if let PulseType::C { cycles } = self.pulse {
             within(STEP, "number of cycles", f64::from(cycles), 1.0, 20.0)?;
         }
@@ -91,7 +91,7 @@ impl MakrisRoussos2000 {
             };
             self.amplitude * w * value
         })?;
-        let step = StepRecord::new(STEP)
+        let step = step
             .number("velocity amplitude", self.amplitude, "m/s")
             .number("period", self.period, "s")
             .number("start", self.start, "s")

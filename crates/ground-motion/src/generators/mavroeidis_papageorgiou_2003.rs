@@ -5,7 +5,6 @@ use std::f64::consts::{PI, TAU};
 
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::{Generated, Generator, TimeGrid};
-use crate::step_record::StepRecord;
 
 const STEP: &str = MavroeidisPapageorgiou2003::GENERATOR.name;
 
@@ -72,10 +71,10 @@ impl MavroeidisPapageorgiou2003 {
     /// The motion.
     ///
     /// # Errors
-    /// Numbers out of range, or a pulse that does not fit into the duration.
+    /// Numbers out of range, a frequency from half the sampling rate on, or a pulse that does not fit into the duration.
     pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
         positive(STEP, "amplitude", self.amplitude)?;
-        positive(STEP, "frequency", self.frequency)?;
+        let step = grid.record(STEP, self.frequency)?;
         within(STEP, "gamma", self.oscillation, 1.0 + 1.0e-9, 1.0e3)?;
         within(STEP, "phase", self.phase, -TAU, TAU)?;
         let half = self.half_length();
@@ -88,7 +87,7 @@ impl MavroeidisPapageorgiou2003 {
             half - slack,
             grid.duration - half + slack,
         )?;
-        let step = StepRecord::new(STEP)
+        let step = step
             .number("velocity amplitude", self.amplitude, "m/s")
             .number("frequency", self.frequency, "Hz")
             .number("gamma", self.oscillation, "-")

@@ -16,10 +16,12 @@ mod rezaeian_der_kiureghian_2010;
 mod ricker_1953;
 mod sine;
 
+use std::f64::consts::PI;
+
 use pounding_catalogue::{Descriptor, Registry};
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, positive, within};
+use crate::error::{GroundMotionError, bound, positive, within};
 use crate::measures::{GroundMotion, Husid};
 use crate::spectra::Evaluation;
 use crate::step_record::StepRecord;
@@ -76,6 +78,9 @@ impl Descriptor for Generator {
 
 /// Most samples of a generated motion.
 const MOST_SAMPLES: f64 = 1.0e7;
+/// Samples in a period below which straight lines between them lose more than 3 % of a sine: see
+/// [`TimeGrid::record`].
+const FEWEST_A_PERIOD: f64 = 10.0;
 
 /// Time step and length of a motion to make.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -109,6 +114,46 @@ impl TimeGrid {
         let longest = self.time_step * MOST_SAMPLES;
         within(STEP, "duration", self.duration, self.time_step, longest)?;
         Ok((self.duration / self.time_step).round() as usize + 1)
+    }
+
+    /// The record of a pulse or a sine of a frequency (Hz), with a remark where its samples are so
+    /// few that the acceleration between them is another one. Straight lines between `n` samples
+    /// of a period have `(n/pi sin(pi/n))^2` of its sine.
+    ///
+    /// # Errors
+    /// A frequency that is not positive, or of which samples at this step show nothing or another
+    /// motion: half the sampling rate and more.
+    pub(crate) fn record(
+        &self,
+        generator: &'static str,
+        frequency: f64,
+    ) -> Result<StepRecord, GroundMotionError> {
+        self.count()?;
+        positive(generator, "frequency", frequency)?;
+        let samples = 1.0 / (frequency * self.time_step);
+        // Round-off of a period that is two steps.
+        if samples <= 2.0 * (1.0 + 1.0e-9) {
+            return Err(GroundMotionError::NotPossible {
+                step: generator,
+                reason: format!(
+                    "samples {} s apart show frequencies below {} Hz, and this one is {} Hz, a period of {} s",
+                    bound(self.time_step),
+                    bound(0.5 / self.time_step),
+                    bound(frequency),
+                    bound(1.0 / frequency)
+                ),
+                remedy: "give a time step of a tenth of the period or less (`--time-step`), or a lower frequency",
+            });
+        }
+        let record = StepRecord::new(generator);
+        if samples >= FEWEST_A_PERIOD * (1.0 - 1.0e-9) {
+            return Ok(record);
+        }
+        let kept = (samples / PI * libm::sin(PI / samples)).powi(2);
+        Ok(record.remark(format!(
+            "only {samples:.1} samples in a period: straight lines between them have {:.0} % less of it",
+            100.0 * (1.0 - kept)
+        )))
     }
 
     /// A function of time at the samples.

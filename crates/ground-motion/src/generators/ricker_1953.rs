@@ -4,7 +4,6 @@ use std::f64::consts::PI;
 
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::{Generated, Generator, TimeGrid};
-use crate::step_record::StepRecord;
 
 const STEP: &str = Ricker1953::GENERATOR.name;
 
@@ -38,12 +37,14 @@ impl Ricker1953 {
     /// The motion.
     ///
     /// # Errors
-    /// Numbers that are not positive, or a centre outside the duration.
+    /// Numbers that are not positive, a period of two time steps or less, or a centre outside the
+    /// duration.
     pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
         positive(STEP, "amplitude", self.amplitude)?;
         positive(STEP, "period", self.period)?;
         within(STEP, "centre", self.centre, 0.0, grid.duration)?;
-        let step = StepRecord::new(STEP)
+        let step = grid
+            .record(STEP, 1.0 / self.period)?
             .number("amplitude", self.amplitude, "m/s2")
             .number("period", self.period, "s")
             .number("centre", self.centre, "s");

@@ -4,7 +4,6 @@ use std::f64::consts::TAU;
 
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::{Envelope, Generated, Generator, TimeGrid};
-use crate::step_record::StepRecord;
 
 const STEP: &str = Sine::GENERATOR.name;
 
@@ -35,27 +34,19 @@ impl Sine {
     /// The motion.
     ///
     /// # Errors
-    /// Numbers that are not positive, or a frequency above half the sampling rate.
+    /// Numbers that are not positive, or a frequency from half the sampling rate on.
     pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
         positive(STEP, "amplitude", self.amplitude)?;
         positive(STEP, "length", self.length)?;
         within(STEP, "phase", self.phase, -TAU, TAU)?;
-        grid.count()?;
-        let highest = 0.5 / grid.time_step;
-        within(
-            STEP,
-            "frequency",
-            self.frequency,
-            f64::MIN_POSITIVE,
-            highest,
-        )?;
+        let step = grid.record(STEP, self.frequency)?;
         self.envelope.check(self.length)?;
         let samples = grid.sample_between((0.0, self.length), |t| {
             self.amplitude
                 * self.envelope.at(t, self.length)
                 * libm::sin(TAU * self.frequency * t + self.phase)
         })?;
-        let step = StepRecord::new(STEP)
+        let step = step
             .number("amplitude", self.amplitude, "m/s2")
             .number("frequency", self.frequency, "Hz")
             .number("phase", self.phase, "rad")

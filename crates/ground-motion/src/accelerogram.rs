@@ -124,7 +124,7 @@ impl Accelerogram {
     /// An accelerogram from samples in a unit and a time step (s).
     ///
     /// # Errors
-    /// Fewer than two samples, a sample that is not finite, or a time step that is
+    /// Fewer than two samples, a sample that is not finite in SI units, or a time step that is
     /// not positive and finite.
     pub fn new(
         samples: Vec<f64>,
@@ -142,6 +142,8 @@ impl Accelerogram {
                 samples.len()
             )));
         }
+        let factor = unit.in_si();
+        let samples: Vec<f64> = samples.into_iter().map(|a| a * factor).collect();
         if let Some(i) = samples.iter().position(|a| !a.is_finite()) {
             return Err(GroundMotionError::Invalid(format!(
                 "sample {} is {}",
@@ -149,9 +151,8 @@ impl Accelerogram {
                 samples[i]
             )));
         }
-        let factor = unit.in_si();
         Ok(Self {
-            samples: Arc::new(samples.into_iter().map(|a| a * factor).collect()),
+            samples: Arc::new(samples),
             time_step,
             history: AccelerogramHistory {
                 scale: 1.0,

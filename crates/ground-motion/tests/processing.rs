@@ -5,7 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::measures::{GroundMotion, Husid};
 use pounding_ground_motion::processing::{
-    Baseline, Butterworth, OffsetCorrection, Phase, ProcessingStep, SegmentWindow, Trim, process,
+    Baseline, Butterworth, OffsetCorrection, Phase, ProcessingStep, Scale, SegmentWindow, Trim,
+    process,
 };
 use pounding_ground_motion::spectra::{Evaluation, fourier_spectrum};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
@@ -383,4 +384,39 @@ fn a_pad_of_more_samples_than_any_record_has_is_refused() {
     refused(&short, pad(10.0, 0.0));
     refused(&short, pad(0.0, 10.0));
     one(&short, pad(1.0e-9, 0.0));
+}
+
+/// Each step that multiplies or integrates can leave the range of numbers: it says so by its
+/// name, and there is no record.
+#[test]
+fn what_is_not_finite_is_no_record() {
+    let ordinary = of(|t| (TAU * t).sin(), 400, 0.01);
+    let huge = of(|t| 1.0e308 * (TAU * t).sin(), 400, 0.01);
+    for (record, step, name) in [
+        (
+            &ordinary,
+            ProcessingStep::Scale(Scale::Factor(f64::MAX)),
+            "scale",
+        ),
+        (&huge, ProcessingStep::Scale(Scale::Factor(10.0)), "scale"),
+        (
+            &huge,
+            ProcessingStep::Unit(AccelerationUnit::StandardGravity),
+            "unit",
+        ),
+        (
+            &huge,
+            ProcessingStep::Offset(OffsetCorrection::Value(-1.7e308)),
+            "offset",
+        ),
+    ] {
+        let error = process(record, std::slice::from_ref(&step)).unwrap_err();
+        let said = error.to_string();
+        assert!(said.starts_with(&format!("{name}: ")), "{said}");
+        assert!(said.contains("inf") || said.contains("NaN"), "{said}");
+        assert!(error.help().is_some());
+    }
+    // Samples that only their unit makes infinite.
+    let samples = vec![0.0, 1.0e308];
+    assert!(Accelerogram::new(samples, AccelerationUnit::StandardGravity, 0.01).is_err());
 }

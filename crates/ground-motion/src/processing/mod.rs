@@ -140,11 +140,55 @@ impl ProcessingStep {
         }
     }
 
-    /// The record after this step, and what was done with its numbers.
+    /// Name in messages and reports.
+    fn name(&self) -> &'static str {
+        const IN_ORDER: [&str; 10] = [
+            "unit",
+            "sign",
+            "offset",
+            "filter",
+            "baseline",
+            "trim",
+            "taper",
+            "pad",
+            "resampling",
+            "scale",
+        ];
+        IN_ORDER[self.rank()]
+    }
+
+    /// The record after this step, and what was done with its numbers, among them the ground's
+    /// velocity and displacement at the end.
     ///
     /// # Errors
-    /// Numbers out of range, or a step that the record does not allow.
+    /// Numbers out of range, a step that the record does not allow, or one after which a sample or
+    /// a number of its report is not finite.
     pub fn apply(
+        &self,
+        record: &Accelerogram,
+    ) -> Result<(Accelerogram, StepRecord), GroundMotionError> {
+        let not_finite = |reason: String| GroundMotionError::NotPossible {
+            step: self.name(),
+            reason,
+            remedy: "the numbers grow beyond any that can be used: check those of the step and the unit of the record",
+        };
+        // An accelerogram has no other samples than finite ones.
+        let (next, report) = self.carried_out(record).map_err(|error| match error {
+            GroundMotionError::Invalid(reason) => not_finite(reason),
+            error => error,
+        })?;
+        debug_assert_eq!(report.step, self.name());
+        let motion = GroundMotion::of(&next, 0.0, 0.0);
+        let report = report
+            .number("end velocity", motion.end_velocity(), "m/s")
+            .number("end displacement", motion.end_displacement(), "m");
+        match report.numbers.iter().find(|n| !n.value.is_finite()) {
+            Some(number) => Err(not_finite(format!("{} is {}", number.name, number.value))),
+            None => Ok((next, report)),
+        }
+    }
+
+    fn carried_out(
         &self,
         record: &Accelerogram,
     ) -> Result<(Accelerogram, StepRecord), GroundMotionError> {
@@ -201,12 +245,7 @@ pub fn process(
     let mut done = Vec::with_capacity(steps.len());
     for step in steps {
         let (next, report) = step.apply(&accelerogram)?;
-        let motion = GroundMotion::of(&next, 0.0, 0.0);
-        done.push(
-            report
-                .number("end velocity", motion.end_velocity(), "m/s")
-                .number("end displacement", motion.end_displacement(), "m"),
-        );
+        done.push(report);
         accelerogram = next;
     }
     accelerogram.note(&done);

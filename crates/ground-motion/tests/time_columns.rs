@@ -235,3 +235,45 @@ fn a_time_that_does_not_increase_has_its_line() {
         assert!(told.contains(&expected), "{told}");
     }
 }
+
+/// `--time-step` resamples uneven times of our own layout along straight lines, as those of plain
+/// columns: a line through the samples stays one. Without it, the message asks for it.
+#[test]
+fn uneven_times_are_resampled_in_our_layout_too() {
+    let times = [0.0, 0.013, 0.02, 0.031, 0.045, 0.05, 0.06];
+    let rows = times.iter().map(|t| format!("{t},{}\n", 2.0 * t + 0.1));
+    let text = format!("time_s,acceleration_m_s2\n{}", rows.collect::<String>());
+    let read = |time_step| {
+        let options = ReadOptions {
+            time_step,
+            ..ReadOptions::default()
+        };
+        read_bytes("r.csv", text.as_bytes(), &options)
+    };
+    let error = read(None).unwrap_err();
+    assert!(matches!(error, GroundMotionError::Uneven { .. }), "{error}");
+    assert!(error.help().unwrap().contains("time_step"));
+    let resampled = read(Some(0.01)).unwrap();
+    assert_eq!(resampled.samples().len(), 7);
+    for (i, a) in resampled.samples().iter().enumerate() {
+        assert!((a - (0.02 * i as f64 + 0.1)).abs() < 1e-12, "{i}: {a}");
+    }
+    // Even times have the step that they have; a step of the file is that of its times.
+    let even = "time_s,acceleration_m_s2\n0,0.1\n0.01,0.2\n0.02,0.3\n0.03,0.1\n";
+    let other = ReadOptions {
+        time_step: Some(0.02),
+        ..ReadOptions::default()
+    };
+    let error = read_bytes("r.csv", even.as_bytes(), &other).unwrap_err();
+    assert!(
+        matches!(error, GroundMotionError::Contradiction { .. }),
+        "{error}"
+    );
+    let error = read_bytes(
+        "r.csv",
+        format!("# dt: 0.01 s\n{text}").as_bytes(),
+        &ReadOptions::default(),
+    );
+    let error = error.unwrap_err().to_string();
+    assert!(error.contains("follows from dt"), "{error}");
+}

@@ -102,22 +102,17 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let step = keys.step.map(|s| s.1);
     let first = lines.number() + 1;
     let mut times = TimeColumn::with_capacity(0);
-    let samples = rows(
-        source,
-        &mut lines,
-        step.or(source.options.time_step),
-        &mut times,
-    )?;
+    let (samples, as_given) = rows(source, &mut lines, step, &mut times)?;
     let mut draft = Draft::new(
         samples,
         DraftUnit::Stated(SeriesUnit::from(unit)),
         (header.number, first, lines.number()),
     );
-    draft.times = match step.or(source.options.time_step) {
+    draft.times = match step.is_some() || as_given {
         // Each time was held against the step, from zero on.
-        Some(_) if source.options.prepend_zero => return Err(starts_at_zero(source, first)),
-        Some(_) => Times::Step(step),
-        None => times.finish(source, first, &mut draft.warnings)?,
+        true if source.options.prepend_zero => return Err(starts_at_zero(source, first)),
+        true => Times::Step(step),
+        false => times.finish(source, first, &mut draft.warnings)?,
     };
     draft.component.clone_from(&keys.component);
     if keys.initial_velocity.is_some() || keys.initial_displacement.is_some() {
@@ -287,12 +282,16 @@ fn unit_of_header(suffix: &str) -> Result<AccelerationUnit, GroundMotionError> {
     }
 }
 
+/// The samples, and whether their times are those of the step that the user gives. A step of the
+/// file must be that of its times; one of the user is what others are resampled to.
 fn rows(
     source: &Source<'_>,
     lines: &mut Lines<'_>,
     step: Option<f64>,
     times: &mut TimeColumn,
-) -> Result<Vec<f64>, GroundMotionError> {
+) -> Result<(Vec<f64>, bool), GroundMotionError> {
+    let given = source.options.time_step;
+    let mut as_given = given.is_some();
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
     for line in lines {
         if line.is_blank() || line.bytes.starts_with(b"#") {
@@ -308,25 +307,31 @@ fn rows(
             return Err(source.error(line.number, 0, message, REMEDY));
         };
         let found = source.number(line, 0, time)?;
-        let Some(step) = step else {
-            times.push(line, found, time);
-            samples.push(source.number(line, time.len() + 1, value)?);
-            continue;
+        let expected = |step: f64| samples.len() as f64 * step;
+        let follows = |step: f64| {
+            // Half the step, or what the time's digits leave open.
+            let open = (0.51 * step).min(1.01 * number::resolution(time) + 1e-9);
+            (found - expected(step)).abs() <= open
         };
-        let expected = samples.len() as f64 * step;
-        // Half the step, or what the time's digits leave open.
-        if (found - expected).abs() > (0.51 * step).min(1.01 * number::resolution(time) + 1e-9) {
-            return Err(source.error(
-                line.number,
-                0,
-                format!(
-                    "time {found} s where {} s follows from dt = {step} s",
-                    bound(expected)
-                ),
-                "a row is missing or dt is wrong",
-            ));
+        match step {
+            Some(step) if !follows(step) => {
+                return Err(source.error(
+                    line.number,
+                    0,
+                    format!(
+                        "time {found} s where {} s follows from dt = {step} s",
+                        bound(expected(step))
+                    ),
+                    "a row is missing or dt is wrong",
+                ));
+            }
+            Some(_) => {}
+            None => {
+                as_given &= given.is_some_and(follows);
+                times.push(line, found, time);
+            }
         }
         samples.push(source.number(line, time.len() + 1, value)?);
     }
-    Ok(samples)
+    Ok((samples, as_given))
 }

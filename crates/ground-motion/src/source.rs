@@ -242,6 +242,22 @@ impl<'a> Source<'a> {
         Ok(layout.value(field, self.number(line, column, field)?))
     }
 
+    /// Refuses NUL bytes, which no text has: they stand where a program or a system did not write
+    /// what it should have.
+    pub(crate) fn is_text(&self) -> Result<(), GroundMotionError> {
+        if !self.bytes.contains(&0) {
+            return Ok(());
+        }
+        let place = |line: Line<'_>| Some((line.number, line.bytes.iter().position(|b| *b == 0)?));
+        let (line, column) = self.lines().find_map(place).unwrap_or_default();
+        Err(self.error(
+            line,
+            column,
+            "a NUL byte stands in the text: a part of the file was not written",
+            "get the record again; if it is UTF-16, save it as UTF-8",
+        ))
+    }
+
     /// Refuses a file that ends in the middle of its last value: without an end of line, and
     /// without the exponent, or a digit of it, that all other values of the last two lines have,
     /// with as many decimals. `1.494E-02` cut after `1.494` or `1.494E-0` is a number too.

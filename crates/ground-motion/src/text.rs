@@ -75,7 +75,7 @@ impl<'a> Iterator for Lines<'a> {
 fn trim_end(line: &[u8]) -> &[u8] {
     let end = line
         .iter()
-        .rposition(|b| !matches!(b, b' ' | b'\t' | b'\r' | b'\n' | 0x1a | 0))
+        .rposition(|b| !matches!(b, b' ' | b'\t' | b'\r' | b'\n' | 0x1a))
         .map_or(0, |n| n + 1);
     &line[..end]
 }

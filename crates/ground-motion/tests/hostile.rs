@@ -369,3 +369,43 @@ fn impossible_counts_of_k_net_are_refused() {
         "{promised}"
     );
 }
+
+/// Bytes that a system did not write are NUL: a line of them must not pass for a blank one, in no
+/// text.
+#[test]
+fn a_block_of_nul_is_no_blank_line() {
+    for fixture in all(0) {
+        let bytes = fixture.bytes.clone();
+        if ["mini_seed_2", "sac"].contains(&fixture.format) {
+            // Zeros are numbers there.
+            assert!(bytes.contains(&0), "{}", fixture.name);
+            continue;
+        }
+        assert!(!bytes.contains(&0), "{}", fixture.name);
+        let lines: Vec<&[u8]> = bytes.split_inclusive(|b| *b == b'\n').collect();
+        // The last line, which is one of values or of an end; and one within the header or the
+        // values.
+        for at in [lines.len() - 1, lines.len() / 2] {
+            let mut damaged = Vec::new();
+            for (i, line) in lines.iter().enumerate() {
+                let nul = |b: &u8| if b"\r\n".contains(b) { *b } else { 0 };
+                match i == at {
+                    true => damaged.extend(line.iter().map(nul).chain([0])),
+                    false => damaged.extend_from_slice(line),
+                }
+            }
+            let options = ReadOptions {
+                format: Some(Format::find(fixture.format).unwrap()),
+                lenient: true,
+                ..fixture.options.clone()
+            };
+            let error = read_all_bytes("file", &damaged, &options).unwrap_err();
+            let told = error.to_string();
+            assert!(told.contains("a NUL byte"), "{}: {told}", fixture.name);
+            let (line, after) = (at + 1, at + 2);
+            let placed =
+                told.contains(&format!("file:{line}:")) || told.contains(&format!("file:{after}:"));
+            assert!(placed, "{} line {line}: {told}", fixture.name);
+        }
+    }
+}

@@ -154,6 +154,9 @@ fn every_series(
     not_too_large(file, bytes.len() as u64)?;
     let format = format_of(file, bytes, options, path)?;
     let source = Source::new(file, bytes, options, path);
+    if ![&mini_seed_2::FORMAT, &sac::FORMAT].contains(&format) {
+        source.is_text()?;
+    }
     let mut series = (format.read)(&source)?;
     if series.is_empty() {
         return Err(source.error(

@@ -199,7 +199,7 @@ const ROWS: &[Row] = &[
         &[(
             9,
             9,
-            "`range` must be of one kind, not 0 it needs one of `from` with `to` (and `count`) or `around`, and nothing",
+            "`range` needs one of `from` with `to` (and `count`) or `around` none of them is given",
         )],
     ),
     (

@@ -1,7 +1,9 @@
 //! Numbers as agencies print them.
 
-/// Magnitude from which a value is the `1.7E+38` that stands for "missing".
+/// Magnitudes from which, and up to which, a value is the `1.7E+38` that stands for "missing", or
+/// another one near the largest of single precision.
 const MISSING: f64 = 1.0e37;
+const LARGEST_MISSING: f64 = f32::MAX as f64 * 1.01;
 
 /// Characters that no number of a record exceeds.
 const LONGEST: usize = 64;
@@ -90,7 +92,7 @@ fn not_a_number(plain: &[u8]) -> String {
 }
 
 fn present(value: f64, plain: &[u8]) -> Result<f64, String> {
-    if !value.is_finite() {
+    if !(value.abs() <= LARGEST_MISSING) {
         Err(format!("\"{}\" is too large", shown(plain)))
     } else if value.abs() > MISSING {
         Err(format!(
@@ -362,6 +364,18 @@ mod tests {
             "-12-345",
         ] {
             assert!(parse(text.as_bytes()).is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn what_is_too_large_is_not_missing() {
+        for (text, told) in [
+            ("1.70141E+38", "stands for a value that is missing"),
+            ("-3.4028235e38", "stands for a value that is missing"),
+            ("2.96e199", "is too large"),
+            ("1e999", "is too large"),
+        ] {
+            assert!(parse(text.as_bytes()).unwrap_err().contains(told), "{text}");
         }
     }
 

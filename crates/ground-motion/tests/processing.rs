@@ -420,3 +420,29 @@ fn what_is_not_finite_is_no_record() {
     let samples = vec![0.0, 1.0e308];
     assert!(Accelerogram::new(samples, AccelerationUnit::StandardGravity, 0.01).is_err());
 }
+
+/// The fit starts at the end of the first segment unless a key says otherwise: the message is of
+/// the key that was given.
+#[test]
+fn a_first_segment_up_to_the_end() {
+    let ordinary = of(|t| (TAU * t).sin(), 401, 0.01);
+    let window = SegmentWindow::Times {
+        start: 1.0,
+        end: 3.99,
+    };
+    let said = |fit_from| {
+        let step = ProcessingStep::Baseline(Baseline::TwoSegments { window, fit_from });
+        process(&ordinary, &[step]).map_err(|error| error.to_string())
+    };
+    let told = said(None).unwrap_err();
+    assert!(
+        told.contains("the end of the first segment, 3.99 s"),
+        "{told}"
+    );
+    assert!(
+        said(Some(3.995))
+            .unwrap_err()
+            .contains("start of the fit = 3.995")
+    );
+    assert!(said(Some(3.5)).is_ok());
+}

@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::GroundMotionError;
 use pounding_ground_motion::generators::{
-    Envelope, Generated, MakrisRoussos2000, MavroeidisPapageorgiou2003, PulseType, Ricker1953,
-    Sine, TimeGrid,
+    CloughPenzien1975, Envelope, Generated, KanaiTajimi1960, MakrisRoussos2000,
+    MavroeidisPapageorgiou2003, PulseType, Ricker1953, Sine, TimeGrid,
 };
 use pounding_ground_motion::measures::GroundMotion;
 use pounding_ground_motion::spectra::{Evaluation, fourier_spectrum};
@@ -393,5 +393,67 @@ fn periods_that_the_time_step_does_not_show() {
             let remark = format!("have {lost:.0} % less");
             assert_eq!(remarks.contains(&remark), told, "{remark}: {remarks}");
         }
+    }
+}
+
+/// 2/(0.5 Hz) of the one and one period of the other do not fit into 3 s, wherever they start.
+#[test]
+fn pulses_longer_than_the_motion() {
+    let velocity_pulse = MavroeidisPapageorgiou2003 {
+        amplitude: 0.8,
+        frequency: 0.5,
+        oscillation: 2.0,
+        phase: 0.0,
+        centre: 2.0,
+    };
+    let trigonometric = MakrisRoussos2000 {
+        pulse: PulseType::A,
+        amplitude: 0.8,
+        period: 4.0,
+        start: 0.0,
+    };
+    for duration in [3.0, 4.0] {
+        let grid = grid(0.01, duration);
+        for made in [velocity_pulse.generate(grid), trigonometric.generate(grid)] {
+            match made {
+                Ok(_) => assert!(duration >= 4.0),
+                Err(error) => {
+                    let told = error.to_string();
+                    let wanted = "the pulse takes 4 s, and the duration is 3 s";
+                    assert!(duration < 4.0 && told.contains(wanted), "{told}");
+                }
+            }
+        }
+    }
+}
+
+/// Each generator names itself.
+#[test]
+fn filtered_noise_names_itself() {
+    let ground = KanaiTajimi1960 {
+        intensity: 1.0,
+        ground_frequency: 15.6,
+        ground_damping: 0.6,
+    };
+    let rigid = KanaiTajimi1960 {
+        ground_damping: 0.0,
+        ..ground
+    };
+    for (error, wanted) in [
+        (
+            KanaiTajimi1960::for_peak(3.0, 0.0, 15.6, 0.6).err(),
+            "kanai_tajimi_1960: peak factor",
+        ),
+        (
+            CloughPenzien1975::for_peak(3.0, 0.0, ground, 1.56, 0.6).err(),
+            "clough_penzien_1975: peak factor",
+        ),
+        (
+            CloughPenzien1975::for_peak(3.0, 3.0, rigid, 1.56, 0.6).err(),
+            "clough_penzien_1975: ground damping",
+        ),
+    ] {
+        let told = error.unwrap().to_string();
+        assert!(told.starts_with(wanted), "{told}");
     }
 }

@@ -412,6 +412,10 @@ impl<'r> Value<'r> {
         }
         let (name, count) = (quoted(keys.name), given.len());
         Err(Error::New(match kinds {
+            Some(kinds) if count == 0 => Fault::new(
+                format!("{name} needs one of {kinds}"),
+                "none of them is given",
+            ),
             Some(kinds) => Fault::new(
                 format!("{name} must be of one kind, not {count}"),
                 format!("it needs one of {kinds}, and nothing of the other kinds"),

@@ -106,11 +106,7 @@ impl PowerSpectrum for CloughPenzien1975 {
     fn describe(&self) -> Result<StepRecord, GroundMotionError> {
         positive(STEP, "filter frequency", self.filter_frequency)?;
         within(STEP, "filter damping", self.filter_damping, 1.0e-3, 10.0)?;
-        let mut step = self.ground.describe()?;
-        step.step = STEP.into();
-        // That is the variance of the first filter alone.
-        step.numbers
-            .retain(|n| n.name != "variance of the spectrum");
+        let step = self.ground.described_as(STEP)?;
         Ok(step
             .number("filter frequency", self.filter_frequency, "rad/s")
             .number("filter frequency in Hz", self.filter_frequency / TAU, "Hz")

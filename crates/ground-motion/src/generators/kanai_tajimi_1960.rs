@@ -51,6 +51,27 @@ impl KanaiTajimi1960 {
         Ok(spectrum)
     }
 
+    /// Intensity, frequency and damping ratio, for a generator that filters the ground's motion.
+    pub(crate) fn described_as(
+        &self,
+        generator: &'static str,
+    ) -> Result<StepRecord, GroundMotionError> {
+        positive(generator, "intensity", self.intensity)?;
+        positive(generator, "ground frequency", self.ground_frequency)?;
+        within(
+            generator,
+            "ground damping",
+            self.ground_damping,
+            1.0e-3,
+            10.0,
+        )?;
+        Ok(StepRecord::new(generator)
+            .number("intensity S0", self.intensity, "m2/s3")
+            .number("ground frequency", self.ground_frequency, "rad/s")
+            .number("ground frequency in Hz", self.ground_frequency / TAU, "Hz")
+            .number("ground damping", self.ground_damping, "-"))
+    }
+
     /// Variance (m2/s4): `pi S0 wg (1/(2 zg) + 2 zg)`.
     #[must_use]
     pub fn variance(&self) -> f64 {
@@ -68,14 +89,7 @@ impl PowerSpectrum for KanaiTajimi1960 {
     }
 
     fn describe(&self) -> Result<StepRecord, GroundMotionError> {
-        positive(STEP, "intensity", self.intensity)?;
-        positive(STEP, "ground frequency", self.ground_frequency)?;
-        within(STEP, "ground damping", self.ground_damping, 1.0e-3, 10.0)?;
-        Ok(StepRecord::new(STEP)
-            .number("intensity S0", self.intensity, "m2/s3")
-            .number("ground frequency", self.ground_frequency, "rad/s")
-            .number("ground frequency in Hz", self.ground_frequency / TAU, "Hz")
-            .number("ground damping", self.ground_damping, "-")
-            .number("variance of the spectrum", self.variance(), "m2/s4"))
+        let step = self.described_as(STEP)?;
+        Ok(step.number("variance of the spectrum", self.variance(), "m2/s4"))
     }
 }

@@ -75,6 +75,7 @@ impl MakrisRoussos2000 {
             within(STEP, "number of cycles", f64::from(cycles), 1.0, 20.0)?;
         }
         let length = self.length();
+        grid.has_room_for(STEP, length)?;
         // A pulse may end with the motion, whose duration is a sum of rounded numbers.
         let latest = grid.duration - length + 1.0e-9 * length;
         within(STEP, "start", self.start, 0.0, latest)?;

@@ -78,6 +78,7 @@ impl MavroeidisPapageorgiou2003 {
         within(STEP, "gamma", self.oscillation, 1.0 + 1.0e-9, 1.0e3)?;
         within(STEP, "phase", self.phase, -TAU, TAU)?;
         let half = self.half_length();
+        grid.has_room_for(STEP, 2.0 * half)?;
         // A part of a step: pulses are put at their own half length.
         let slack = 1.0e-9 * half;
         within(

@@ -156,6 +156,27 @@ impl TimeGrid {
         )))
     }
 
+    /// Refuses a pulse that is longer (s) than the motion.
+    pub(crate) fn has_room_for(
+        &self,
+        generator: &'static str,
+        length: f64,
+    ) -> Result<(), GroundMotionError> {
+        // A pulse may end with the motion, whose duration is a sum of rounded numbers.
+        if length <= self.duration * (1.0 + 1.0e-9) {
+            return Ok(());
+        }
+        Err(GroundMotionError::NotPossible {
+            step: generator,
+            reason: format!(
+                "the pulse takes {} s, and the duration is {} s",
+                bound(length),
+                bound(self.duration)
+            ),
+            remedy: "give a longer duration, or a pulse of a shorter period or fewer oscillations",
+        })
+    }
+
     /// A function of time at the samples.
     pub(crate) fn sample(
         &self,

@@ -1,7 +1,7 @@
 //! Baseline corrections.
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, ascending, positive, within};
+use crate::error::{GroundMotionError, ascending, bound, positive, within};
 use crate::measures::GroundMotion;
 use crate::step_record::StepRecord;
 
@@ -135,14 +135,23 @@ fn two_segments(
         });
     }
     let end = last as f64 * h;
-    let from = fit_from.unwrap_or(end);
-    within(
-        STEP,
-        "start of the fit",
-        from,
-        0.0,
-        record.duration() - 2.0 * h,
-    )?;
+    let latest = record.duration() - 2.0 * h;
+    let from = match fit_from {
+        Some(from) => within(STEP, "start of the fit", from, 0.0, latest)?,
+        // It was not asked for by a key of its own.
+        None if end > latest => {
+            return Err(GroundMotionError::NotPossible {
+                step: STEP,
+                reason: format!(
+                    "a line is fitted to the velocity from the end of the first segment, {} s, which leaves less than two time steps to the end of the record, {} s",
+                    bound(end),
+                    bound(record.duration())
+                ),
+                remedy: "end the first segment earlier, or say where the fit starts (`fit_from`)",
+            });
+        }
+        None => end,
+    };
     let velocity = GroundMotion::of(record, 0.0, 0.0).velocity;
     let tail = (from / h).round() as usize;
     let times: Vec<f64> = (tail..samples.len()).map(|i| i as f64 * h - end).collect();

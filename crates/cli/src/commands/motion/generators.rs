@@ -137,18 +137,18 @@ impl Ground {
             damping: number(&a.ground_damping, "ground-damping")?,
         })
     }
-
-    fn spectrum(&self) -> Result<KanaiTajimi1960, Failure> {
-        let (frequency, damping) = (self.frequency, self.damping);
-        let spectrum = KanaiTajimi1960::for_peak(self.peak, self.factor, frequency, damping)?;
-        Ok(spectrum)
-    }
 }
 
 /// Noise through the ground.
 pub fn kanai_tajimi(a: &KanaiTajimiArguments) -> Result<Generated, Failure> {
+    let ground = Ground::of(&a.ground)?;
     let motion = StationaryMotion {
-        spectrum: Ground::of(&a.ground)?.spectrum()?,
+        spectrum: KanaiTajimi1960::for_peak(
+            ground.peak,
+            ground.factor,
+            ground.frequency,
+            ground.damping,
+        )?,
         envelope: envelope(&a.ground.envelope)?,
     };
     Ok(motion.generate(grid(&a.seeded.grid)?, a.seeded.seed)?)
@@ -161,7 +161,12 @@ pub fn clough_penzien(a: &CloughPenzienArguments) -> Result<Generated, Failure> 
         spectrum: CloughPenzien1975::for_peak(
             ground.peak,
             ground.factor,
-            ground.spectrum()?,
+            KanaiTajimi1960 {
+                // Chosen by the peak, behind both filters.
+                intensity: 1.0,
+                ground_frequency: ground.frequency,
+                ground_damping: ground.damping,
+            },
             match &a.filter_frequency {
                 Some(text) => TAU * frequency(text, "filter-frequency")?,
                 None => 0.1 * ground.frequency,

@@ -6,7 +6,7 @@ use std::f64::consts::{PI, TAU};
 use pounding_ground_motion::GroundMotionError;
 use pounding_ground_motion::generators::{
     CloughPenzien1975, Envelope, Generated, KanaiTajimi1960, MakrisRoussos2000,
-    MavroeidisPapageorgiou2003, PulseType, Ricker1953, Sine, TimeGrid,
+    MavroeidisPapageorgiou2003, PulseType, Ricker1953, Sine, StationaryMotion, TimeGrid,
 };
 use pounding_ground_motion::measures::GroundMotion;
 use pounding_ground_motion::spectra::{Evaluation, fourier_spectrum};
@@ -455,5 +455,66 @@ fn filtered_noise_names_itself() {
     ] {
         let told = error.unwrap().to_string();
         assert!(told.starts_with(wanted), "{told}");
+    }
+}
+
+/// The last sample is at a whole number of steps, which is said where it is not what was asked for.
+#[test]
+fn durations_between_two_samples() {
+    let sine = Sine {
+        amplitude: 1.0,
+        frequency: 1.0,
+        phase: 0.0,
+        length: 5.0,
+        envelope: Envelope::Constant,
+    };
+    for (duration, end, told) in [(5.005, 5.01, true), (5.0, 5.0, false), (5.07, 5.07, false)] {
+        let made = sine.generate(grid(0.01, duration)).unwrap();
+        near(made.accelerogram.duration(), end, 1e-12);
+        let remarks = made.steps[0].remarks.join("; ");
+        let remark = format!(
+            "{duration} s are no whole number of time steps: the last sample is at {end} s"
+        );
+        assert_eq!(remarks.contains(&remark), told, "{remarks}");
+    }
+}
+
+/// An envelope whose maximum value lies behind the end makes a motion weaker than was asked for.
+#[test]
+fn envelopes_that_never_reach_one() {
+    let spectrum = KanaiTajimi1960::for_peak(3.0, 3.0, 15.6, 0.6).unwrap();
+    for envelope in [
+        Envelope::JenningsHousnerTsai1968 {
+            rise: 10.0,
+            strong_end: 15.0,
+            decay: 0.1,
+        },
+        Envelope::SaragoniHart1974 {
+            power: 2.0,
+            rate: 0.2,
+        },
+        // (ln 0.2 - ln 0.05)/0.15 = 9.24 s.
+        Envelope::ShinozukaSato1967 {
+            slow: 0.05,
+            fast: 0.2,
+        },
+    ] {
+        let motion = StationaryMotion { spectrum, envelope };
+        let at = |i: u32| envelope.at(0.1 * f64::from(i), 20.0);
+        let highest = |end: u32| (0..=end).map(at).fold(0.0, f64::max);
+        for (duration, reached) in [(5.0, false), (9.0, false), (10.0, true)] {
+            assert_eq!(
+                highest((10.0 * duration) as u32) > 0.9999,
+                reached,
+                "{envelope:?}"
+            );
+            match motion.generate(grid(0.01, duration), 1) {
+                Ok(_) => assert!(reached, "{envelope:?} {duration}"),
+                Err(error) => {
+                    let told = error.to_string();
+                    assert!(!reached && told.contains("it reaches one at"), "{told}");
+                }
+            }
+        }
     }
 }

@@ -94,7 +94,31 @@ impl Envelope {
                 within(STEP, "faster rate", fast, slow * (1.0 + 1.0e-6), f64::MAX)?;
             }
         }
+        let one = self.first_one(duration);
+        if one > duration * (1.0 + 1.0e-9) {
+            return Err(GroundMotionError::NotPossible {
+                step: STEP,
+                reason: format!(
+                    "it reaches one at {} s, after the end of the motion at {} s: the motion would be weaker than asked for",
+                    bound(one),
+                    bound(duration)
+                ),
+                remedy: "give an envelope that rises sooner, or the motion a longer duration",
+            });
+        }
         Ok(())
+    }
+
+    /// The time (s) at which it is one for the first time, in a motion of a duration (s) that is
+    /// long enough.
+    fn first_one(&self, duration: f64) -> f64 {
+        match *self {
+            Self::Constant | Self::Decay { .. } => 0.0,
+            Self::HalfSine => 0.5 * duration,
+            Self::Ramped { rise, .. } | Self::JenningsHousnerTsai1968 { rise, .. } => rise,
+            Self::SaragoniHart1974 { power, rate } => power / rate,
+            Self::ShinozukaSato1967 { slow, fast } => libm::log(fast / slow) / (fast - slow),
+        }
     }
 
     /// The value at a time (s) of a motion of a duration (s).
@@ -130,7 +154,7 @@ impl Envelope {
             }
             Self::ShinozukaSato1967 { slow, fast } => {
                 let value = |t: f64| libm::exp(-slow * t) - libm::exp(-fast * t);
-                value(time) / value(libm::log(fast / slow) / (fast - slow))
+                value(time) / value(self.first_one(duration))
             }
         }
     }

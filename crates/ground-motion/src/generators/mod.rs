@@ -78,6 +78,8 @@ impl Descriptor for Generator {
 
 /// Most samples of a generated motion.
 const MOST_SAMPLES: f64 = 1.0e7;
+/// Part of a step by which a duration of whole steps may be off: products of rounded numbers.
+const WHOLE: f64 = 1.0e-6;
 /// Samples in a period below which straight lines between them lose more than 3 % of a sine: see
 /// [`TimeGrid::record`].
 const FEWEST_A_PERIOD: f64 = 10.0;
@@ -221,6 +223,16 @@ impl TimeGrid {
     ) -> Result<Generated, GroundMotionError> {
         let unit = AccelerationUnit::MetrePerSecondSquared;
         let mut accelerogram = Accelerogram::new(samples, unit, self.time_step)?;
+        let end = accelerogram.duration();
+        let asked = if (end - self.duration).abs() <= WHOLE * self.time_step {
+            asked
+        } else {
+            asked.remark(format!(
+                "{} s are no whole number of time steps: the last sample is at {} s",
+                bound(self.duration),
+                bound(end)
+            ))
+        };
         let steps = vec![achieved(asked, &accelerogram)?];
         accelerogram.note(&steps);
         Ok(Generated {

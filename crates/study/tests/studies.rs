@@ -803,3 +803,25 @@ fn variables_without_effect_are_refused() {
         );
     }
 }
+
+/// All wrong values of a list are said at once: what is no number, and what the case refuses.
+#[test]
+fn all_wrong_values_are_said_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = "[[variable]]\npath = \"gap.0.width\"\nvalues = [0.01, \"-3 mm\", nan, \"x\"]\n";
+    let refused = study(folder.path(), text).unwrap_err();
+    let StudyError::Text { error, .. } = refused else {
+        panic!("{refused}");
+    };
+    let all = std::iter::once(&*error).chain(&*error.others);
+    let places: Vec<_> = all.clone().map(|e| (e.line, e.column)).collect();
+    assert_eq!(places, [(4, 17), (4, 26), (4, 31)], "{error:?}");
+    let all: String = all.map(ToString::to_string).collect();
+    for part in [
+        "-0.003 must be zero or more",
+        "is not a finite number",
+        "\"x\" does not start",
+    ] {
+        assert!(all.contains(part), "{part}: {all}");
+    }
+}

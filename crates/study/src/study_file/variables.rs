@@ -318,7 +318,13 @@ impl VariableTable {
             (_, values) => {
                 let numbers = Self { values, ..self }.numbers(reader);
                 let any = |written: Written| written.any().map(|quantity| quantity.value);
-                let (values, places) = numbers.read(reader, (TABLE, span.clone()), &any)?;
+                let sound = sound(&numbers);
+                let Some((values, places)) = numbers.read(reader, (TABLE, span.clone()), &any)
+                else {
+                    // Beside wrong ones the case may refuse others.
+                    tried.as_ref().and_then(|tried| accepted(sound, tried));
+                    return None;
+                };
                 let tried = tried.as_ref()?;
                 unit = unit_of_numbers(&places, tried);
                 counted(values, places, tried)?
@@ -418,14 +424,30 @@ fn counted(
     places: Vec<Located<Written>>,
     tried: &Trial<'_>,
 ) -> Option<(Values, Target)> {
-    let texts = places.into_iter().map(|Located { value, span }| {
+    accepted(places, tried)?;
+    Some((values, tried.target(Vec::new())))
+}
+
+/// Whether the case takes all of these numbers.
+fn accepted(places: Vec<Located<Written>>, tried: &Trial<'_>) -> Option<()> {
+    tried.values(places.into_iter().map(|Located { value, span }| {
         // As it is written, so that its unit is checked, and as runs will have it.
         let number = value.any().map(|quantity| written(quantity.value));
         let given = tried.reader.source[span.clone()].to_owned();
         (span, std::iter::once(given).chain(number).collect())
-    });
-    tried.values(texts)?;
-    Some((values, tried.target(Vec::new())))
+    }))
+}
+
+/// Those of listed values that are numbers.
+fn sound(numbers: &Numbers) -> Vec<Located<Written>> {
+    let Some(Field::Given(list)) = &numbers.values else {
+        return Vec::new();
+    };
+    let items = list.value.0.iter().cloned();
+    let items = items.filter_map(Field::located);
+    items
+        .filter(|item| item.value.clone().any().is_ok())
+        .collect()
 }
 
 /// Models with all their options.

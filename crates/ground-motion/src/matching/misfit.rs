@@ -111,9 +111,7 @@ impl Deviations {
             extremes,
         })
     }
-}
 
-impl Deviations {
     /// Adds the extremes near the worst to increasing periods that are matched, if none of
     /// these answers for them.
     pub(crate) fn add_to(&self, periods: &mut Vec<f64>, damping: f64) {

@@ -47,6 +47,13 @@ def opened(page):
 def moves(page):
     """A drag from 20 mm to 118 mm: how many frames and runs a second, and where it ends."""
     assert (result(page, "impacts"), result(page, "demand")) == ("45", "117.2 mm")
+    page.value(
+        "(() => { const bar = document.querySelector('[data-part=time]'); bar.value = '5';"
+        "bar.dispatchEvent(new Event('input', { bubbles: true })); })()"
+    )
+    # The bar stands where it was put, and what is drawn with it.
+    assert page.value("Number(document.querySelector('[data-part=elevation]').dataset.time)") == 5
+    assert page.value("Number(document.querySelector('[data-part=time]').value)") == 5
     page.value("document.querySelector('[data-part=play]').click()")
     runs = int(page.value(f"{DATA}.runs"))
     took = page.value(

@@ -90,7 +90,7 @@ const ROWS: &[Row] = &[
         "{}",
         8,
         11,
-        "one kind, not 0",
+        "needs one of `ratio` with `modes`",
     ),
     (
         "0.05 }",

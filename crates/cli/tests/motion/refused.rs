@@ -122,7 +122,7 @@ fn bad_input() {
     refused(
         2,
         &[&synth[..], &["--frequency", "80 Hz"]].concat(),
-        &["frequency = 80"],
+        &["below 50 Hz, and this one is 80 Hz", "--time-step"],
     );
     refused(
         2,

@@ -96,9 +96,9 @@ const motion = (() => {
     part("magnification").addEventListener("change", draw);
     addEventListener("resize", draw);
     part("time").addEventListener("input", (event) => {
-      play(false);
+      // Before anything is drawn, which moves the bar to the time that was.
       time = Number(event.target.value);
-      draw();
+      play(false);
     });
   };
 

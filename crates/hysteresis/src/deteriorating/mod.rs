@@ -14,6 +14,13 @@ use crate::path::PathLaw;
 use envelope::{Envelope, Stretch};
 pub(crate) use parameters::{PARAMETERS, build};
 
+/// To know of every law of the family: its energy where the unloading stiffness falls.
+pub(crate) const ENERGY_STEPS_BACK: &str = "Where the unloading stiffness falls, what is stored rises, and the dissipated energy steps back: no further than to what it was at the turning point before, which bounds the stiffness from below. The published rule has no bound, and gives back more energy than was put in as its capacity runs out.";
+/// To know: how it fails.
+pub(crate) const FAILS_FOR_EVER: &str = "Exhausted capacity, or a strength that reaches zero, leaves an element without force for ever.";
+/// To know: what does not deteriorate.
+pub(crate) const RESIDUAL_STAYS: &str = "The residual strength does not deteriorate.";
+
 /// How the element reloads after zero force.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Reloading {

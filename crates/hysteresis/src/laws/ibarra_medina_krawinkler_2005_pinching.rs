@@ -33,9 +33,9 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     ],
     example_amplitude: 0.06,
     traps: &[
-        "Where the unloading stiffness falls, what is stored rises, and the dissipated energy steps back: no further than to what it was at the turning point before, which bounds the stiffness from below. The published rule has no bound, and gives back more energy than was put in as its capacity runs out.",
-        "Exhausted capacity, or a strength that reaches zero, leaves an element without force for ever.",
-        "The residual strength does not deteriorate.",
+        deteriorating::ENERGY_STEPS_BACK,
+        deteriorating::FAILS_FOR_EVER,
+        deteriorating::RESIDUAL_STAYS,
     ],
     build,
 };

@@ -237,6 +237,14 @@ impl Draft {
         let peaks = self.peak.take().map(|peak| (peak, true));
         let others = self.other_peaks.drain(..).map(|peak| (peak, false));
         for (peak, is_main) in peaks.into_iter().chain(others) {
+            if let Some(unit) = peak.unit.filter(|unit| unit.quantity != quantity) {
+                let message = format!(
+                    "the peak is in {}, a unit of {}, but the values are {quantity}",
+                    unit.symbol, unit.quantity
+                );
+                source.contradiction(peak.line.unwrap_or(self.lines.0), message)?;
+                continue;
+            }
             let unit = peak.unit.map_or((symbol, factor), |u| {
                 source.uses(Used {
                     gravity: u.is_of_gravity(),

@@ -7,6 +7,7 @@ use crate::error::GroundMotionError;
 use crate::fortran::Layout;
 use crate::number::{self, Bare};
 use crate::options::ReadOptions;
+use crate::quantity::SeriesUnit;
 use crate::recording::WithoutSensitivity;
 use crate::text::{Line, Lines};
 
@@ -180,6 +181,47 @@ impl<'a> Source<'a> {
             message,
             "the header contradicts itself: get the record again, or set `lenient = true` to use the first",
         ))
+    }
+
+    /// Two units for the same values.
+    pub(crate) fn two_units(
+        &self,
+        line: Line<'_>,
+        a: SeriesUnit,
+        b: SeriesUnit,
+    ) -> GroundMotionError {
+        self.error(
+            line.number,
+            0,
+            format!(
+                "two units, {} and {}, for the same values",
+                a.symbol, b.symbol
+            ),
+            "the header contradicts itself: get the record again",
+        )
+    }
+
+    /// A word where a header states the unit of the values that is none.
+    pub(crate) fn unknown_unit(&self, line: usize, word: &str) -> GroundMotionError {
+        self.error(
+            line,
+            0,
+            format!(
+                "\"{}\" is no unit that is known",
+                number::shown(word.as_bytes())
+            ),
+            "the unit of the values must be certain: get the record again",
+        )
+    }
+
+    /// Text behind the series of a format whose files hold one.
+    pub(crate) fn second_series(&self, line: Line<'_>) -> GroundMotionError {
+        self.error(
+            line.number,
+            0,
+            "text behind the series, where the file must end: files of this format hold one record",
+            "put each record into a file of its own",
+        )
     }
 
     /// The next line, which must be there: `what` names it.

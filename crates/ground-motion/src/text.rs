@@ -45,6 +45,11 @@ impl<'a> Lines<'a> {
         self.clone().next()
     }
 
+    /// The next line that is not blank, without going on.
+    pub(crate) fn text_ahead(&self) -> Option<Line<'a>> {
+        self.clone().find(|line| !line.is_blank())
+    }
+
     /// Number of the line read last.
     pub(crate) fn number(&self) -> usize {
         self.number

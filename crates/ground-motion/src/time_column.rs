@@ -128,6 +128,16 @@ pub(crate) struct PrintedDigits {
 }
 
 impl PrintedDigits {
+    /// Those of times that all have as many decimals.
+    pub(crate) fn of_decimals(decimals: usize, times: &[f64]) -> Self {
+        let largest = times.iter().fold(1.0_f64, |m, time| m.max(time.abs()));
+        let decimals = decimals as i32;
+        Self {
+            decimals,
+            significant: decimals + 1 + libm::log10(largest).floor() as i32,
+        }
+    }
+
     pub(crate) fn see(&mut self, printed: &[u8]) {
         let plain = printed.trim_ascii();
         let unsigned = plain.strip_prefix(b"-").or(plain.strip_prefix(b"+"));
@@ -170,6 +180,15 @@ const ROUND_DECIMALS: i32 = 5;
 /// Each time leaves open a range of steps, as wide as its rounding is over the number of steps
 /// before it: the step is the roundest number of the range that all of them have in common.
 pub(crate) fn even_step(times: &[f64], printed: PrintedDigits, unit: f64) -> Option<f64> {
+    even_step_of(times, printed, unit, true)
+}
+
+/// The same of times (s) whose last digit was rounded, never cut off.
+pub(crate) fn even_step_of_rounded(times: &[f64], printed: PrintedDigits) -> Option<f64> {
+    even_step_of(times, printed, 1.0, false)
+}
+
+fn even_step_of(times: &[f64], printed: PrintedDigits, unit: f64, may_be_cut: bool) -> Option<f64> {
     let [first, .., last] = *times else {
         return None;
     };
@@ -219,7 +238,7 @@ pub(crate) fn even_step(times: &[f64], printed: PrintedDigits, unit: f64) -> Opt
         }
         (low <= high).then_some((low, high))
     };
-    let (low, high) = common(&rounded).or_else(|| common(&cut))?;
+    let (low, high) = common(&rounded).or_else(|| may_be_cut.then(|| common(&cut))?)?;
     let mean = mean.clamp(low, high);
     let decimals = printed.decimals - libm::log10(unit).round() as i32;
     let in_common = |step: &f64| *step > 0.0 && (low..=high).contains(step);

@@ -257,10 +257,6 @@ fn unit_of_label(
     line: Line<'_>,
     lower: &str,
 ) -> Result<Option<SeriesUnit>, GroundMotionError> {
-    let refused = |message: String| {
-        let remedy = "the unit of the values must be certain: get the record again";
-        source.error(line.number, 0, message, remedy)
-    };
     let mut found: Option<SeriesUnit> = None;
     for key in BEFORE_UNIT {
         let Some((_, rest)) = lower.rsplit_once(key) else {
@@ -279,13 +275,10 @@ fn unit_of_label(
             if key == ", in " {
                 continue;
             }
-            return Err(refused(format!("\"{word}\" is no unit that is known")));
+            return Err(source.unknown_unit(line.number, word));
         };
         if let Some(other) = found.filter(|other| *other != unit) {
-            return Err(refused(format!(
-                "two units, {} and {}, for one block",
-                unit.symbol, other.symbol
-            )));
+            return Err(source.two_units(line, unit, other));
         }
         found = Some(unit);
     }

@@ -9,7 +9,7 @@ use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
-use crate::time_column::{part_ties, tied_times};
+use crate::time_column::{PrintedDigits, even_step_of_rounded, part_ties, tied_times};
 use crate::volume::{ChannelHeader, end_of_channel, unit_of_number};
 
 const TEXT_LINES: usize = 13;
@@ -93,16 +93,22 @@ fn before_peak(text: &str) -> &str {
     text.split("max").next().unwrap_or_default()
 }
 
-/// Unit in a text: `SEC AND G/10`, `sec and g.`, `IS G`, `(UNITS: G)`, `in units of g.`.
-fn unit_in(text: &str) -> Option<SeriesUnit> {
+/// The words of a text that may be its unit, the surest first: `SEC AND G/10`, `sec and g.`,
+/// `IS G`, `(UNITS: G)`, `in units of g.`.
+fn unit_words(text: &str) -> impl Iterator<Item = &str> {
     let before_peak = before_peak(text);
-    BEFORE_UNIT.iter().find_map(|key| {
+    BEFORE_UNIT.iter().filter_map(move |key| {
         let at = before_peak.rfind(key)? + key.len();
         let word = before_peak.get(at..)?.split_whitespace().next()?;
         // A code may touch it: `cm/sec2(04)`.
         let word = word.split(['(', ')', ',', ';']).next()?;
-        SeriesUnit::parse(word.trim_end_matches('.'))
+        Some(word.trim_end_matches('.'))
     })
+}
+
+/// Unit in a text.
+fn unit_in(text: &str) -> Option<SeriesUnit> {
+    unit_words(text).find_map(SeriesUnit::parse)
 }
 
 /// What follows `(UNITS: ` in the line before the data.
@@ -139,7 +145,17 @@ fn unit(
     warnings: &mut Vec<String>,
 ) -> Result<DraftUnit, GroundMotionError> {
     let line = header.find_line("units ");
-    let in_header = line.and_then(|(line, text)| Some((line, unit_in(&text)?)));
+    let in_header = match &line {
+        Some((line, text)) => match (unit_in(text), unit_words(text).next()) {
+            (Some(unit), _) => Some((*line, unit)),
+            // Who says the unit knows it.
+            (None, Some(word)) if source.options.unit.is_none() => {
+                return Err(source.unknown_unit(*line, word));
+            }
+            (None, _) => None,
+        },
+        None => None,
+    };
     let in_label = label.and_then(|(_, text)| unit_in(text));
     if let (Some((line, words)), Some((at, number))) = (in_header, unit_in_numbers(header))
         && words != number
@@ -342,6 +358,9 @@ fn pairs(
     let mut times: Vec<f64> = numbers.chunks_exact(2).map(|p| p[0]).collect();
     let samples = numbers.chunks_exact(2).map(|p| p[1]).collect();
     let digit = 10.0_f64.powi(-(decimals.min(9) as i32));
+    let printed = PrintedDigits::of_decimals(decimals, &times);
+    // Of recorders that are digital, as those of RENADIC: film was read at uneven times.
+    let even = even_step_of_rounded(&times, printed).filter(|_| times[0] == 0.0);
     let tied = part_ties(&mut times, |_| digit);
     if tied > 0 {
         warnings.push(tied_times(tied));
@@ -349,7 +368,10 @@ fn pairs(
     rate_of_pairs(header, &times, &mut warnings);
     let unit = unit(source, header, None, &mut warnings)?;
     let mut draft = Draft::new(samples, unit, (first, first, lines.number()));
-    draft.times = Times::Each(times);
+    draft.times = match even {
+        Some(step) => Times::Step(Some(step)),
+        None => Times::Each(times),
+    };
     draft.header_count = expected;
     draft.other_counts = in_words;
     draft.warnings = warnings;

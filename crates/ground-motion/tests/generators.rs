@@ -346,3 +346,34 @@ fn motions_that_their_duration_cuts_off_are_named() {
         assert!(short.contains(words), "{words}: {short}");
     }
 }
+
+/// Samples must show the frequency at which a spectrum is highest: 0.1 s apart they end at 5 Hz.
+#[test]
+fn spectra_above_half_the_sampling_rate() {
+    let at = |hertz: f64, time_step: f64| {
+        let spectrum = KanaiTajimi1960 {
+            intensity: 0.01,
+            ground_frequency: TAU * hertz,
+            ground_damping: 0.6,
+        };
+        let grid = TimeGrid {
+            time_step,
+            duration: 20.0,
+        };
+        let motion = StationaryMotion {
+            spectrum,
+            envelope: Envelope::Constant,
+        };
+        motion.generate(grid, 1)
+    };
+    for hertz in [5.0, 8.0] {
+        let error = at(hertz, 0.1).unwrap_err().to_string();
+        assert!(
+            error.contains("kanai_tajimi_1960") && error.contains("below 5 Hz"),
+            "{error}"
+        );
+    }
+    let few = at(2.0, 0.1).unwrap();
+    assert!(few.steps[0].remarks[0].starts_with("only 5.0 samples in a period"));
+    assert_eq!(at(2.0, 0.01).unwrap().steps[0].remarks.len(), 1);
+}

@@ -263,3 +263,110 @@ fn units_of_midas() {
         assert_eq!(read("midas_sgs", label, to).unwrap().series[0].unit, "g");
     }
 }
+
+/// The peaks of GeoNet have units of their own, and readings without one are of none.
+#[test]
+fn units_of_geo_net() {
+    refused(
+        read("geo_net", " mm/s/s at", " cm/s/s at"),
+        &["f:14:1: the header's peak is", "cm/s2"],
+    );
+    refused(
+        read("geo_net", " mm/s/s at", " mm/s at"),
+        &["f:14:1: the peak is in mm/s, a unit of velocity"],
+    );
+    refused(
+        read("geo_net", "in units of 1.00 mm/s/s", "        "),
+        &["does not state the unit"],
+    );
+}
+
+#[test]
+fn units_in_brackets() {
+    refused(
+        read("k_net", "(gal)/", "(m/s2)/"),
+        &["f:14:", "\"m/s2\" where the format has gal"],
+    );
+    refused(
+        read("k_net", "Max. Acc. (gal)", "Max. Acc. (m/s)"),
+        &["f:15:", "\"m/s\" where the format has gal"],
+    );
+    read("jma_csv", "gal(cm/s/s)", "gal(cm/s/s)").unwrap();
+    refused(
+        read("jma_csv", "gal(cm/s/s)", "gal(m/s/s)"),
+        &["f:5:1: two units, cm/s2 and m/s2"],
+    );
+    let nsmn = |unit: &str| read("nsmn", "INTERVAL (sec)", &format!("INTERVAL ({unit})"));
+    for unit in ["sec", "s", "SECONDS"] {
+        nsmn(unit).unwrap();
+    }
+    let step = |unit: &str| match nsmn(unit).unwrap().series[0].sampling {
+        Sampling::Even { time_step } => time_step,
+        Sampling::Uneven { .. } => f64::NAN,
+    };
+    let seconds = step("sec");
+    assert!((step("milliseconds") - 1.0e-3 * seconds).abs() < 1e-15);
+    assert!((step("Hz") - 1.0 / seconds).abs() < 1e-12);
+    refused(nsmn("fortnights"), &["\"FORTNIGHTS\" is not a unit"]);
+}
+
+/// A unit that is not known is not passed over for one that stands elsewhere.
+#[test]
+fn units_that_are_not_known() {
+    refused(
+        read("bhrc", "SECONDS AND G/10", "SECONDS AND G/100"),
+        &["f:12:1: \"g/100\" is no unit that is known"],
+    );
+    let volume_1 = |options: &ReadOptions| {
+        let (_, text) = text_of("csmip_v1");
+        let unit = "SEC AND G/10.";
+        assert!(text.contains(unit), "{text}");
+        let text = text.replace(unit, "SEC AND G/100.");
+        read_all_bytes("f", text.as_bytes(), options).map_err(|e| e.to_string())
+    };
+    refused(
+        volume_1(&ReadOptions::default()),
+        &["f:12:1: \"g/100\" is no unit that is known"],
+    );
+}
+
+/// What the header says that it stands for an unknown value is none of the series.
+#[test]
+fn values_that_cosmos_marks_as_unknown() {
+    let (fixture, text) = text_of("cosmos");
+    let data = text.lines().position(|l| l.contains("units=cm/sec2(04)"));
+    let row = data.unwrap() + 2;
+    let line = text.lines().nth(row - 1).unwrap().to_owned();
+    let marked = format!("{}{:>10}{}", &line[..20], "-999.00000", &line[30..]);
+    let marked = text.replacen(&line, &marked, 1);
+    let found = read_all_bytes("f", marked.as_bytes(), &fixture.options).unwrap_err();
+    let told =
+        format!("f:{row}:21: sample 3 is -999, by which line 13 marks a value that is unknown");
+    assert_eq!(found.to_string(), told);
+    let other = marked.replace("-999, -999.00", "-998, -998.00");
+    let found = read_all_bytes("f", other.as_bytes(), &fixture.options).unwrap_err();
+    assert!(found.to_string().contains("the header's peak"), "{found}");
+    let lenient = ReadOptions {
+        lenient: true,
+        ..fixture.options
+    };
+    let found = read_all_bytes("f", marked.as_bytes(), &lenient).unwrap();
+    let warnings = &found.series[0].origin.warnings;
+    assert!(warnings.iter().any(|w| w.contains("-999")), "{warnings:?}");
+    // Another way to end a channel.
+    read("cosmos", "End-of-data for Chan 1", "/&   end of data").unwrap();
+}
+
+/// A second record in a file of a format that holds one is not dropped.
+#[test]
+fn second_records() {
+    for format in ["usgs_smc", "midas_sgs"] {
+        let (fixture, text) = text_of(format);
+        let lines = text.lines().count();
+        let twice = text.clone() + &text;
+        let error = read_all_bytes("f", twice.as_bytes(), &fixture.options).unwrap_err();
+        let told = format!("f:{}:1: text behind the series", lines + 1);
+        assert!(error.to_string().starts_with(&told), "{error}");
+        read_all_bytes("f", (text + "\n \n").as_bytes(), &fixture.options).unwrap();
+    }
+}

@@ -378,7 +378,7 @@ fn bhrc() {
     refused(
         &file,
         &[("AND G/10", "AND COUNTS"), (".100000E+00", ".000000E+00")],
-        &["does not state the unit"],
+        &["\"counts\" is no unit that is known"],
     );
     refused(&file, &[("VOL1DS", "VOL2DS")], &["only Volume 1"]);
     refused(

@@ -2,7 +2,10 @@
 //! single and double precision.
 #![allow(clippy::unwrap_used)]
 
-use pounding_ground_motion::{GroundMotionError, ReadOptions, read_bytes};
+use crate::common::fixtures;
+use pounding_ground_motion::{
+    GroundMotionError, ReadOptions, Sampling, read_all_bytes, read_bytes,
+};
 use proptest::prelude::*;
 
 fn read(times: &[String]) -> Result<f64, GroundMotionError> {
@@ -276,4 +279,45 @@ fn uneven_times_are_resampled_in_our_layout_too() {
     );
     let error = error.unwrap_err().to_string();
     assert!(error.contains("follows from dt"), "{error}");
+}
+
+/// Pairs of a digital recorder are even within half the last digit of their times; those of film,
+/// a digit off here and there, are not.
+#[test]
+fn pairs_of_volume_1_at_even_times() {
+    let fixture = fixtures("csmip_v1", 0).remove(0);
+    let text = String::from_utf8(fixture.bytes).unwrap();
+    let with_times = |time: &dyn Fn(usize) -> f64| {
+        let mut at = 0;
+        let row = |line: &str| {
+            let is_data = line.contains('.') && !line.contains(|c: char| c.is_ascii_alphabetic());
+            if !is_data || line.len() % 14 != 0 {
+                at = 0;
+                return format!("{line}\n");
+            }
+            let pairs = line.as_bytes().chunks(14).map(|pair| {
+                at += 1;
+                let value = std::str::from_utf8(&pair[7..]).unwrap();
+                format!("{:7.3}{value}", time(at - 1))
+            });
+            pairs.collect::<String>() + "\n"
+        };
+        let text: String = text.lines().map(row).collect();
+        let options = ReadOptions {
+            lenient: true,
+            ..fixture.options.clone()
+        };
+        read_all_bytes("f", text.as_bytes(), &options).unwrap()
+    };
+    for step in [0.005, 1.0 / 64.0] {
+        let even = with_times(&|i| i as f64 * step);
+        for series in &even.series {
+            let Sampling::Even { time_step } = series.sampling else {
+                panic!("{step}: {:?}", series.sampling);
+            };
+            assert!((time_step - step).abs() < 3e-5, "{time_step}");
+        }
+    }
+    let film = with_times(&|i| i as f64 * 0.005 + 0.001 * f64::from(u8::from(i == 7)));
+    assert!(matches!(film.series[0].sampling, Sampling::Uneven { .. }));
 }

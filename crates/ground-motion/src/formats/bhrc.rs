@@ -162,12 +162,19 @@ fn unit(
     text: &[Line<'_>],
     reals: &HeaderNumbers,
 ) -> Result<SeriesUnit, GroundMotionError> {
-    let in_words = text.iter().find_map(|line| {
+    let stated = text.iter().find_map(|line| {
         let lower = line.lower();
-        let rest = lower.split_once("units")?.1;
+        let rest = lower.split_once("units are")?.1;
         let word = rest.rsplit_once(" and ").map_or(rest, |(_, word)| word);
-        Some((line.number, SeriesUnit::parse(word.trim())?))
+        let word = word.split_whitespace().next()?;
+        Some((line.number, word.trim_end_matches('.').to_owned()))
     });
+    let in_words = stated
+        .map(|(line, word)| match SeriesUnit::parse(&word) {
+            Some(unit) => Ok((line, unit)),
+            None => Err(source.unknown_unit(line, &word)),
+        })
+        .transpose()?;
     let in_numbers = match reals.positive(UNIT) {
         Some(0.1) => Some(SeriesUnit::TENTH_G),
         Some(1.0) => Some(SeriesUnit::G),

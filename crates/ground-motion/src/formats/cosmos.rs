@@ -44,7 +44,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             let mut draft = channel(source, &mut lines, first)?;
             draft.channel = series.len() + 1;
             series.push(draft.finish(source)?);
-        } else if !first.is_blank() && !first.lower().starts_with("end-of-data") {
+        } else if !(first.is_blank() || ends_channel(first)) {
             return Err(source.error(
                 first.number,
                 0,
@@ -54,6 +54,52 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         }
     }
     Ok(series)
+}
+
+/// `End-of-data for Chan  1`, or `/&` with words behind it.
+fn ends_channel(line: Line<'_>) -> bool {
+    line.lower().starts_with("end-of-data") || line.bytes.trim_ascii_start().starts_with(b"/&")
+}
+
+/// Refuses samples that are the value of which the header says that it stands for unknown, as
+/// `Values used when parameter or data value is unknown/unspecified:   -999, -999.00`. Counts
+/// are whole numbers, of which it is one.
+fn without_unknown(
+    source: &Source<'_>,
+    text: &[Line<'_>],
+    draft: &Draft,
+    layout: Layout,
+) -> Result<(), GroundMotionError> {
+    if source.options.lenient || !matches!(draft.unit, DraftUnit::Stated(_)) {
+        return Ok(());
+    }
+    let declared = text.iter().find_map(|line| {
+        let lower = line.lower();
+        let (_, values) = lower.split_once("unknown/unspecified:")?;
+        Some((
+            line.number,
+            number::first_in(values.split(',').next_back()?)?.0,
+        ))
+    });
+    let Some((line, value)) = declared else {
+        return Ok(());
+    };
+    let used = draft
+        .samples
+        .iter()
+        .take(draft.header_count.unwrap_or(usize::MAX));
+    match used.into_iter().position(|sample| *sample == value) {
+        Some(at) => Err(source.error(
+            draft.lines.1 + at / layout.per_line,
+            at % layout.per_line * layout.width,
+            format!(
+                "sample {} is {value}, by which line {line} marks a value that is unknown",
+                at + 1
+            ),
+            "the record has gaps: get it again, or set `lenient = true` to use the value as it is",
+        )),
+        None => Ok(()),
+    }
 }
 
 fn channel(
@@ -84,6 +130,7 @@ fn channel(
         (reals.first, announcement.number + 1, lines.number()),
     );
     draft.header_count = Some(expected);
+    without_unknown(source, &text, &draft, layout)?;
     draft.times = Times::Step(step(source, &integers, &reals)?);
     draft.processing = match stage_agrees(source, first, &integers)? {
         Some(2.0) => Processing::Corrected,

@@ -12,6 +12,7 @@ use crate::recording::Series;
 use crate::source::{HeaderNumbers, Source};
 use crate::start_times::later;
 use crate::text::{Line, Lines};
+use crate::volume::unit_of_number;
 
 const TEXT_LINES: usize = 16;
 const NUMBERS: Layout = Layout::new(10, 8);
@@ -126,12 +127,12 @@ fn blocks(
     }
 }
 
-/// `Raw readings in units of 1.00 mm/s/s`.
+/// `Raw readings in units of 1.00 mm/s/s`; without, the unit is not known.
 fn raw_unit(source: &Source<'_>, header: &Header<'_>) -> Result<DraftUnit, GroundMotionError> {
     let line = header.text[10];
     let lower = line.lower();
     let Some((_, rest)) = lower.split_once("units of") else {
-        return Ok(DraftUnit::Stated(SeriesUnit::MM_S2));
+        return Ok(DraftUnit::Unstated);
     };
     let mut words = rest.split_whitespace();
     let each = words.next().and_then(|w| number::parse(w.as_bytes()).ok());
@@ -207,17 +208,15 @@ fn block(
     draft.start_time = start_of_buffer(&header.integers)
         .and_then(|start| later(&start, -pad))
         .unwrap_or_default();
-    let lower = header.text[13..]
-        .iter()
-        .map(Line::lower)
-        .find(|l| l.trim_start().starts_with(quantity.name()));
-    draft.peak = lower.and_then(|l| {
+    let lines = header.text[13..].iter().map(|l| (l.number, l.lower()));
+    let of_quantity = |l: &(usize, String)| l.1.trim_start().starts_with(quantity.name());
+    draft.peak = lines.into_iter().find(of_quantity).and_then(|(line, l)| {
         Some(DraftPeak {
             value: number::stated(&l, "peak")?,
             time: number::stated(&l, " at "),
-            unit: None,
+            unit: unit_of_number(&l, "peak"),
             shift: pad,
-            line: None,
+            line: Some(line),
             of_sign: false,
         })
     });

@@ -41,8 +41,15 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             let stated = source.step_or_rate(line, value, Bare::Rate)?;
             step = stated.filter(|s| s.is_finite() && *s > 0.0);
         } else if key.starts_with("unit") {
-            let word = value.split('(').next().unwrap_or_default();
-            unit = SeriesUnit::parse(word).map_or(DraftUnit::Unstated, DraftUnit::Stated);
+            // `gal(cm/s/s)`: the same unit twice.
+            let mut words = value.split(['(', ')']).map(SeriesUnit::parse);
+            let (stated, again) = (words.next().flatten(), words.next().flatten());
+            if let (Some(stated), Some(again)) = (stated, again)
+                && stated != again
+            {
+                return Err(source.two_units(line, stated, again));
+            }
+            unit = stated.map_or(DraftUnit::Unstated, DraftUnit::Stated);
         } else if key.starts_with("site") {
             site = value.to_owned();
         } else if key.starts_with("initial time") {

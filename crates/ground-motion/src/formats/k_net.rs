@@ -199,7 +199,10 @@ impl Header {
                 self.duration = first.map(|n| n.0).filter(|d| *d > 0.0);
             }
             n if n.starts_with("dir") => self.direction = value,
-            n if n.starts_with("max") => self.peak = first,
+            n if n.starts_with("max") => {
+                in_gal(source, line)?;
+                self.peak = first;
+            }
             n if n.starts_with("station code") => self.station = value,
             n if n.starts_with("origin time") => self.origin_time = value,
             n if n.starts_with("record time") => self.record_time = value,
@@ -210,8 +213,29 @@ impl Header {
     }
 }
 
+/// Refuses a unit in brackets other than that of the format: `Max. Acc. (gal)`, `3920(gal)/6182761`.
+fn in_gal(source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> {
+    let text = line.text();
+    let unit = text
+        .split_once('(')
+        .and_then(|(_, rest)| rest.split(')').next());
+    match unit.filter(|unit| SeriesUnit::parse(unit) != Some(SeriesUnit::CM_S2)) {
+        Some(unit) => Err(source.error(
+            line.number,
+            text.find('(').unwrap_or(0),
+            format!(
+                "\"{}\" where the format has gal",
+                number::shown(unit.as_bytes())
+            ),
+            REMEDY,
+        )),
+        None => Ok(()),
+    }
+}
+
 /// `3920(gal)/6182761` in gal a count.
 fn scale(source: &Source<'_>, line: Line<'_>, value: &str) -> Result<f64, GroundMotionError> {
+    in_gal(source, line)?;
     let parts = value
         .split_once('/')
         .and_then(|(above, below)| Some((number::first_in(above)?.0, number::first_in(below)?.0)));

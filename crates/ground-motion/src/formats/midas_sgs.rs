@@ -132,11 +132,15 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let data = lines.number();
     let mut times = TimeColumn::with_capacity(lines.remaining() / 4 + 1);
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
-    for line in lines.by_ref() {
+    while let Some(line) = lines.next() {
         if line.is_blank() {
             continue;
         }
         if line.bytes.trim_ascii_start().starts_with(b"*") {
+            let is_end = line.lower().trim_start().starts_with("*end");
+            if let Some(line) = (!is_end).then_some(line).or(lines.text_ahead()) {
+                return Err(source.second_series(line));
+            }
             break;
         }
         let mut fields = line.fields();

@@ -5,7 +5,7 @@ use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Printed, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
-use crate::number;
+use crate::number::{self, Bare};
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
@@ -223,15 +223,13 @@ impl Header {
                 })?);
             }
             k if k.starts_with("SAMPLING INTERVAL") => {
-                let step = source.number(line, at, with_point(value).as_bytes())?;
-                let milli = k.contains("(MS") || k.contains("MSEC");
-                self.step = Some(if milli { 1.0e-3 * step } else { step });
+                let printed = with_point(value);
+                source.number(line, at, printed.as_bytes())?;
+                let unit = in_brackets(k).unwrap_or_default();
+                self.step = source.step_or_rate(line, &format!("{printed} {unit}"), Bare::Step)?;
             }
             k if k.contains("PGA") => {
-                let unit = key
-                    .split_once('(')
-                    .and_then(|(_, rest)| rest.split(')').next());
-                if let Some(unit) = unit {
+                if let Some(unit) = in_brackets(key) {
                     self.unit = Some(SeriesUnit::parse(unit).ok_or_else(|| {
                         source.error(
                             line.number,
@@ -280,6 +278,11 @@ impl Header {
             of_sign: false,
         });
     }
+}
+
+/// What stands in the first brackets of a key, `SAMPLING INTERVAL (sec)`.
+fn in_brackets(key: &str) -> Option<&str> {
+    key.split_once('(')?.1.split(')').next()
 }
 
 /// Names of columns: words of letters that say a direction, such as `N-S`, `E-W` and `U-D`.

@@ -91,6 +91,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         _ => DATA,
     };
     let numbers = source.block(&mut lines, layout, Some(count), None)?;
+    if let Some(line) = lines.text_ahead() {
+        return Err(source.second_series(line));
+    }
     let rate = known(reals.positive(RATE)).filter(|rate| *rate < MOST_SAMPLES_A_SECOND);
     let places = (reals.line_of(RATE), first, lines.number());
     let unit = DraftUnit::Stated(kind.unit);

@@ -103,6 +103,14 @@ impl PowerSpectrum for CloughPenzien1975 {
         self.ground.density(frequency) * w2 * w2 / ((f2 - w2).powi(2) + damping)
     }
 
+    fn generator(&self) -> &'static Generator {
+        &Self::GENERATOR
+    }
+
+    fn main_frequency(&self) -> f64 {
+        self.ground.main_frequency()
+    }
+
     fn describe(&self) -> Result<StepRecord, GroundMotionError> {
         positive(STEP, "filter frequency", self.filter_frequency)?;
         within(STEP, "filter damping", self.filter_damping, 1.0e-3, 10.0)?;

@@ -88,6 +88,14 @@ impl PowerSpectrum for KanaiTajimi1960 {
         self.intensity * (g2 * g2 + damping) / ((g2 - w2).powi(2) + damping)
     }
 
+    fn generator(&self) -> &'static Generator {
+        &Self::GENERATOR
+    }
+
+    fn main_frequency(&self) -> f64 {
+        self.ground_frequency
+    }
+
     fn describe(&self) -> Result<StepRecord, GroundMotionError> {
         let step = self.described_as(STEP)?;
         Ok(step.number("variance of the spectrum", self.variance(), "m2/s4"))

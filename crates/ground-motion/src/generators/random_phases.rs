@@ -6,7 +6,7 @@ use realfft::num_complex::Complex64;
 
 use crate::error::{GroundMotionError, positive};
 use crate::generators::noise::Noise;
-use crate::generators::{Envelope, Generated, TimeGrid};
+use crate::generators::{Envelope, Generated, Generator, TimeGrid};
 use crate::spectra::inverse_transform;
 use crate::step_record::StepRecord;
 
@@ -15,6 +15,12 @@ pub trait PowerSpectrum {
     /// Density (m2/s3) at a circular frequency (rad/s); its integral over all
     /// frequencies of both signs is the variance.
     fn density(&self, frequency: f64) -> f64;
+
+    /// Its name, title and source.
+    fn generator(&self) -> &'static Generator;
+
+    /// The circular frequency (rad/s) of its hump, which samples must show.
+    fn main_frequency(&self) -> f64;
 
     /// Parameters with their names, after a check.
     ///
@@ -42,10 +48,14 @@ impl<S: PowerSpectrum> StationaryMotion<S> {
     /// The motion of a seed.
     ///
     /// # Errors
-    /// Parameters, time step or duration out of range.
+    /// Parameters, time step or duration out of range, or a spectrum whose main frequency is half
+    /// the sampling rate or more.
     pub fn generate(&self, grid: TimeGrid, seed: u64) -> Result<Generated, GroundMotionError> {
         let count = grid.count()?;
-        let step = self.spectrum.describe()?;
+        let mut step = self.spectrum.describe()?;
+        let hump = self.spectrum.main_frequency() / TAU;
+        let sampled = grid.record(self.spectrum.generator().name, hump)?;
+        step.remarks.extend(sampled.remarks);
         self.envelope.check(grid.duration)?;
         let length = (2 * count).next_power_of_two();
         let apart = TAU / (length as f64 * grid.time_step);

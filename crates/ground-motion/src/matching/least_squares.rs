@@ -9,8 +9,8 @@ use nalgebra::{DMatrix, DVector};
 use crate::accelerogram::Accelerogram;
 use crate::error::GroundMotionError;
 use crate::matching::misfit::Deviations;
-use crate::matching::peaks::{Change, Row};
-use crate::spectra::TargetSpectrum;
+use crate::matching::peaks::{Change, Row, responses_to};
+use crate::spectra::{TOGETHER, TargetSpectrum};
 
 /// Damping of the least squares as a part of the largest diagonal element: at the start, and
 /// its factors after success and failure.
@@ -148,16 +148,31 @@ fn objective(deviations: &[f64], power: f64) -> f64 {
 fn responses(rows: &[Row], changes: &[Change]) -> DMatrix<f64> {
     let count = rows.iter().map(|r| r.peaks.len()).sum();
     let mut matrix = DMatrix::zeros(count, changes.len());
+    let (together, alone) = rows.as_chunks::<TOGETHER>();
     let mut at = 0;
-    for row in rows {
-        for (j, change) in changes.iter().enumerate() {
-            for (k, value) in row.responses_to(change).into_iter().enumerate() {
-                matrix[(at + k, j)] = value;
-            }
-        }
-        at += row.peaks.len();
+    for rows in together {
+        at = fill(&mut matrix, at, rows.each_ref(), changes);
+    }
+    for row in alone {
+        at = fill(&mut matrix, at, [row], changes);
     }
     matrix
+}
+
+/// Fills lines of the matrix from one on with the responses of rows; returns the line behind them.
+fn fill<const N: usize>(
+    matrix: &mut DMatrix<f64>,
+    at: usize,
+    rows: [&Row; N],
+    changes: &[Change],
+) -> usize {
+    for (j, change) in changes.iter().enumerate() {
+        let values = responses_to(rows, change).into_iter().flatten();
+        for (k, value) in values.enumerate() {
+            matrix[(at + k, j)] = value;
+        }
+    }
+    at + rows.iter().map(|row| row.peaks.len()).sum::<usize>()
 }
 
 /// Those of the weighted least squares whose gradient is that of the objective.

@@ -94,38 +94,41 @@ impl Row {
             out * peak.part.signum()
         })
     }
+}
 
-    /// `w^2 u` at the times of the peaks under a change, as a part of the target.
-    pub(crate) fn responses_to(&self, change: &Change) -> Vec<f64> {
-        let mut found = vec![0.0; self.peaks.len()];
-        let mut in_time: Vec<usize> = (0..self.peaks.len()).collect();
-        in_time.sort_by_key(|k| self.peaks[*k].index);
-        let scale = self.frequency * self.frequency / self.target;
-        let force = |i: usize| match i.checked_sub(change.first) {
-            Some(k) => -change.samples.get(k).copied().unwrap_or(0.0),
-            None => 0.0,
-        };
-        let start = change.first.saturating_sub(1);
-        let mut ahead = in_time
-            .into_iter()
-            .skip_while(|k| self.peaks[*k].index < start)
-            .peekable();
-        let mut state = State::default();
-        let (mut at, mut before) = (start, force(start));
-        while let Some(&next) = ahead.peek() {
-            let after = force(at + 1);
-            let peak = &self.peaks[next];
-            if peak.index == at {
-                let there = self
-                    .oscillator
-                    .within_step(state, before, after, peak.after);
-                found[next] = scale * there.displacement;
-                ahead.next();
-            } else {
-                state = self.oscillator.advance(state, before, after);
-                (before, at) = (after, at + 1);
-            }
-        }
-        found
+/// `w^2 u` of rows at the times of their peaks under a change, as parts of the targets. The
+/// oscillators go through the change together: each alone would wait at every sample for its own
+/// last state.
+pub(crate) fn responses_to<const N: usize>(rows: [&Row; N], change: &Change) -> [Vec<f64>; N] {
+    let mut found = rows.map(|row| vec![0.0; row.peaks.len()]);
+    let force = |i: usize| match i.checked_sub(change.first) {
+        Some(k) => -change.samples.get(k).copied().unwrap_or(0.0),
+        None => 0.0,
+    };
+    let start = change.first.saturating_sub(1);
+    // All peaks behind the start of the change in the order of their times: sample, row, number.
+    let mut ahead: Vec<(usize, usize, usize)> = Vec::new();
+    for (k, row) in rows.iter().enumerate() {
+        let peaks = row.peaks.iter().enumerate();
+        ahead.extend(peaks.map(|(n, peak)| (peak.index, k, n)));
     }
+    ahead.retain(|(index, ..)| *index >= start);
+    ahead.sort_unstable();
+    let mut states = [State::default(); N];
+    let (mut at, mut before) = (start, force(start));
+    for (index, k, n) in ahead {
+        while at < index {
+            let after = force(at + 1);
+            for (row, state) in rows.iter().zip(&mut states) {
+                *state = row.oscillator.advance(*state, before, after);
+            }
+            (before, at) = (after, at + 1);
+        }
+        let (row, peak) = (rows[k], &rows[k].peaks[n]);
+        let there = row
+            .oscillator
+            .within_step(states[k], before, force(at + 1), peak.after);
+        found[k][n] = row.frequency * row.frequency / row.target * there.displacement;
+    }
+    found
 }

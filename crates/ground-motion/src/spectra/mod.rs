@@ -13,7 +13,7 @@ use serde::Serialize;
 
 pub use fourier::{FourierSpectrum, fourier_spectrum};
 pub(crate) use fourier::{inverse_transform, transform};
-pub(crate) use oscillator::{Oscillator, State, exponential, zero};
+pub(crate) use oscillator::{Oscillator, State, TOGETHER, exponential, zero};
 pub use response::{
     OscillatorResponse, ResponseSpectrum, logarithmic_periods, oscillator_response,
     response_spectra, response_spectrum,

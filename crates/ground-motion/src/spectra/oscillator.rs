@@ -265,49 +265,27 @@ impl Oscillator {
     /// Peaks under a ground acceleration (m/s2) that starts with the oscillator at
     /// rest. Ends with the last sample: free vibration beyond it is not looked at.
     pub(crate) fn peaks(&self, ground: &[f64], evaluation: Evaluation) -> OscillatorPeaks {
-        let mut peaks = OscillatorPeaks::default();
-        let mut state = State::default();
-        for (i, pair) in ground.windows(2).enumerate() {
-            let time = (i + 1) as f64 * self.time_step;
-            state = self.advance(state, -pair[0], -pair[1]);
-            keep(&mut peaks.displacement, state.displacement, time);
-            keep(&mut peaks.velocity, state.velocity, time);
-            let acceleration = self.absolute_acceleration(state);
-            keep(&mut peaks.acceleration, acceleration, time);
-        }
-        if evaluation == Evaluation::PiecewiseLinear {
-            self.raise_between(&mut peaks, ground);
-        }
+        let [peaks] = peaks_of([self], ground, evaluation);
         peaks
     }
 
-    /// Raises peaks at samples by those between them: known peaks at samples leave few
-    /// steps to look into.
-    fn raise_between(&self, peaks: &mut OscillatorPeaks, ground: &[f64]) {
-        let mut state = State::default();
-        let above_chord = self.time_step * self.time_step / 8.0;
-        let mut acceleration = self.absolute_acceleration(state).abs();
-        for (i, pair) in ground.windows(2).enumerate() {
-            let forces = [-pair[0], -pair[1]];
-            let next = self.advance(state, forces[0], forces[1]);
-            let next_acceleration = self.absolute_acceleration(next).abs();
-            // The second derivatives are w^0, w^1 and w^2 times this at most.
-            let amplitude = self
-                .curvature(state, forces[0], forces[1])
-                .norm_sqr()
-                .sqrt();
-            let displacement = state.displacement.abs().max(next.displacement.abs());
-            let velocity = state.velocity.abs().max(next.velocity.abs());
-            let rise = above_chord * amplitude;
-            let w = self.frequency;
-            if displacement + rise > peaks.displacement.value
-                || velocity + w * rise > peaks.velocity.value
-                || acceleration.max(next_acceleration) + w * w * rise > peaks.acceleration.value
-            {
-                self.between(peaks, i as f64 * self.time_step, [state, next], forces);
-            }
-            (state, acceleration) = (next, next_acceleration);
-        }
+    /// Whether peaks may lie higher between two states than at them: known peaks at samples leave
+    /// few steps to look into.
+    fn may_rise(&self, peaks: &OscillatorPeaks, states: [State; 2], forces: [f64; 2]) -> bool {
+        // The second derivatives are w^0, w^1 and w^2 times this at most.
+        let amplitude = self
+            .curvature(states[0], forces[0], forces[1])
+            .norm_sqr()
+            .sqrt();
+        let rise = self.time_step * self.time_step / 8.0 * amplitude;
+        let most = |of: fn(&Self, State) -> f64| {
+            let [from, to] = states.map(|state| of(self, state).abs());
+            from.max(to)
+        };
+        let w = self.frequency;
+        most(|_, state| state.displacement) + rise > peaks.displacement.value
+            || most(|_, state| state.velocity) + w * rise > peaks.velocity.value
+            || most(Self::absolute_acceleration) + w * w * rise > peaks.acceleration.value
     }
 
     fn between(
@@ -359,6 +337,47 @@ impl Oscillator {
             &acceleration,
         );
     }
+}
+
+/// Oscillators that go through samples together.
+pub(crate) const TOGETHER: usize = 4;
+
+/// Peaks of oscillators of one time step, which go through the samples together: each alone would
+/// wait at every sample for its own last state.
+pub(crate) fn peaks_of<const N: usize>(
+    oscillators: [&Oscillator; N],
+    ground: &[f64],
+    evaluation: Evaluation,
+) -> [OscillatorPeaks; N] {
+    let time_step = oscillators.first().map_or(0.0, |o| o.time_step);
+    let mut peaks = [OscillatorPeaks::default(); N];
+    let mut states = [State::default(); N];
+    for (i, pair) in ground.windows(2).enumerate() {
+        let time = (i + 1) as f64 * time_step;
+        for k in 0..N {
+            states[k] = oscillators[k].advance(states[k], -pair[0], -pair[1]);
+            keep(&mut peaks[k].displacement, states[k].displacement, time);
+            keep(&mut peaks[k].velocity, states[k].velocity, time);
+            let acceleration = oscillators[k].absolute_acceleration(states[k]);
+            keep(&mut peaks[k].acceleration, acceleration, time);
+        }
+    }
+    if evaluation == Evaluation::AtSamples {
+        return peaks;
+    }
+    states = [State::default(); N];
+    for (i, pair) in ground.windows(2).enumerate() {
+        let forces = [-pair[0], -pair[1]];
+        for k in 0..N {
+            let next = oscillators[k].advance(states[k], forces[0], forces[1]);
+            let ends = [states[k], next];
+            if oscillators[k].may_rise(&peaks[k], ends, forces) {
+                oscillators[k].between(&mut peaks[k], i as f64 * time_step, ends, forces);
+            }
+            states[k] = next;
+        }
+    }
+    peaks
 }
 
 impl Transition {

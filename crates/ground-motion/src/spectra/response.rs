@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::accelerogram::{Accelerogram, Peak};
 use crate::error::{GroundMotionError, ascending, positive, within};
-use crate::spectra::oscillator::Oscillator;
+use crate::spectra::oscillator::{Oscillator, TOGETHER, peaks_of};
 use crate::spectra::{Evaluation, State};
 
 const STEP: &str = "response spectrum";
@@ -95,12 +95,27 @@ pub fn response_spectrum(
         pseudo_velocity: Vec::with_capacity(periods.len()),
         pseudo_acceleration: Vec::with_capacity(periods.len()),
     };
+    let swing: Vec<f64> = periods.iter().copied().filter(|t| *t != 0.0).collect();
+    let oscillator = |period: &f64| Oscillator::new(*period, damping, step);
+    let oscillators: Vec<Oscillator> = swing.iter().map(oscillator).collect();
+    let (together, alone) = oscillators.as_chunks::<TOGETHER>();
+    let together = together.iter().flat_map(|of| {
+        let of = of.each_ref();
+        peaks_of(of, record.samples(), evaluation)
+    });
+    let alone = alone
+        .iter()
+        .map(|of| of.peaks(record.samples(), evaluation));
+    let mut found = together.chain(alone);
     for &period in periods {
-        if period == 0.0 {
+        let peaks = match period {
+            0.0 => None,
+            _ => found.next(),
+        };
+        let Some(peaks) = peaks else {
             spectrum.push([0.0, 0.0, ground, 0.0, ground]);
             continue;
-        }
-        let peaks = Oscillator::new(period, damping, step).peaks(record.samples(), evaluation);
+        };
         let frequency = TAU / period;
         let displacement = peaks.displacement.value;
         spectrum.push([

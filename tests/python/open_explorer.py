@@ -3,7 +3,7 @@
 python open_explorer.py PAGE.html POUNDING RECORD BROKEN_CASE COMPONENTS RULES [--pictures FOLDER]
 
 PAGE is that of the README's pair; RECORD, BROKEN_CASE, COMPONENTS, a record with NS, EW and UD, and RULES, one of which is
-called office_sum, are dropped on it. Chromium is named by POUNDING_CHROMIUM;
+called office_sum, are dropped on it; the page holds another record under the name of RECORD. Chromium is named by POUNDING_CHROMIUM;
 where POUNDING_FIREFOX names Firefox, that opens the page too (over its debugging protocol, WebDriver BiDi).
 """
 
@@ -18,6 +18,7 @@ import time
 from chromium import Chromium
 
 WIDTH = "document.querySelector('input[type=range][data-control=\"gap.0.width\"]')"
+SWEEP_FILES = "['sweep-csv', 'png'].map((name) => !document.querySelector(`[data-part=${name}]`).disabled)"
 DATA = "document.documentElement.dataset"
 
 
@@ -113,6 +114,48 @@ def chooses(page, record, rules):
     until(page, f"!{chosen} && document.querySelector('[data-result=impacts]').textContent === '45'")
 
 
+def chooses_by_keys(page):
+    """Who chooses a model by keys stands where they stood, and files of the sweep wait for all its runs."""
+    select = "document.getElementById('control-gap.0-model')"
+    runs = page.value(f"Number({DATA}.runs)")
+    page.value(f"(() => {{ {select}.focus(); {select}.value = 'hertz_1882'; {select}.dispatchEvent(new Event('change', {{ bubbles: true }})); }})()")
+    until(page, f"Number({DATA}.runs) > {runs}")
+    assert page.value("document.activeElement.id") == "control-gap.0-model"
+    assert page.value(f"{select}.value") == "hertz_1882"
+    assert page.value(SWEEP_FILES) == [False, False]
+    page.value("document.querySelector('[data-part=reset]').click()")
+    until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
+
+
+def replaces(page, record):
+    """A record that is dropped takes the place of another of its name until the page is reset."""
+    name = pathlib.Path(record).name
+    select = "document.getElementById('control-ground_motion-record')"
+
+    def demand():
+        runs = page.value(f"Number({DATA}.runs)")
+        page.value(f"(() => {{ {select}.value = {json.dumps(name)}; {select}.dispatchEvent(new Event('change', {{ bubbles: true }})); }})()")
+        until(page, f"Number({DATA}.runs) > {runs} && document.querySelector('[data-part=excitation]').textContent.includes({json.dumps(name)})")
+        return result(page, "demand")
+
+    embedded = demand()
+    page.value("document.querySelector('[data-part=share]').click()")
+    status = "document.querySelector('[data-part=status]').textContent"
+    until(page, f"{status}.startsWith('The address')")
+    assert "dropped" not in page.value(status), page.value(status)
+    runs = page.value(f"Number({DATA}.runs)")
+    drop(page, record)
+    until(page, f"Number({DATA}.runs) > {runs}")
+    until(page, f"document.querySelector('[data-result=demand]').textContent !== {json.dumps(embedded)}")
+    page.value("document.querySelector('[data-part=share]').click()")
+    until(page, f"{status}.includes('The record that you dropped is not in it')")
+    page.value("document.querySelector('[data-part=reset]').click()")
+    until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
+    assert demand() == embedded
+    page.value("document.querySelector('[data-part=reset]').click()")
+    until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
+
+
 def types(page, name, text):
     """Types into the field of an entry of the gap."""
     field = f"document.getElementById('control-gap.0.{name}')"
@@ -125,7 +168,7 @@ def clears(page):
     assert types(page, "damping_ratio", "") == ""
     until(page, "document.querySelector('[data-part=faults]').textContent.includes('damping_ratio')")
     # What is shown beside a fault is of the input before it, and says so.
-    stale = "[document.querySelector('.stale') !== null, document.querySelector('[data-part=stale]').checkVisibility(), document.querySelector('[data-part=case]').disabled, document.querySelector('[data-part=png]').disabled]"
+    stale = "[document.querySelector('.stale') !== null, document.querySelector('[data-part=stale]').checkVisibility(), document.querySelector('[data-part=case]').disabled, document.querySelector('[data-part=peaks-csv]').disabled]"
     assert page.value(stale) == [True] * 4, page.value(stale)
     types(page, "restitution", "0.6")
     until(page, "document.querySelector('[data-part=faults]').textContent === ''")
@@ -146,7 +189,10 @@ def computes(page, folder):
     until(page, f"{working}.checkVisibility() && {working}.textContent.startsWith('Computing')")
     until(page, f"Number({DATA}.runs) > {runs} && !{working}.checkVisibility()")
     assert told(page) == "", told(page)
+    below_title = "document.querySelector('header .what').textContent"
+    assert page.value(below_title).startswith("slow.toml · pounding "), page.value(below_title)
     page.value("document.querySelector('[data-part=reset]').click()")
+    until(page, f"{below_title}.startsWith('case.toml · pounding ')")
     until(page, "document.querySelector('[data-result=width]').textContent === '20 mm' && document.querySelector('[data-result=impacts]').textContent === '45'")
 
 
@@ -221,6 +267,8 @@ def in_chromium(arguments, pictures):
         repeats(page, pounding, folder)
         drops(page, pounding, record, broken)
         chooses(page, components, rules)
+        replaces(page, record)
+        chooses_by_keys(page)
         clears(page)
         factors(page, browser, url)
         computes(page, folder)
@@ -228,6 +276,7 @@ def in_chromium(arguments, pictures):
         started = time.monotonic()
         until(page, "(({ done, all }) => done === all && Number(all) === 400)(document.querySelector('[data-part=sweep]').dataset)", 600)
         sweep = time.monotonic() - started
+        assert page.value(SWEEP_FILES) == [True, True]
         for width, dark in ((1280, False), (400, False), (1280, True)):
             page.wide(width, dark=dark, touch=width < 500)
             across = page.value("document.documentElement.scrollWidth - document.documentElement.clientWidth")

@@ -601,11 +601,20 @@ fn page_in_browsers() {
     let bench = Bench::with(BROKEN_CASE);
     bench.write("dropped.NS", &k_net());
     bench.write("jma.csv", &jma());
+    // Another record under the name of the one that is dropped.
+    std::fs::create_dir(bench.folder().join("other")).unwrap();
+    bench.write("other/dropped.NS", &jma());
+    let other = bench.folder().join("other/dropped.NS");
     let page = bench.folder().join("page.html");
     let case = root().join("examples/three_storey_pair/case.toml");
     text(
         "explore",
-        &format!("{} -o {}", case.display(), page.display()),
+        &format!(
+            "{} --records {} -o {}",
+            case.display(),
+            other.display(),
+            page.display()
+        ),
     );
     let output = Command::new(python)
         .arg(root().join("tests/python/open_explorer.py"))

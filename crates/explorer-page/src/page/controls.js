@@ -182,8 +182,11 @@ const controlsOf = (state, documentation, actions) => {
       return element;
     },
     record: (control) => {
-      const names = new Set([control.value, ...actions.records()]);
-      return choice(control, [...names].map((name) => [name, name.split("/").pop()]), actions.chooseRecord);
+      const names = [...new Set([control.value, ...actions.records()])];
+      const last = (name) => name.split("/").pop();
+      // Of two with one name of a file, the folders tell which is which.
+      const shared = (name) => names.some((other) => other !== name && last(other) === last(name));
+      return choice(control, names.map((name) => [name, shared(name) ? name : last(name)]), actions.chooseRecord);
     },
     component: (control) => {
       // The case may name a component by the first word of its name alone.
@@ -214,7 +217,10 @@ const controlsOf = (state, documentation, actions) => {
         groups.get(control.group).push(made[control.kind](control));
       }
       const sets = [...groups].map(([name, inside]) => html("fieldset", {}, html("legend", {}, name), ...inside));
+      // Who chose by keys goes on from there.
+      const { id } = document.activeElement;
       part("controls").replaceChildren(...sets);
+      if (id) document.getElementById(id)?.focus({ preventScroll: true });
     },
     // Lets the slider of a width reach what the gap demands.
     reach: (path, high) => fields.has(path) && fields.get(path)(high),

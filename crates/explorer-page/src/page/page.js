@@ -8,6 +8,8 @@
   // After this pause (ms) of the reader the sweep begins again.
   const PAUSE = 250;
   const encoder = new TextEncoder();
+  // What is said below the title behind the name of the case.
+  const origin = [`pounding ${data.version}`, "computed in this page"];
 
   let solver = null;
   let models = [];
@@ -16,9 +18,12 @@
   let opened = { name: data.name, text: data.case, own: false, number: 0 };
   let base = null;
   let run = null;
+  let sweep = null;
   let dragging = false;
-  // Records by their names, with the names of their components where there are several.
+  // Records by their names, with the names of their components where there are several, and the
+  // names of those that the reader brought.
   const records = new Map();
+  const dropped = new Set();
   // Rules of the reader, or those that the page was written with.
   const given = data.rules || null;
   let rules = given;
@@ -44,7 +49,13 @@
     const stale = wrong.run.length > 0;
     part("main").classList.toggle("stale", stale);
     part("stale").hidden = !stale;
-    for (const name of ["case", "sweep-csv", "png", "peaks-csv"]) part(name).disabled = stale;
+    downloads();
+  };
+  // There are no files of answers of another state than that of the controls, nor of a part of them.
+  const downloads = () => {
+    const stale = wrong.run.length > 0;
+    for (const name of ["case", "peaks-csv"]) part(name).disabled = stale;
+    for (const name of ["sweep-csv", "png"]) part(name).disabled = stale || !sweep || !sweep.whole();
   };
 
   // Says for how long a run has been computed, where that takes longer than a blink.
@@ -74,10 +85,13 @@
   // Runs: of all states that come while one is computed, the last is next.
   let wanted = false;
   let busy = false;
+  let settled = Promise.resolve();
   let timer = 0;
-  const update = async () => {
+  const update = () => {
     wanted = true;
-    if (busy || !solver) return;
+    if (!busy && solver) settled = compute();
+  };
+  const compute = async () => {
     busy = true;
     while (wanted) {
       wanted = false;
@@ -120,6 +134,7 @@
   const state = stateOf(() => {
     update();
     later();
+    downloads();
   });
 
   const controls = controlsOf(state, data.documentation, {
@@ -164,7 +179,6 @@
     const control = base && base.controls.find((c) => c.path === path && c.kind === "model");
     return control ? control.value : "";
   };
-  let sweep = null;
 
   // The controls of the state, with their values.
   const describe = async () => {
@@ -211,6 +225,8 @@
     for (const [what, path] of answer.files) if (what === "record" && !records.has(path)) records.set(path, []);
     document.title = answer.title || name;
     document.querySelector("h1").textContent = answer.title || name;
+    document.querySelector("header .what").textContent = [name, ...origin].join(" · ");
+    part("notes").textContent = "";
     return true;
   };
 
@@ -259,6 +275,7 @@
     return;
   }
   sweep = sweepOf(state, solver.background, {
+    changed: downloads,
     provided: (gap) => {
       if (!run || !run.summary.gaps[gap]) return NaN;
       return Math.min(...run.summary.gaps[gap].levels.map((level) => level.width));
@@ -270,10 +287,12 @@
   });
   sweep.prepare();
   motion.begin();
-  for (const file of data.files) {
+  // A file that the page was written with.
+  const keep = async (file) => {
     const kept = await solver.file(file.name, await solver.unpacked(file.data));
     records.set(file.name, kept.components || []);
-  }
+  };
+  for (const file of data.files) await keep(file);
   filesOf({
     openCase: async (name, bytes) => {
       if (!(await open(name, bytes, true))) return;
@@ -287,12 +306,19 @@
         return;
       }
       records.set(name, answer.components);
+      dropped.add(name);
+      // Runs that used another file of this name are no longer those of the state.
+      opened.number += 1;
+      told([]);
       if (use) await useRecord(name);
     },
     openRules: (name, bytes) => useRules({ name, text: new TextDecoder().decode(bytes) }),
   }).prepare();
   part("reset").addEventListener("click", async () => {
     told([]);
+    const replaced = data.files.filter(({ name }) => dropped.delete(name));
+    for (const file of replaced) await keep(file);
+    if (replaced.length) opened.number += 1;
     if (opened.own) await open(data.name, encoder.encode(data.case), false);
     if (rules !== given) await useRules(given);
     part("notes").textContent = "";
@@ -300,8 +326,7 @@
     await describe();
   });
   part("share").addEventListener("click", async () => {
-    const own = [...records.keys()].filter((name) => !data.files.some((file) => file.name === name));
-    const used = (state.get().record || []).some(([key, value]) => key === "file" && own.includes(value));
+    const used = dropped.has(recordInUse());
     const text = address();
     history.replaceState(null, "", `#${text}`);
     let copied = "copy it from the address bar";
@@ -313,8 +338,13 @@
     }
     part("status").textContent = `The address of the page holds this state: ${copied}.${used ? " The record that you dropped is not in it: give it along." : ""}`;
   });
-  part("case").addEventListener("click", () => run && save(opened.name, "text/plain", run.case));
-  part("peaks-csv").addEventListener("click", () => run && save("peaks.csv", "text/csv", results.csv(run)));
+  // A file of the run of the state that is shown, which may still be computed.
+  const saveOfRun = async (name, kind, text) => {
+    await settled;
+    if (run && !wrong.run.length) save(name, kind, text(run));
+  };
+  part("case").addEventListener("click", () => saveOfRun(opened.name, "text/plain", (run) => run.case));
+  part("peaks-csv").addEventListener("click", () => saveOfRun("peaks.csv", "text/csv", results.csv));
   addEventListener("resize", results.redraw);
   // On paper the values of storeys can be read, and cannot be opened.
   let shut = [];

@@ -25,7 +25,9 @@ const resultsOf = (documentation) => {
     const all = run.amplification.flat();
     const amplified = most(all.map((storey) => storey.displacement ?? NaN));
     const input = run.summary.energy.input ?? NaN;
-    const dissipated = run.columns.impact_energy_dissipated.reduce((sum, x) => sum + x, 0);
+    const sum = run.columns.impact_energy_dissipated.reduce((sum, x) => sum + x, 0);
+    // Less than the ledger resolves is round-off, of either sign.
+    const dissipated = Math.abs(sum) <= 1e-9 * Math.abs(input) ? 0 : sum;
     return [
       ["amplification", "Amplification", shown(amplified), "the largest ratio of a displacement to that of the run without contact; below are all ratios", GAP_CHECK],
       ["dissipated", "Energy in contacts", `${shown(1e-3 * dissipated)} kJ`, "energy that contacts dissipated", RESULT],

@@ -24,7 +24,9 @@ const sweepOf = (state, background, actions) => {
   // Widths of one request: few enough to be stopped soon.
   const AT_ONCE = 10;
   let job = 0;
+  // What was asked for last, and what is done.
   let asked = null;
+  let finished = null;
   let widths = null;
   // Curves by the name of their model, and the case that they are of.
   let curves = new Map();
@@ -165,13 +167,22 @@ const sweepOf = (state, background, actions) => {
     );
   };
 
-  // Begins again where anything but the width of the gap was changed.
+  // All that a sweep depends on: anything but the width of the gap.
+  const wantedNow = () => {
+    const { gap, overlays } = state.get();
+    return JSON.stringify([state.changesOfSweep(gap), gap, overlays, actions.opened()]);
+  };
+  // Whether all runs of the sweep of the state are done.
+  const whole = () => finished !== null && finished === wantedNow();
+  // Begins again where that was changed.
   const begin = async () => {
     const { gap, overlays } = state.get();
-    const wanted = JSON.stringify([state.changesOfSweep(gap), gap, overlays, actions.opened()]);
+    const wanted = wantedNow();
     draw();
     if (wanted === asked) return;
     asked = wanted;
+    finished = null;
+    actions.changed();
     const mine = ++job;
     const stopped = () => mine !== job;
     const told = (answer) => {
@@ -209,7 +220,9 @@ const sweepOf = (state, background, actions) => {
         draw();
       }
     }
+    finished = wanted;
     draw();
+    actions.changed();
   };
 
   // The picture with its title above and its legend below: the styles of the page are not in a
@@ -311,5 +324,5 @@ const sweepOf = (state, background, actions) => {
     part("gap").replaceChildren(...gaps.map((name, i) => new Option(name, String(i), false, i === gap)));
     part("gap").closest("label").hidden = gaps.length < 2;
   };
-  return { prepare, choices, begin, draw };
+  return { prepare, choices, begin, draw, whole };
 };

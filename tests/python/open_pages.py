@@ -16,7 +16,7 @@ import unicodedata
 import h5py
 import numpy
 from chromium import Chromium
-from pypdf import PdfReader
+from pypdfium2 import PdfDocument, raw
 from sources import Result, walk
 
 # Columns of numbers that are of no single place in the result: counted or computed from a table.
@@ -49,6 +49,14 @@ def looks(page):
     page.wide(1280)
 
 
+def text_of(paper):
+    """The text of a page of a PDF, in the order in which it was written there: that of the page's own cells."""
+    words = paper.get_textpage()
+    text = "".join(o.extract() for o in paper.get_objects(filter=(raw.FPDF_PAGEOBJ_TEXT,), textpage=words))
+    # PDFium marks hyphens at the end of a line by these.
+    return text.replace("\ufffe", "-").replace("\x02", "-")
+
+
 def prints(page, folder):
     """All of the page is on paper: every cell, every line of the case, and page numbers."""
     cells = page.value("[...document.querySelectorAll('th,td')].map(c => c.textContent)")
@@ -56,7 +64,7 @@ def prints(page, folder):
     for name, size in PAPER.items():
         path = pathlib.Path(folder) / f"{name}.pdf"
         page.pdf(path, *size)
-        pages = [p.extract_text() for p in PdfReader(path).pages]
+        pages = [text_of(p) for p in PdfDocument(path)]
         numbers = [bare(f"{i + 1}/{len(pages)}") for i in range(len(pages))]
         assert all(n in bare(p) for n, p in zip(numbers, pages)), "page numbers"
         printed = bare(" ".join(pages))

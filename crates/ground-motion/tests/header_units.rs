@@ -279,6 +279,10 @@ fn units_of_geo_net() {
         read("geo_net", "in units of 1.00 mm/s/s", "        "),
         &["does not state the unit"],
     );
+    refused(
+        read("geo_net", "Number of points ", "Number of points 1"),
+        &["f:10:1: the header says 1", "samples here"],
+    );
 }
 
 #[test]

@@ -183,7 +183,14 @@ fn block(
     );
     draft.header_count = Some(count);
     // "Number of points  5800    Duration 115.98 sec", pads included.
-    let stated = number::stated(&header.text[9].lower(), "duration").map(|n| n.0);
+    let in_words = header.text[9].lower();
+    let points = number::stated(&in_words, "number of points").map(|n| n.0);
+    let points = points.filter(|n| n.fract() == 0.0 && (1.0..1.0e9).contains(n));
+    draft.other_counts = points
+        .map(|n| (header.text[9].number, n as usize))
+        .into_iter()
+        .collect();
+    let stated = number::stated(&in_words, "duration").map(|n| n.0);
     draft.header_durations = stated
         .filter(|d| *d > 0.0)
         .map(|seconds| StatedDuration {

@@ -91,6 +91,12 @@ fn a_ball_comes_to_rest() {
     assert_eq!(level.sticks, 1);
     assert!((last.impulse - 2.0 * 9.81 * (6.0 - last.time_closed)).abs() < 0.5);
     assert!(outcome.energy.residual_ratio < 1e-12);
+    // What holds it is its weight, not the momentum of its last bounces.
+    for step in [1.0e-3, 3.0e-4, 1.0e-4] {
+        let outcome = go(&system, step, 6.0);
+        let held = outcome.impacts.last().unwrap().peak_force.value;
+        assert!((held / (2.0 * 9.81) - 1.0).abs() < 1e-9, "{step}: {held}");
+    }
 }
 
 /// First order on case C1, and the ledger closes to round-off with theta 1/2.

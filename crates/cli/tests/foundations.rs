@@ -459,6 +459,11 @@ fn a_link_between_foundations_is_a_spring_of_each() {
         );
         let told = case(&springs(3e8, 2e9), &link);
         assert_eq!(told["links"][0]["joins"], joins);
+        let label = match motion {
+            "sway" => "sway of foundations",
+            _ => "rotation of foundations",
+        };
+        assert_eq!(told["links"][0]["levels"][0]["level"], label);
         let (joined, stiff) = (peaks(&told), peaks(&case(&stiffer, "")));
         for (joined, stiff) in joined.iter().zip(&stiff) {
             assert!(

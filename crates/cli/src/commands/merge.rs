@@ -100,15 +100,24 @@ fn merged(
         warn(text);
     }
     let (missing, count) = &merged.missing;
+    // A study of which all runs failed, as one call would say; of some shards that is not known.
+    let ending = match merged.failed == merged.runs && missing.is_empty() {
+        true => Err(Failure::computation(
+            format!("all {} of the study failed", counted(merged.runs, "run")),
+            Some("pounding sweep STUDY --show 0 prints the case of the first run".to_owned()),
+        )),
+        false => Ok(()),
+    };
     if arguments.json {
-        return print(&pretty(&MergedShards {
+        print(&pretty(&MergedShards {
             runs: merged.runs,
             failed: merged.failed,
             collapsed: merged.collapsed,
             output: output.display().to_string(),
             missing,
             warnings: reported,
-        })?);
+        })?)?;
+        return ending;
     }
     let mut text = format!(
         "{}, {} of them failed and {} collapsed, merged from {} into {}",
@@ -125,7 +134,8 @@ fn merged(
             ranges(missing)
         ));
     }
-    print(&text)
+    print(&text)?;
+    ending
 }
 
 /// What `merge --json` prints.

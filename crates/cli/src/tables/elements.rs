@@ -4,7 +4,7 @@ use pounding_case::Case;
 use pounding_catalogue::numbers::{fixed, shown_unit};
 use pounding_hysteresis::{LawDescriptor, Verification};
 use pounding_shear_building::ShearBuilding;
-use pounding_time_history::{Element, LevelPlace, LinkedMotion, Peak, System};
+use pounding_time_history::{Element, LinkedMotion, Peak, System};
 
 use super::{Run, new_table};
 
@@ -64,7 +64,7 @@ pub(super) fn link(run: &Run<'_>, index: usize) -> String {
     ]);
     for (l, place) in outcome.levels.iter().zip(system.link_levels(index)).rev() {
         table.add_row([
-            level_of_link(joins, &place),
+            place.label(),
             place.elevations_label(),
             format!(
                 "{:.2} @{:.2}",
@@ -92,11 +92,6 @@ fn of_force(joins: LinkedMotion) -> &'static str {
         LinkedMotion::FoundationRotation => "moment",
         _ => "force",
     }
-}
-
-/// The label of a level of a link.
-fn level_of_link(joins: LinkedMotion, place: &LevelPlace) -> String {
-    joins.label().map_or_else(|| place.label(), str::to_owned)
 }
 
 fn elements(system: &System, link: usize) -> &[Element] {
@@ -208,7 +203,7 @@ pub(super) fn links(system: &System) -> String {
         let places = system.link_levels(index);
         for (element, place) in elements(system, index).iter().zip(places) {
             table.add_row([
-                level_of_link(joins, &place),
+                place.label(),
                 place.elevations_label(),
                 element.law.descriptor().name.to_owned(),
                 format!("{:.4e}", element.law.initial_stiffness()),

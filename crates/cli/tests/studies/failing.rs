@@ -152,6 +152,34 @@ fn all_records_unreadable_are_a_result_of_failures() {
     }
 }
 
+/// Shards of which all runs failed are done; the study that is merged of them has failed, as one
+/// call would say.
+#[test]
+fn a_merged_study_of_failures_is_a_failure() {
+    let bench =
+        Bench::new("case = \"case.toml\"\n[[variable]]\nrecords = [\"a.csv\", \"b.csv\"]\n");
+    for name in ["a.csv", "b.csv"] {
+        std::fs::write(bench.path(name), "time_s,acceleration_g\n0.00,zero\n").unwrap();
+    }
+    for shard in ["1/2", "2/2"] {
+        let call = format!("sweep study.toml --shard {shard} --into parts --keep-going");
+        assert_eq!(bench.run(&call).status.code(), Some(0));
+    }
+    let told = bench.complaint("merge parts -o out.h5", 3);
+    assert!(told.contains("all 2 runs of the study failed"), "{told}");
+    let output = bench.run("merge parts -o out.json.h5 --json");
+    assert_eq!(output.status.code(), Some(3));
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&told["runs"], &told["failed"]), (&2.into(), &2.into()));
+    // Of some shards the rest is not known.
+    let parts = std::fs::read_dir(bench.path("parts")).unwrap();
+    let mut parts = parts.map(|entry| entry.unwrap().path());
+    let second = parts.find(|path| path.to_string_lossy().ends_with(".shard-2-of-2.h5"));
+    std::fs::remove_file(second.unwrap()).unwrap();
+    let output = bench.run("merge parts -o part.h5 --partial");
+    assert_eq!(output.status.code(), Some(0));
+}
+
 /// Files that are not there are said at the names that the study gives them, before any run and
 /// together with what else is wrong in it.
 #[test]

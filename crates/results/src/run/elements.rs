@@ -98,10 +98,7 @@ pub(super) fn begin_links(
         let range = link.first_element..link.first_element + link.levels;
         share_time(&group)?;
         let places = system.link_levels(index);
-        let level = match link.joins.label() {
-            Some(label) => levels::named(&group, &[label.to_owned()], &places)?,
-            None => levels::coordinates(&group, &places)?,
-        };
+        let level = levels::coordinates(&group, &places)?;
         let [deformation_unit, force_unit] = link.joins.units();
         let long_names = match link.joins {
             LinkedMotion::Floors => [

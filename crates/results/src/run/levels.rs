@@ -14,13 +14,8 @@ pub(super) const COORDINATES: &str = "left_storey right_storey left_elevation ri
 /// elevations on both sides.
 pub(super) fn coordinates(group: &Group, places: &[LevelPlace]) -> Result<Dataset> {
     let names: Vec<String> = places.iter().map(LevelPlace::label).collect();
-    named(group, &names, places)
-}
-
-/// The same with labels of their own.
-pub(super) fn named(group: &Group, names: &[String], places: &[LevelPlace]) -> Result<Dataset> {
     let long_name = "level: storeys of the left and the right building";
-    let level = labels(group, "level", long_name, names)?;
+    let level = labels(group, "level", long_name, &names)?;
     dimension_scales::make_scale(&level, "level")?;
     for (i, side) in ["left", "right"].into_iter().enumerate() {
         let storeys = places.iter().map(|p| p.storeys[i].unwrap_or(0) as i32);

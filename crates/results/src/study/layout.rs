@@ -2,7 +2,7 @@
 
 use pounding_shear_building::{EDGE_DISPLACEMENTS, OVERTURNING_RATIO};
 use pounding_time_history::{
-    BuildingOutcome, COLUMN_SHEARS, LevelOutcome, LevelPlace, Outcome, System,
+    BuildingOutcome, COLUMN_SHEARS, LevelOutcome, LevelPlace, LinkedMotion, Outcome, System,
 };
 
 use crate::run::with_base_moment;
@@ -364,6 +364,7 @@ impl Place {
         }
         let place = LevelPlace {
             across: None,
+            joins: LinkedMotion::Floors,
             storeys: [left, right].map(|n| (n > 0).then_some(n)),
             elevations: [z_left, z_right],
         };

@@ -35,7 +35,11 @@ impl Driver<'_> {
                     self.log.begin_lasting(l);
                     self.peaks.force[l] = Peak { value: 0.0, time };
                 }
-                self.peaks.force[l].raise(impulse / step, time);
+                // What holds them is what is left beside the momentum with which they met.
+                let approach = level.relative(&self.new_state[n..2 * n]).max(0.0);
+                let restitution = level.model.rigid_restitution().unwrap_or(0.0);
+                let met = level.effective_mass * (1.0 + restitution) * approach;
+                self.peaks.force[l].raise((impulse - met).max(0.0) / step, time);
                 if self.contacts.contact(l).is_none() {
                     // For what is recorded of the next step, to which the method gives its own
                     // impulse.

@@ -4,6 +4,8 @@ use std::fmt;
 
 use pounding_shear_building::are_level;
 
+use super::links::LinkedMotion;
+
 /// The floors on both sides of a contact level or of a level of a link, left and right;
 /// `None` is a rigid wall.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -14,12 +16,17 @@ pub struct LevelPlace {
     pub elevations: [Option<f64>; 2],
     /// Position across the row (m), of floors that turn in plan.
     pub across: Option<f64>,
+    /// What is there: floors, or of a link foundations, which have neither storey nor elevation.
+    pub joins: LinkedMotion,
 }
 
 impl LevelPlace {
-    /// Short name: left and right storey, `3-3`, or `3-wall`.
+    /// Short name: left and right storey, `3-3`, or `3-wall`; of foundations what of them is joined.
     #[must_use]
     pub fn label(&self) -> String {
+        if let Some(label) = self.joins.label() {
+            return label.to_owned();
+        }
         let storeys = self.storeys.map(or_wall).join("-");
         match self.across {
             None => storeys,
@@ -76,7 +83,7 @@ fn or_wall(side: Option<impl ToString>) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::LevelPlace;
+    use super::{LevelPlace, LinkedMotion};
 
     #[test]
     fn both_storeys_and_both_elevations_are_in_the_name() {
@@ -84,6 +91,7 @@ mod tests {
             storeys: [Some(4), Some(1)],
             elevations: [Some(12.0), Some(3.06)],
             across: None,
+            joins: LinkedMotion::Floors,
         };
         assert_eq!(place.label(), "4-1");
         assert_eq!(place.elevations_label(), "12 / 3.06");
@@ -93,6 +101,7 @@ mod tests {
             storeys: [None, Some(2)],
             elevations: [None, Some(6.0)],
             across: None,
+            joins: LinkedMotion::Floors,
         };
         assert_eq!(wall.to_string(), "wall-2 (wall | 6 m)");
         assert!(wall.is_level(0.0));

@@ -102,7 +102,7 @@ impl System {
                 level_place: Some(LevelPlace {
                     storeys: [row.place.storeys[1], row.place.storeys[0]],
                     elevations: [row.place.elevations[1], row.place.elevations[0]],
-                    across: row.place.across,
+                    ..row.place
                 }),
                 law: pair.law,
                 yield_deformation: pair.yield_deformation,
@@ -138,6 +138,7 @@ impl System {
             // They lie below all storeys.
             if let Some(place) = &mut element.level_place {
                 place.storeys = [None, None];
+                place.joins = joins;
             }
         }
         Ok(())

@@ -2,7 +2,7 @@
 
 use pounding_shear_building::Excitation;
 
-use super::{LevelPlace, System, Terms};
+use super::{LevelPlace, LinkedMotion, System, Terms};
 
 /// A place in a contact level or a link, for its definition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -112,6 +112,7 @@ impl System {
             terms,
             place: LevelPlace {
                 across: sides.iter().find_map(|s| s.across),
+                joins: LinkedMotion::Floors,
                 storeys: [0, 1].map(|k| sides[k].place.map(|p| p.0)),
                 elevations: [0, 1].map(|k| sides[k].place.map(|p| p.1)),
             },

@@ -146,3 +146,8 @@ pub(crate) fn latin_1(bytes: &[u8]) -> String {
         .map(|c| if c.is_control() && c != '\t' { ' ' } else { c })
         .collect()
 }
+
+/// What stands in the first brackets of a text, `sec` of `SAMPLING INTERVAL (sec)`.
+pub(crate) fn in_brackets(text: &str) -> Option<&str> {
+    text.split_once('(')?.1.split(')').next()
+}

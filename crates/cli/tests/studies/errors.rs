@@ -237,7 +237,10 @@ fn contradictions_are_told() {
             same,
         ),
         (format!("{restitution}{model}"), same),
-        (format!("{records}{step}"), same),
+        (
+            format!("{records}{step}"),
+            "\"dt\" changes the motion of the case, in whose place \"",
+        ),
         (
             format!(
                 "{records}{}",
@@ -322,7 +325,14 @@ fn contradictions_are_told() {
         ),
         (
             with_ida(&named("pounding at the gaps of the case")),
-            "every analysis has a state",
+            "the analysis has a state \"pounding at the gaps of the case\" of its own",
+        ),
+        (
+            with_ida(&format!(
+                "gaps = [\"20 mm\"]\n{}",
+                named("light-heavy 0.02 m")
+            )),
+            "the analysis has a state \"light-heavy 0.02 m\" of its own",
         ),
     ] {
         bench.study(&format!("case = \"case.toml\"\n{study}"));

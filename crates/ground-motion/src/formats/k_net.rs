@@ -10,7 +10,7 @@ use crate::number;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
-use crate::text::Line;
+use crate::text::{Line, in_brackets};
 
 /// Columns of the names; the values start after them.
 const NAME: usize = 18;
@@ -216,10 +216,7 @@ impl Header {
 /// Refuses a unit in brackets other than that of the format: `Max. Acc. (gal)`, `3920(gal)/6182761`.
 fn in_gal(source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> {
     let text = line.text();
-    let unit = text
-        .split_once('(')
-        .and_then(|(_, rest)| rest.split(')').next());
-    match unit.filter(|unit| SeriesUnit::parse(unit) != Some(SeriesUnit::CM_S2)) {
+    match in_brackets(&text).filter(|unit| SeriesUnit::parse(unit) != Some(SeriesUnit::CM_S2)) {
         Some(unit) => Err(source.error(
             line.number,
             text.find('(').unwrap_or(0),

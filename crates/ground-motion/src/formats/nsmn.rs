@@ -9,7 +9,7 @@ use crate::number::{self, Bare};
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
-use crate::text::{Line, Lines};
+use crate::text::{Line, Lines, in_brackets};
 
 const REMEDY: &str =
     "the header is not that of the national network of Turkey: get the record again";
@@ -278,11 +278,6 @@ impl Header {
             of_sign: false,
         });
     }
-}
-
-/// What stands in the first brackets of a key, `SAMPLING INTERVAL (sec)`.
-fn in_brackets(key: &str) -> Option<&str> {
-    key.split_once('(')?.1.split(')').next()
 }
 
 /// Names of columns: words of letters that say a direction, such as `N-S`, `E-W` and `U-D`.

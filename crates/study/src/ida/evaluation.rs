@@ -12,7 +12,7 @@ use super::goodness::{self, Capacity, FitRemark, GoodnessOfFit, ShownIntensity};
 use super::hazard::{self, least_frequency, mean_annual_frequency};
 use crate::error::StudyError;
 use crate::fractiles::fractiles;
-use crate::study_file::{HazardCurve, IdaSettings, POUNDING, Study, Value};
+use crate::study_file::{HazardCurve, IdaSettings, POUNDING, Study, Value, pounding_at};
 use pounding_results::study::ResultReader;
 
 /// Runs at one intensity.
@@ -517,8 +517,7 @@ impl Evaluation<'_> {
 
     fn gap(&self, name: &str, column: usize) -> Result<PoundingDemand, StudyError> {
         let at = |width: f64| {
-            let result =
-                self.limit(&format!("{name} {width} m"), &|r| r.demands[column] > width)?;
+            let result = self.limit(&pounding_at(name, width), &|r| r.demands[column] > width)?;
             Ok(GapResult { width, result })
         };
         let widths = self.settings.gaps.iter().map(|w| at(*w));

@@ -317,12 +317,21 @@ impl IdaTable {
         variables: Option<(usize, usize)>,
         measure: Option<IntensityMeasure>,
     ) -> Option<IdaSettings> {
+        let gaps = self.gaps.stated().and_then(|gaps| match gaps {
+            None => Some(Vec::new()),
+            Some(gaps) => widths(reader, gaps),
+        });
         let limits = self.limit.stated().and_then(|limits| {
             let limits = limits.map_or_else(Vec::new, |limits| limits.value.0);
             let mut names = vec![POUNDING.to_owned()];
+            for gap in context.base.iter().flat_map(|base| &base.case.gaps) {
+                let widths = gaps.iter().flatten();
+                names.extend(widths.map(|width| pounding_at(&gap.name, *width)));
+            }
+            let own = names.len();
             let read = |limit: Field<LimitTable>| {
                 let limit = limit.value()?;
-                let name = limit.name(reader, &mut names);
+                let name = limit.name(reader, &mut names, own);
                 let limit = limit.read(reader, context);
                 Some(Limit {
                     name: name?,
@@ -346,10 +355,6 @@ impl IdaTable {
                 let curve = hazard_curve(reader, hazard, measure.as_ref(), file.as_deref())?;
                 Some((Some(curve), file))
             }
-        });
-        let gaps = self.gaps.stated().and_then(|gaps| match gaps {
-            None => Some(Vec::new()),
-            Some(gaps) => widths(reader, gaps),
         });
         let (record, intensity) = variables?;
         let (hazard, hazard_file) = hazard?;
@@ -409,16 +414,22 @@ fn widths(reader: &Reader<'_>, gaps: Located<TableOr<Numbers, List<Written>>>) -
 /// The state that every analysis has.
 pub(crate) const POUNDING: &str = "pounding at the gaps of the case";
 
+/// The state of a gap at a width (m).
+pub(crate) fn pounding_at(gap: &str, width: f64) -> String {
+    format!("{gap} {width} m")
+}
+
 impl LimitTable {
-    /// Its name, by which answers and tables tell it from those before it.
-    fn name(&self, reader: &Reader<'_>, before: &mut Vec<String>) -> Option<String> {
+    /// Its name, by which answers and tables tell it from those before it, of which the first are
+    /// the analysis' own.
+    fn name(&self, reader: &Reader<'_>, before: &mut Vec<String>, own: usize) -> Option<String> {
         let Field::Given(Located { value: name, span }) = &self.name else {
             return None;
         };
-        if before.contains(name) {
-            let message = match name.as_str() {
-                POUNDING => format!("every analysis has a state \"{name}\" already"),
-                name => format!("two limits have the name \"{name}\""),
+        if let Some(at) = before.iter().position(|other| other == name) {
+            let message = match at < own {
+                true => format!("the analysis has a state \"{name}\" of its own"),
+                false => format!("two limits have the name \"{name}\""),
             };
             return reader.refuse(span.clone(), message, "give each limit its own `name`");
         }

@@ -15,8 +15,8 @@ use std::path::{Path as FilePath, PathBuf};
 use std::sync::Arc;
 
 pub use hazard_file::hazard_schema;
-pub(crate) use ida::POUNDING;
 pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
+pub(crate) use ida::{POUNDING, pounding_at};
 pub use intensity::IntensityMeasure;
 pub use pounding_results::study::Value;
 pub use read::study_schema;

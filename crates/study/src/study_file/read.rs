@@ -397,11 +397,20 @@ fn variables(
                 return reader.refuse(span.clone(), "records are given twice", help);
             }
             if let Some(other) = read.variables.iter().find(|v| collide(v, &variable)) {
+                let of_records = |v: &&Variable| matches!(v.target, Target::Record);
+                let pair = [other, &variable];
+                let [a, b] = pair.map(|v| &v.name);
+                if !pair.iter().any(of_records) {
+                    let both = format!("\"{a}\" and \"{b}\" vary the same entry");
+                    return reader.refuse(span.clone(), both, "remove one of them");
+                }
+                let (records, entry) = if of_records(&other) { (a, b) } else { (b, a) };
                 let both = format!(
-                    "\"{}\" and \"{}\" vary the same entry",
-                    other.name, variable.name
+                    "\"{entry}\" changes the motion of the case, in whose place \"{records}\" puts records"
                 );
-                return reader.refuse(span.clone(), both, "remove one of them");
+                let help =
+                    "remove one of them: beside records `ground_motion.scale` alone can vary";
+                return reader.refuse(span.clone(), both, help);
             }
             match twice(&names, &read.variables, &variable.name) {
                 Some(()) => None,

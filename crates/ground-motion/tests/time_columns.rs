@@ -291,7 +291,7 @@ fn pairs_of_volume_1_at_even_times() {
         let mut at = 0;
         let row = |line: &str| {
             let is_data = line.contains('.') && !line.contains(|c: char| c.is_ascii_alphabetic());
-            if !is_data || line.len() % 14 != 0 {
+            if !is_data || !line.len().is_multiple_of(14) {
                 at = 0;
                 return format!("{line}\n");
             }

@@ -266,16 +266,24 @@ pub fn all_failed(report: &SweepReport, shard: Option<Shard>) -> Result<(), Fail
     match report.failures.first() {
         _ if shard.is_some() => Ok(()),
         Some((run, reason)) if report.failed == report.runs => Err(Failure::computation(
-            match report.runs {
-                1 => format!("the only run failed: {reason}"),
-                runs => format!("all {runs} runs failed; run {run}: {reason}"),
-            },
-            Some(format!(
-                "pounding sweep STUDY --show {run} prints the case of that run"
-            )),
+            format!("{}; run {run}: {reason}", none_succeeded(report.runs)),
+            Some(shows_a_run(*run)),
         )),
         _ => Ok(()),
     }
+}
+
+/// Of a study of which no run succeeded.
+pub fn none_succeeded(runs: usize) -> String {
+    match runs {
+        1 => "the only run failed".to_owned(),
+        runs => format!("all {runs} runs failed"),
+    }
+}
+
+/// How to see the case of a run.
+pub fn shows_a_run(run: usize) -> String {
+    format!("pounding sweep STUDY --show {run} prints the case of run {run}")
 }
 
 /// The object that `--json` prints.

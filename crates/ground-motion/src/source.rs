@@ -202,7 +202,7 @@ impl<'a> Source<'a> {
     }
 
     /// A word where a header states the unit of the values that is none.
-    pub(crate) fn unknown_unit(&self, line: usize, word: &str) -> GroundMotionError {
+    pub(crate) fn unknown_unit(&self, line: usize, word: &str, remedy: &str) -> GroundMotionError {
         self.error(
             line,
             0,
@@ -210,7 +210,7 @@ impl<'a> Source<'a> {
                 "\"{}\" is no unit that is known",
                 number::shown(word.as_bytes())
             ),
-            "the unit of the values must be certain: get the record again",
+            remedy,
         )
     }
 

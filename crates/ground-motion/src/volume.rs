@@ -240,6 +240,9 @@ impl Label {
     }
 }
 
+/// What to do about a unit that is not known.
+pub(crate) const REMEDY_UNIT: &str = "the unit of the values must be certain: get the record again";
+
 /// Words before the unit of a block.
 const BEFORE_UNIT: [&str; 6] = [
     "units: ",
@@ -275,7 +278,7 @@ fn unit_of_label(
             if key == ", in " {
                 continue;
             }
-            return Err(source.unknown_unit(line.number, word));
+            return Err(source.unknown_unit(line.number, word, REMEDY_UNIT));
         };
         if let Some(other) = found.filter(|other| *other != unit) {
             return Err(source.two_units(line, unit, other));

@@ -76,6 +76,8 @@ fn count(
     )
 }
 
+const REMEDY_UNIT: &str = "the unit of the values must be certain: get the record again, or say which it is, `unit = \"g\"` in [ground_motion] of a case, `--unit g` with `pounding motion`";
+
 /// Words before a unit, the surest first.
 const BEFORE_UNIT: [&str; 8] = [
     " and ",
@@ -150,7 +152,7 @@ fn unit(
             (Some(unit), _) => Some((*line, unit)),
             // Who says the unit knows it.
             (None, Some(word)) if source.options.unit.is_none() => {
-                return Err(source.unknown_unit(*line, word));
+                return Err(source.unknown_unit(*line, word, REMEDY_UNIT));
             }
             (None, _) => None,
         },
@@ -192,12 +194,7 @@ fn unit(
         warnings.push(format!("line {at}: {message}; {} was given", given.symbol));
         return Ok(DraftUnit::Stated(given));
     }
-    Err(source.error(
-        at,
-        0,
-        message,
-        "the header contradicts itself: get the record again, or say which unit is right, `unit = \"g\"` in [ground_motion] of a case, `--unit g` with `pounding motion`",
-    ))
+    Err(source.error(at, 0, message, REMEDY_UNIT))
 }
 
 /// A time step as a header states it, in seconds or as a rate.

@@ -357,6 +357,8 @@ fn values_that_cosmos_marks_as_unknown() {
     let found = read_all_bytes("f", marked.as_bytes(), &lenient).unwrap();
     let warnings = &found.series[0].origin.warnings;
     assert!(warnings.iter().any(|w| w.contains("-999")), "{warnings:?}");
+    let said = |w: &String| w.contains("marks a value that is unknown");
+    assert!(warnings.iter().any(said), "{warnings:?}");
     // Another way to end a channel.
     read("cosmos", "End-of-data for Chan 1", "/&   end of data").unwrap();
 }

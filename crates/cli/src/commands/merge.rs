@@ -15,6 +15,7 @@ use crate::failure::Failure;
 use crate::files::{Replaced, shard_files};
 use crate::output::{pretty, print, warn};
 use crate::separate::{Reading, by_child, reading, warnings};
+use crate::study::{none_succeeded, shows_a_run};
 
 /// Merges the results of shards, or says whether they can be merged.
 pub fn merge(arguments: &MergeArguments, files: FileUse) -> Result<(), Failure> {
@@ -103,8 +104,8 @@ fn merged(
     // A study of which all runs failed, as one call would say; of some shards that is not known.
     let ending = match merged.failed == merged.runs && missing.is_empty() {
         true => Err(Failure::computation(
-            format!("all {} of the study failed", counted(merged.runs, "run")),
-            Some("pounding sweep STUDY --show 0 prints the case of the first run".to_owned()),
+            none_succeeded(merged.runs),
+            Some(shows_a_run(0)),
         )),
         false => Ok(()),
     };

@@ -166,7 +166,7 @@ fn a_merged_study_of_failures_is_a_failure() {
         assert_eq!(bench.run(&call).status.code(), Some(0));
     }
     let told = bench.complaint("merge parts -o out.h5", 3);
-    assert!(told.contains("all 2 runs of the study failed"), "{told}");
+    assert!(told.contains("all 2 runs failed"), "{told}");
     let output = bench.run("merge parts -o out.json.h5 --json");
     assert_eq!(output.status.code(), Some(3));
     let told: Value = serde_json::from_slice(&output.stdout).unwrap();

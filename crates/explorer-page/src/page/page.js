@@ -9,7 +9,7 @@
   const PAUSE = 250;
   const encoder = new TextEncoder();
   // What is said below the title behind the name of the case.
-  const origin = [`pounding ${data.version}`, "computed in this page"];
+  const origin = document.querySelector("header .what").textContent.slice(data.name.length);
 
   let solver = null;
   let models = [];
@@ -225,7 +225,7 @@
     for (const [what, path] of answer.files) if (what === "record" && !records.has(path)) records.set(path, []);
     document.title = answer.title || name;
     document.querySelector("h1").textContent = answer.title || name;
-    document.querySelector("header .what").textContent = [name, ...origin].join(" · ");
+    document.querySelector("header .what").textContent = name + origin;
     part("notes").textContent = "";
     return true;
   };

@@ -11,6 +11,7 @@ use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::{HeaderNumbers, Source};
 use crate::text::{Line, Lines};
+use crate::volume::REMEDY_UNIT;
 
 const TEXT_LINES: usize = 13;
 /// Cards of 80 columns of which 72 are left: whole fields alone are read.
@@ -172,7 +173,7 @@ fn unit(
     let in_words = stated
         .map(|(line, word)| match SeriesUnit::parse(&word) {
             Some(unit) => Ok((line, unit)),
-            None => Err(source.unknown_unit(line, &word)),
+            None => Err(source.unknown_unit(line, &word, REMEDY_UNIT)),
         })
         .transpose()?;
     let in_numbers = match reals.positive(UNIT) {

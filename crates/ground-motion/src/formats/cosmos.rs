@@ -70,7 +70,7 @@ fn without_unknown(
     draft: &Draft,
     layout: Layout,
 ) -> Result<(), GroundMotionError> {
-    if source.options.lenient || !matches!(draft.unit, DraftUnit::Stated(_)) {
+    if !matches!(draft.unit, DraftUnit::Stated(_)) {
         return Ok(());
     }
     let declared = text.iter().find_map(|line| {
@@ -88,18 +88,23 @@ fn without_unknown(
         .samples
         .iter()
         .take(draft.header_count.unwrap_or(usize::MAX));
-    match used.into_iter().position(|sample| *sample == value) {
-        Some(at) => Err(source.error(
-            draft.lines.1 + at / layout.per_line,
-            at % layout.per_line * layout.width,
-            format!(
-                "sample {} is {value}, by which line {line} marks a value that is unknown",
-                at + 1
-            ),
-            "the record has gaps: get it again, or set `lenient = true` to use the value as it is",
-        )),
-        None => Ok(()),
+    let Some(at) = used.into_iter().position(|sample| *sample == value) else {
+        return Ok(());
+    };
+    let message = format!(
+        "sample {} is {value}, by which line {line} marks a value that is unknown",
+        at + 1
+    );
+    if source.options.lenient {
+        source.warn(&message);
+        return Ok(());
     }
+    Err(source.error(
+        draft.lines.1 + at / layout.per_line,
+        at % layout.per_line * layout.width,
+        message,
+        "the record has gaps: get it again, or set `lenient = true` to use the value as it is",
+    ))
 }
 
 fn channel(

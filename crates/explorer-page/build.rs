@@ -127,11 +127,18 @@ fn has_target() -> bool {
     })
 }
 
-/// The folder of all builds of the outer cargo: the first above `OUT_DIR` that it has marked as
-/// its own.
+/// The folder of all builds of the outer cargo: above `OUT_DIR`, which lies in `build` of a profile,
+/// beside or in the folder of a target. What cargo marks its folder with is not asked: a folder
+/// that was there before cargo has no mark.
 fn target_folder(out: &Path) -> PathBuf {
-    let marked = |folder: &&Path| folder.join("CACHEDIR.TAG").is_file();
-    out.ancestors().find(marked).unwrap_or(out).to_owned()
+    let is_build = |folder: &&Path| folder.file_name().is_some_and(|name| name == "build");
+    let build = out.ancestors().find(is_build);
+    let Some(folder) = build.and_then(Path::parent).and_then(Path::parent) else {
+        return out.to_owned();
+    };
+    let of_target = folder.file_name() == var_os("TARGET").as_deref();
+    let above = folder.parent().filter(|_| of_target);
+    above.unwrap_or(folder).to_owned()
 }
 
 /// A cargo that compiles the module as if nobody had called it.

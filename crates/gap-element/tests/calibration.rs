@@ -76,6 +76,21 @@ fn the_search_meets_the_request_in_the_drop_test() {
     }
 }
 
+/// Where almost nothing comes back: without an `alpha` the body would creep out of the contact. In
+/// the drop test against roots of an independent integration (Radau in SciPy, tolerance 1e-12).
+#[test]
+fn the_search_meets_small_restitutions() {
+    for (e, expected) in [(0.01, 0.018000824406), (0.03, 0.050493499891)] {
+        let found = calibrate(&DROP_TEST, e, 1e-10).unwrap();
+        assert!((found.found.alpha - expected).abs() < 1e-9, "{found:?}");
+        assert!(found.steps.len() < 30, "{} collisions", found.steps.len());
+    }
+    for e in [0.01, 0.003] {
+        let found = calibrate(&DROP_TEST.free(), e, 1e-11).unwrap();
+        assert!((found.found.alpha - free_alpha(e).unwrap()).abs() < 1e-8);
+    }
+}
+
 #[test]
 fn rigid_tolerances_and_impossible_requests_are_located() {
     let refused =

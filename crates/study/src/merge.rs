@@ -55,7 +55,7 @@ pub fn merge(
     let mut report = MergeReport {
         unchecked: shards.unchecked().to_vec(),
         builds: shards.builds().to_vec(),
-        missing: (shards.missing().to_vec(), shards.description().part.count()),
+        missing: (shards.missing().to_vec(), shards.shards()),
         ..MergeReport::default()
     };
     let whole = shards.description();

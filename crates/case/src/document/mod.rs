@@ -32,9 +32,9 @@ pub use entries::{
 pub use error::Fault;
 pub use numbers::{
     AboveZero, Acceleration, Amount, Count, Cycles, Dashpot, Density, Dimensioned, Flexibility,
-    FlexuralRigidity, Force, Frequency, Length, Mass, NotNegative, Number, Poisson, Positive,
-    Ratio, RotationalDashpot, RotationalInertia, RotationalStiffness, Scalar, Signed, Slowness,
-    Stiffness, Time, Velocity, Within, Written,
+    FlexuralRigidity, Force, Frequency, FromZero, Length, Mass, NotNegative, Number, Poisson,
+    Positive, Ratio, RotationalDashpot, RotationalInertia, RotationalStiffness, Scalar, Signed,
+    Slowness, Stiffness, Time, Velocity, Within, Written,
 };
 pub use schema::schema_of;
 

@@ -125,7 +125,7 @@ fn merged(
         counted(merged.runs, "run"),
         merged.failed,
         merged.collapsed,
-        counted(shards.len(), "shard"),
+        counted(count - missing.len(), "shard"),
         output.display()
     );
     if !missing.is_empty() {

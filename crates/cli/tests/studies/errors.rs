@@ -323,6 +323,11 @@ fn contradictions_are_told() {
             limit(&format!("demand = \"impacts\"\n{}", named("x"))),
             "two limits have the name \"x\"",
         ),
+        (with_ida(&named(" ")), "the name is empty"),
+        (
+            limit("demand = \"impacts\"").replace("exceeds = 1", "exceeds = -1"),
+            "must be zero or more",
+        ),
         (
             with_ida(&named("pounding at the gaps of the case")),
             "the analysis has a state \"pounding at the gaps of the case\" of its own",
@@ -339,7 +344,12 @@ fn contradictions_are_told() {
         let told = bench.complaint("sweep study.toml", 2);
         assert!(told.contains(reason), "{study}: {told}");
     }
-    // A scale beside records is none.
+    // Any impact at all is a state; a scale beside records is no record.
+    bench.study(&format!(
+        "case = \"case.toml\"\n{}",
+        limit("demand = \"impacts\"").replace("exceeds = 1", "exceeds = 0")
+    ));
+    bench.text("sweep study.toml -o any.h5");
     bench.study(&format!("case = \"case.toml\"\n{records}{scale}"));
     bench.text("sweep study.toml -o out.h5");
 }

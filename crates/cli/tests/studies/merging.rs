@@ -58,7 +58,8 @@ fn partial_merges_are_merged_again() {
     assert!(told.contains("3.h5 is shard 3/7 once more"), "{told}");
     assert!(!bench.path("out.h5").exists());
     bench.text("merge some.h5 odd.h5 6.h5 -o more.h5 --partial");
-    bench.text("merge 4.h5 more.h5 -o merged.h5 --csv merged.csv");
+    let told = bench.text("merge 4.h5 more.h5 -o merged.h5 --csv merged.csv");
+    assert!(told.contains("merged from 7 shards into"), "{told}");
     assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
     assert!(bench.bytes("merged.csv") == bench.bytes("whole.csv"));
     // A part is a result of its own: in order, and refused where the whole is wanted.

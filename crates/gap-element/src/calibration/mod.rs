@@ -179,9 +179,9 @@ pub enum CalibrationError {
         /// Contact time (s).
         duration: f64,
     },
-    /// No sign change: even the minimum or the maximum `alpha` misses.
+    /// No sign change: even the smallest or the largest `alpha` misses.
     #[error(
-        "no alpha between {low} and {high} shows a restitution of {requested}: the drop test shows {achieved_low:.6} to {achieved_high:.6} there"
+        "no alpha shows a restitution of {requested}: the drop test shows {achieved_low:.6} with alpha = {low} and {achieved_high:.6} with {high}"
     )]
     NoRoot {
         /// Restitution asked for (-).
@@ -259,8 +259,8 @@ pub fn rule_alpha(restitution: f64) -> f64 {
 /// Finds the `alpha` with which a drop test shows the restitution asked for, to
 /// within `tolerance` (-).
 ///
-/// The search is bracketed: from zero upwards until the test shows more than was
-/// asked for, then by the ITP method (Oliveira and Takahashi, ACM Trans. Math.
+/// The search is bracketed: from 1 upwards or downwards until the test shows more at one
+/// end and less at the other than was asked for, then by the ITP method (Oliveira and Takahashi, ACM Trans. Math.
 /// Softw. 47 (2021) 5), which never takes more than one collision beyond bisection.
 ///
 /// # Errors
@@ -295,7 +295,7 @@ pub fn calibrate(
         free: AlphaChoice {
             alpha: free,
             achieved: show(free)?,
-            achieved_in_free_collision: restitution,
+            achieved_in_free_collision: freely(free)?,
         },
         rule: AlphaChoice {
             alpha: rule,

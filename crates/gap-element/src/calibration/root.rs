@@ -4,8 +4,11 @@ use super::{CalibrationError, CalibrationStep, GREATEST_ALPHA};
 
 /// First upper end of the bracket: beyond the exact `alpha` of every restitution.
 const FIRST_HIGH: f64 = 1.0;
-/// Growth of the upper end until the bracket holds a root.
+/// Ratio of the ends of the bracket, which is moved until it holds a root. It comes to small values
+/// from above: without an `alpha` the body would creep out of the contact and never leave it.
 const GROWTH: f64 = 4.0;
+/// Least `alpha` that is tried, below that of every restitution that a collision tells from zero.
+const LEAST_ALPHA: f64 = 1.0e-12;
 /// Constants of ITP as its authors recommend them: truncation, its power, and the
 /// slack over bisection.
 const TRUNCATION: f64 = 0.2;
@@ -21,16 +24,28 @@ pub(super) fn search(
     attempt: Attempt<'_>,
 ) -> Result<CalibrationStep, CalibrationError> {
     let near = |step: &CalibrationStep| (step.achieved - requested).abs() <= tolerance;
-    let low = attempt(0.0)?;
-    let mut high = attempt(FIRST_HIGH)?;
+    let first = attempt(FIRST_HIGH)?;
+    let (mut low, mut high) = (first, first);
     while high.achieved < requested && high.alpha * GROWTH <= GREATEST_ALPHA {
+        low = high;
         high = attempt(high.alpha * GROWTH)?;
+    }
+    while low.achieved > requested && low.alpha / GROWTH >= LEAST_ALPHA {
+        high = low;
+        low = attempt(low.alpha / GROWTH)?;
     }
     if let Some(step) = [low, high].into_iter().find(near) {
         // The last entry of the record is the result.
         return attempt(step.alpha);
     }
     if !(low.achieved < requested && high.achieved > requested) {
+        // All values that were tried, from the first one on.
+        let low = if low.achieved < requested { first } else { low };
+        let high = if high.achieved > requested {
+            first
+        } else {
+            high
+        };
         return Err(CalibrationError::NoRoot {
             requested,
             low: low.alpha,

@@ -373,6 +373,12 @@ impl Shards {
         &self.missing
     }
 
+    /// Number of shards of the whole study, those that are missing among them.
+    #[must_use]
+    pub fn shards(&self) -> usize {
+        self.owners.len()
+    }
+
     /// Hands out all rows with the values of their variables, in the order of the runs.
     ///
     /// Runs of a shard lie far apart in the whole: so many rows are held that each file is

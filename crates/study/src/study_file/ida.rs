@@ -6,8 +6,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use pounding_case::document::{
-    AboveZero, Amount, Entry, Fault, Field, List, Number, Optional, Positive, Reader, TableOr,
-    Within, Written,
+    AboveZero, Amount, Entry, Fault, Field, FromZero, List, Number, Optional, Positive, Reader,
+    TableOr, Within, Written,
 };
 use pounding_case::{Building, ContactLevel, Dimension, Located, Support};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
@@ -426,6 +426,10 @@ impl LimitTable {
         let Field::Given(Located { value: name, span }) = &self.name else {
             return None;
         };
+        if name.trim().is_empty() {
+            let help = "give the state a name, by which answers and tables tell it from others";
+            return reader.refuse(span.clone(), "the name is empty", help);
+        }
         if let Some(at) = before.iter().position(|other| other == name) {
             let message = match at < own {
                 true => format!("the analysis has a state \"{name}\" of its own"),
@@ -493,6 +497,11 @@ impl LimitTable {
         let exceeds_at = self.exceeds.span();
         let exceeds = self.exceeds.located().and_then(|exceeds| {
             let value = match demand {
+                // More than none is one.
+                Some(DemandKind::Impacts) => exceeds
+                    .value
+                    .of(Dimension::NUMBER)
+                    .and_then(|number| FromZero::check(number).map(|()| number)),
                 Some(demand) => exceeds.value.above_zero(demand.dimension()),
                 None => exceeds.value.any().map(|quantity| quantity.value),
             };

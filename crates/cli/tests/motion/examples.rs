@@ -99,17 +99,17 @@ fn target(period: f64) -> f64 {
     }
 }
 
-/// Each of the seven motions is within 5 % of the target at 633 periods and within 5.6 % between
-/// them, their mean within 2.1 %; none drifts.
+/// Each of the seven motions is within 5 % of the target at 6,321 periods,
+/// their mean within 2.1 %; none drifts.
 #[test]
 fn synthetic_suite() {
-    let mut mean = vec![0.0; 633];
+    let mut mean = vec![0.0; 6321];
     let mut periods = Vec::new();
     for seed in 1..=7 {
         let path = example("synthetic_suite").join(format!("motion_{seed}.csv"));
         let file = path.display().to_string();
         let told = json(&[
-            "spectrum", &file, "--from", "0.1 s", "--to", "3 s", "--count", "633",
+            "spectrum", &file, "--from", "0.1 s", "--to", "3 s", "--count", "6321",
         ]);
         let s = &told["spectra"][0];
         periods = s["periods"]
@@ -123,15 +123,6 @@ fn synthetic_suite() {
             assert!((ratio - 1.0).abs() < 0.05, "{seed} {period} {ratio}");
             mean[i] += ratio / 7.0;
         }
-        let told = json(&[
-            "spectrum", &file, "--from", "0.1 s", "--to", "3 s", "--count", "6321",
-        ]);
-        let s = &told["spectra"][0];
-        let dense = s["periods"].as_array().unwrap().iter().map(number);
-        for (i, period) in dense.enumerate() {
-            let ratio = number(&s["pseudo_acceleration"][i]) / target(period);
-            assert!((ratio - 1.0).abs() < 0.056, "{seed} {period} {ratio}");
-        }
         let told = json(&["info", &file]);
         let series = &told["files"][0]["series"][0];
         let m = &series["measures"];
@@ -142,7 +133,7 @@ fn synthetic_suite() {
         assert!(history.contains(&format!("seed {seed}")), "{history}");
         assert!(history.contains("matching by wavelets"), "{history}");
     }
-    assert_eq!(periods.len(), 633);
+    assert_eq!(periods.len(), 6321);
     for (ratio, period) in mean.iter().zip(&periods) {
         assert!((ratio - 1.0).abs() < 0.021, "{period} {ratio}");
     }

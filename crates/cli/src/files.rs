@@ -4,6 +4,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use pounding_files::{AskedOfTargets, FileUse, LeftOver, PartFile, ask_of_targets, left_over};
+use pounding_report::Answered;
 use pounding_results::{Kind, Label};
 use pounding_study::ShardName;
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
@@ -84,19 +85,74 @@ pub fn has_a_place(path: &Path) -> Result<(), Failure> {
 }
 
 /// Refuses to put a table, a page or a figure into the place of a result, which may be the work of
-/// days.
+/// days, or of the answer of a command.
 pub fn no_result_stands(path: &Path) -> Result<(), Failure> {
-    let Some(found) = Label::of(path) else {
-        return Ok(());
-    };
-    Err(Failure::unwritten(
+    match answer_in(path) {
+        Some(found) => Err(stands(
+            path,
+            &format!("the answer of `pounding {}`", found.command.name()),
+        )),
+        None => no_run_stands(path),
+    }
+}
+
+/// Refuses to put anything but a result into the place of one.
+fn no_run_stands(path: &Path) -> Result<(), Failure> {
+    match Label::of(path) {
+        Some(found) => Err(stands(path, &format!("the result of {}", found.kind))),
+        None => Ok(()),
+    }
+}
+
+/// What stands there does not go.
+fn stands(path: &Path, what: &str) -> Failure {
+    Failure::unwritten(
         format!(
-            "{} is the result of {}: what is to be written there does not take its place",
-            path.display(),
-            found.kind
+            "{} is {what}: what is to be written there does not take its place",
+            path.display()
         ),
         Some("name another file, or move it away".to_owned()),
-    ))
+    )
+}
+
+/// The answer that a file holds.
+fn answer_in(path: &Path) -> Option<Answered> {
+    let read = || Answered::read(path).ok();
+    Answered::may_be(path).then(read).flatten()
+}
+
+/// Finds out before the work that an answer has no place, and once more at its end. It takes that of
+/// an earlier one, and of any file but a result.
+pub fn an_answer_has_a_place(output: Option<&Path>) -> Result<(), Failure> {
+    let Some(path) = output else {
+        return Ok(());
+    };
+    no_run_stands(path)?;
+    let output = path.to_owned();
+    asked_again(path, move || no_run_stands(&output)).to_the_end();
+    has_a_place(path)
+}
+
+/// Says what an answer takes the place of, unless that is an answer of the same command on the same
+/// file.
+///
+/// # Errors
+/// A result of a run or a study, which stays.
+pub fn say_what_goes(output: &Path, new: &Answered) -> Result<(), Failure> {
+    no_run_stands(output)?;
+    let file = |answered: &Answered| answered.inputs.origin.get(1).cloned();
+    let name = output.display();
+    match answer_in(output) {
+        Some(found) if found.command == new.command && file(&found) == file(new) => {}
+        Some(found) => note(&format!(
+            "{name}, the answer of `pounding {}` ({}), is replaced",
+            found.command.name(),
+            file(&found).unwrap_or_default()
+        )),
+        None if holds_something(output) => note(&replaced(output, "answer")),
+        None => {}
+    }
+    Ok(())
 }
 
 /// The same now, and once more right before the file takes its place.
@@ -128,16 +184,23 @@ fn holds_something(path: &Path) -> bool {
 /// Refuses to replace a file of somebody else under a name that the user has not given; what there
 /// is to say where the user has.
 fn foreign(path: &Path, named: bool, what: &str) -> Result<Option<String>, Failure> {
-    let path = path.display();
     match named {
-        true => Ok(Some(format!(
-            "{path} is replaced, which was no {what} of this program"
-        ))),
+        true => Ok(Some(replaced(path, what))),
         false => Err(Failure::unwritten(
-            format!("{path} is no {what} of this program: nothing takes its place unasked"),
+            format!(
+                "{} is no {what} of this program: nothing takes its place unasked",
+                path.display()
+            ),
             Some("name another file with --output, or remove it".to_owned()),
         )),
     }
+}
+
+fn replaced(path: &Path, what: &str) -> String {
+    format!(
+        "{} is replaced, which was no {what} of this program",
+        path.display()
+    )
 }
 
 /// What stands where a page is to be written: one of ours is replaced, any other file only under a
@@ -243,6 +306,7 @@ impl Replaced<'_> {
     /// As [`spared`](Self::spared).
     pub fn judged(&self, goes_on: bool) -> Result<Option<String>, Failure> {
         let Some(found) = Label::of(self.output) else {
+            no_result_stands(self.output)?;
             return match holds_something(self.output) && !goes_on {
                 true => foreign(self.output, self.named, "result"),
                 false => Ok(None),

@@ -13,6 +13,7 @@ use serde_json::Value;
 use sha2::{Digest, Sha256};
 
 use crate::failure::Failure;
+use crate::files::say_what_goes;
 use crate::plot;
 
 /// The object that a command prints with `--json`, for its page.
@@ -32,7 +33,9 @@ pub fn write_answered(
     }
     let answered = made()?;
     if let Some(output) = output {
-        plot::write(output, &answered.text())?;
+        say_what_goes(output, &answered)?;
+        pounding_files::write(output, answered.text().as_bytes())
+            .map_err(|e| Failure::output(&e, &output.display().to_string()))?;
     }
     page.map_or(Ok(()), |page| plot::write(page, &answered.page()))
 }

@@ -128,6 +128,16 @@ pub enum GroundMotionError {
         /// What is there.
         available: Vec<String>,
     },
+    /// No series of this quantity.
+    #[error("{file}: there is no {quantity} among {}", list(available))]
+    NoSuchQuantity {
+        /// File.
+        file: String,
+        /// Quantity asked for.
+        quantity: &'static str,
+        /// What is there.
+        available: Vec<String>,
+    },
     /// Samples at uneven times.
     #[error(
         "{file}: the time column is not even: {count} samples, {} s apart on average, {} s to {} s",
@@ -271,6 +281,9 @@ impl GroundMotionError {
                 "choose one with `component` in [ground_motion] of a case, `--component` with `pounding motion`: its name, azimuth or channel number".to_owned()
             }
             Self::NoSuchSeries { .. } => "correct `component`".to_owned(),
+            Self::NoSuchQuantity { quantity, .. } => format!(
+                "ask for a quantity that is there, or give the file that holds the {quantity} of this record"
+            ),
             Self::Uneven { mean, .. } => format!(
                 "give `time_step` (at most {mean:.6} s) to have the record resampled to even steps by linear interpolation"
             ),

@@ -2,7 +2,7 @@
 
 /// Magnitudes from which, and up to which, a value is the `1.7E+38` that stands for "missing", or
 /// another one near the largest of single precision.
-const MISSING: f64 = 1.0e37;
+pub(crate) const MISSING: f64 = 1.0e37;
 const LARGEST_MISSING: f64 = f32::MAX as f64 * 1.01;
 
 /// Characters that no number of a record exceeds.

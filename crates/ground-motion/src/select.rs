@@ -59,9 +59,9 @@ impl Recording {
             .cloned()
             .collect();
         if possible.is_empty() {
-            return Err(GroundMotionError::NoSuchSeries {
+            return Err(GroundMotionError::NoSuchQuantity {
                 file,
-                component: wanted.name().to_owned(),
+                quantity: wanted.name(),
                 available: self.series.iter().map(Series::label).collect(),
             });
         }

@@ -73,6 +73,14 @@ pub fn warning_lines(warnings: &[impl std::fmt::Display]) -> String {
     warnings.iter().map(|w| format!("warning: {w}\n")).collect()
 }
 
+/// What "isolated" means in a gap check and in a comparison of a case with links.
+pub fn links_stay(case: &Case) -> &'static str {
+    match case.links.is_empty() {
+        true => "",
+        false => "  links stay in place in all that follows: \"isolated\" means without contact\n",
+    }
+}
+
 /// A table whose columns stand at the right.
 pub fn new_table(header: impl Into<Row>) -> Table {
     let mut table = Table::new();

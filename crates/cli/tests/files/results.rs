@@ -165,6 +165,56 @@ fn no_text_takes_the_place_of_a_result() {
     }
 }
 
+/// Nor does anything but an answer take the place of an answer, and one of another command or file
+/// says so.
+#[test]
+fn only_an_answer_takes_the_place_of_an_answer() {
+    let fixture = Fixture::new();
+    let run = |command: &str| fixture.run(&command.split(' ').collect::<Vec<_>>());
+    let made = run("gap case.toml --points 0 -o kept.json");
+    assert!(
+        matches!(made.status.code(), Some(0 | 1)),
+        "{}",
+        message(&made)
+    );
+    let kept = std::fs::read(fixture.path("kept.json")).unwrap();
+    for command in [
+        "gap case.toml --points 0 --csv kept.json",
+        "compare case.toml --models linear_elastic --csv kept.json",
+        "compare case.toml --models linear_elastic --report kept.json",
+        "run case.toml -o kept.json",
+        "sweep study.toml -o kept.json",
+        "sweep study.toml -o new.h5 --csv kept.json",
+        "explore case.toml -o kept.json",
+        "motion convert record.csv -o kept.json",
+        "motion spectrum record.csv --csv kept.json",
+    ] {
+        let output = run(command);
+        let said = message(&output);
+        assert_eq!(output.status.code(), Some(4), "{command}: {said}");
+        let is_known = said.contains("kept.json is the answer of `pounding gap`");
+        assert!(is_known, "{command}: {said}");
+        assert!(
+            std::fs::read(fixture.path("kept.json")).unwrap() == kept,
+            "{command}"
+        );
+    }
+    let again = run("gap case.toml --points 0 -o kept.json");
+    assert!(!message(&again).contains("is replaced"));
+    let other = run("compare case.toml --models linear_elastic -o kept.json");
+    let said = message(&other);
+    assert!(
+        said.contains("kept.json, the answer of `pounding gap` (case.toml), is replaced"),
+        "{said}"
+    );
+    std::fs::write(fixture.path("kept.json"), "{}").unwrap();
+    let said = message(&run("motion info record.csv -o kept.json"));
+    assert!(
+        said.contains("which was no answer of this program"),
+        "{said}"
+    );
+}
+
 /// What another program has written stays under a default name; under a given one it is replaced,
 /// and that is said. An empty file holds nothing, and results and pages of ours are replaced.
 #[test]

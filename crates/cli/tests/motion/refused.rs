@@ -209,6 +209,71 @@ fn what_cannot_be_computed_or_written() {
 }
 
 /// Options that say nothing of what is written.
+/// What cannot be read back is not written, messages name what can be mended, and a file stays where
+/// the other one of a call has no place.
+#[test]
+fn no_file_is_lost_to_a_figure_without_a_place() {
+    let folder = Folder::new();
+    let file = el_centro();
+    let out = folder.name("o.csv");
+    let eight = "eurocode_8_2004, ag=0.25 g, ground_type=B";
+    let short = folder.name("two.csv");
+    std::fs::write(&short, "time_s,acceleration_m/s2\n0,0.0\n0.01,1.0\n").unwrap();
+    let process = |option: &str, value: &str, wanted: &[&str]| {
+        refused(2, &["process", &file, "-o", &out, option, value], wanted);
+    };
+    process(
+        "--scale",
+        "1e60",
+        &["stands for a missing value", "the unit of the record"],
+    );
+    process(
+        "--trim",
+        "start=2 s, end=2.001 s",
+        &["less than a step of 0.02 s"],
+    );
+    let quantity = ["convert", &file, "-o", &out, "--quantity", "velocity"];
+    refused(
+        2,
+        &quantity,
+        &["there is no velocity among", "ask for a quantity"],
+    );
+    let pulse = [
+        "synth",
+        "mavroeidis_papageorgiou_2003",
+        "--amplitude",
+        "1 m/s",
+        "--frequency",
+        "1 Hz",
+        "--gamma",
+        "1",
+        "--duration",
+        "2 s",
+        "-o",
+        &out,
+    ];
+    refused(2, &pulse, &["gamma = 1 is outside (1, 1000]"]);
+    let matched = ["match", &short, "--code", eight, "-o", &out];
+    refused(2, &matched, &["give a longer record"]);
+    assert!(!folder.path("o.csv").exists());
+    std::fs::write(&out, "keep").unwrap();
+    std::fs::create_dir(folder.path("d.svg")).unwrap();
+    for figure in [folder.name("nowhere/a.svg"), folder.name("d.svg")] {
+        let call = [
+            "process", &file, "--scale", "2", "--svg", &figure, "-o", &out,
+        ];
+        refused(4, &call, &[".svg"]);
+        assert_eq!(std::fs::read_to_string(&out).unwrap(), "keep");
+    }
+    // Digits of large numbers are few, and read back.
+    let large = ["process", &file, "--scale", "1e30", "-o", &out];
+    assert!(run(&large).status.success());
+    let longest = std::fs::read_to_string(&out).unwrap();
+    let samples = longest.lines().filter(|l| !l.starts_with('#'));
+    assert!(samples.map(str::len).max().unwrap() < 40);
+    assert!(run(&["info", &out]).status.success());
+}
+
 #[test]
 fn conversions_use_every_option() {
     let folder = Folder::new();

@@ -75,7 +75,14 @@ impl MavroeidisPapageorgiou2003 {
     pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
         positive(STEP, "amplitude", self.amplitude)?;
         let step = grid.record(STEP, self.frequency)?;
-        within(STEP, "gamma", self.oscillation, 1.0 + 1.0e-9, 1.0e3)?;
+        if !(self.oscillation > 1.0 && self.oscillation <= 1.0e3) {
+            return Err(GroundMotionError::OutOfRange {
+                step: STEP,
+                name: "gamma",
+                value: self.oscillation,
+                range: "(1, 1000]".to_owned(),
+            });
+        }
         within(STEP, "phase", self.phase, -TAU, TAU)?;
         let half = self.half_length();
         grid.has_room_for(STEP, 2.0 * half)?;

@@ -107,6 +107,16 @@ fn iterate<A: Adjustment>(
     // Shorter periods swing more than once between two samples.
     let shortest = 2.0 * record.time_step();
     let longest = record.duration();
+    if longest <= shortest {
+        return Err(GroundMotionError::NotPossible {
+            step: STEP,
+            reason: format!(
+                "a record of {longest} s is no longer than the shortest period of samples {} s apart",
+                record.time_step()
+            ),
+            remedy: "give a longer record",
+        });
+    }
     ascending(
         STEP,
         ("first period", options.from),

@@ -37,7 +37,7 @@ pub enum OffsetCorrection {
 /// One step of processing. `T` is a band with its spectrum, as in [`Scale`].
 #[derive(Debug, Clone, PartialEq)]
 pub enum ProcessingStep<T = BandTarget> {
-    /// The values of the file are in truth in this unit, not in the one by which they were read.
+    /// The values as the file prints them are in this unit, not in the one by which they were read.
     Unit(AccelerationUnit),
     /// Turns the sign.
     Sign,

@@ -42,7 +42,14 @@ impl Trim {
             Self::Times { start, end } => {
                 ascending(STEP, ("start", start), ("end", end))?;
                 within(STEP, "end", end, h, record.duration() * (1.0 + 1.0e-9))?;
-                within(STEP, "start", start, 0.0, end - h)?;
+                if end - start < h * (1.0 - 1.0e-9) {
+                    return Err(GroundMotionError::NotPossible {
+                        step: STEP,
+                        reason: format!("{start} s to {end} s is less than a step of {h} s"),
+                        remedy: "keep a longer part",
+                    });
+                }
+                within(STEP, "start", start, 0.0, end)?;
                 (start, end, step)
             }
             Self::Arias { from, to } => {

@@ -8,6 +8,7 @@ mod pounding_csv;
 use crate::accelerogram::{Accelerogram, Processing};
 use crate::direction::Orientation;
 use crate::error::GroundMotionError;
+use crate::number::MISSING;
 use crate::quantity::Quantity;
 use crate::recording::{Sampling, Series};
 use crate::unit::AccelerationUnit;
@@ -120,7 +121,7 @@ fn line(text: &str) -> String {
 
 /// The shortest digits that give the value back, without long rows of zeros.
 fn number(value: f64) -> String {
-    if value != 0.0 && value.abs() < 1.0e-4 {
+    if value != 0.0 && !(1.0e-4..1.0e16).contains(&value.abs()) {
         format!("{value:e}")
     } else {
         format!("{value}")
@@ -142,6 +143,19 @@ fn acceleration_only(series: &Written, layout: &'static str) -> Result<(), Groun
         step: layout,
         reason: format!("the series is a {}, not an acceleration", series.quantity),
         remedy: "write peer_at2 or plain_columns, which hold velocities and displacements too",
+    })
+}
+
+/// Refuses numbers that no reader takes for one, this program's own included.
+fn readable(series: &Written) -> Result<(), GroundMotionError> {
+    let largest = series.samples.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+    if largest <= MISSING {
+        return Ok(());
+    }
+    Err(GroundMotionError::NotPossible {
+        step: "writing",
+        reason: format!("a sample of {largest:e} stands for a missing value in files of records"),
+        remedy: "correct the scale, or the unit of the record",
     })
 }
 

@@ -7,16 +7,17 @@ use crate::error::GroundMotionError;
 use crate::formats::pounding_csv::{
     AZIMUTH, DIP, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, START_TIME,
 };
-use crate::writers::{Written, acceleration_only, line, number, time};
+use crate::writers::{Written, acceleration_only, line, number, readable, time};
 
 /// The text of a file in our CSV layout: a comment header that says where the motion
 /// came from and what was done to it, a column header, times (s) and accelerations
 /// (m/s2) at full precision. Reading it gives the same samples, bit for bit.
 ///
 /// # Errors
-/// A velocity or a displacement, which the layout does not hold.
+/// A velocity or a displacement, which the layout does not hold, and samples beyond 1e37 m/s2.
 pub fn write_pounding_csv(series: &Written) -> Result<String, GroundMotionError> {
     acceleration_only(series, "pounding_csv")?;
+    readable(series)?;
     let mut text = String::with_capacity(28 * series.samples.len() + 1000);
     if !series.title.is_empty() {
         let _ = writeln!(text, "# Event: {}", line(&series.title));

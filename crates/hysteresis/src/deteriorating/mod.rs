@@ -14,6 +14,10 @@ use crate::path::PathLaw;
 use envelope::{Envelope, Stretch};
 pub(crate) use parameters::{PARAMETERS, build};
 
+/// To know of every law of the family: which energy counts.
+pub(crate) const ENERGY_SINCE: &str = "E is the energy dissipated since the mode acted before: since the crossing of zero force before for strength, cap and target, since the turning point before for Ku; sum E is all energy dissipated so far.";
+/// To know of the laws that aim at a target: what a small unloading does.
+pub(crate) const RETRACED: &str = "Unloading that turns before zero force is retraced to the point where it began, and goes on from there as if it had not been.";
 /// To know of every law of the family: its energy where the unloading stiffness falls.
 pub(crate) const ENERGY_STEPS_BACK: &str = "Where the unloading stiffness falls, what is stored rises, and the dissipated energy steps back: no further than to what it was at the turning point before, which bounds the stiffness from below. The published rule has no bound, and gives back more energy than was put in as its capacity runs out.";
 /// To know: how it fails.

@@ -69,7 +69,32 @@ fn points(answer: Answer<'_>) -> Vec<String> {
             counted(models.len(), "model"),
         ));
     }
+    let ran = models.len() - failed.len();
+    let records = answer.list("/records").len();
+    let impacts = answer.number("sum /gaps/+/models_in_contact/+", "");
+    // Of what one model alone can say, as of accelerations beside rigid impacts, nothing is known.
+    let of_one = |c: &&Value| {
+        let counts = c["counts"].as_array().into_iter().flatten();
+        !counts.clone().any(|count| count[1].as_u64() > Some(1))
+    };
+    let unanswered = all.iter().filter(of_one).count();
+    if ran > 1 && records > 0 && impacts == 0.0 {
+        points.push(
+            "<strong>Nothing touches</strong>: no model closes a gap under any record, and what follows is of \
+             buildings without contact."
+                .to_owned(),
+        );
+    }
     points.push(match depends.len() {
+        _ if ran < 2 => format!(
+            "<strong>That is not answered</strong>: {} ran, and it takes two to differ.",
+            counted(ran, "model")
+        ),
+        0 if unanswered > 0 => format!(
+            "<strong>No, as far as models can say.</strong> None of {} depends on the model; of {unanswered} no \
+             more than one model can say anything.",
+            counted(all.len(), "conclusion")
+        ),
         0 if !fallen.is_empty() => format!(
             "With the other models none of {} depends on the model.",
             counted(all.len(), "conclusion")
@@ -93,7 +118,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         between(q).is_finite() && !answer.text(&format!("/quantities/{q}/unit")).is_empty()
     });
     let largest = known.max_by(|a, b| between(a).total_cmp(&between(b)));
-    if let Some(q) = largest {
+    if let Some(q) = largest.filter(|q| between(q) > 0.0 && impacts > 0.0) {
         let at = format!("/quantities/{q}");
         let mut sentence = format!(
             "Models lie furthest apart in {} of {}: by {} %",
@@ -111,19 +136,36 @@ fn points(answer: Answer<'_>) -> Vec<String> {
     }
     points.push(format!(
         "{} ran under {}, with stiffnesses that give the same {} in the reference collision, {}.",
-        counted(models.len() - failed.len(), "model"),
-        counted(answer.list("/records").len(), "record"),
+        counted(ran, "model"),
+        counted(records, "record"),
         answer.quote("/stiffness_rule"),
         match answer.text("/restitution_rule") {
             "exact" => "and returning the restitution exactly",
             _ => "and asked for the restitution by their own relations",
         },
     ));
-    if !failed.is_empty() {
-        points.push(format!(
-            "Not under every record: {}.",
-            escaped(&failed.join(", "))
-        ));
+    let under = |m: &Value| records - m["failures"].as_array().map_or(0, Vec::len).min(records);
+    for (none, said) in [(true, "Under no record"), (false, "Not under every record")] {
+        let such = models.iter().filter(|m| failed.contains(&name(m)));
+        let such: Vec<&str> = such.filter(|m| (under(m) == 0) == none).map(name).collect();
+        if !such.is_empty() {
+            points.push(format!("{said}: {}.", escaped(&such.join(", "))));
+        }
+    }
+    for (g, gap) in answer.list("/gaps").iter().enumerate() {
+        let without = answer.list(&format!("/gaps/{g}/records_without_contact"));
+        if !without.is_empty() && impacts > 0.0 {
+            let without: Vec<&str> = without.iter().filter_map(Value::as_str).collect();
+            points.push(format!(
+                "No model closes {} under {} of {}, which {} left out of the spread between models and the ranking of \
+                 all that is of this gap: {}.",
+                escaped(name(gap)),
+                without.len(),
+                counted(records, "record"),
+                agreeing(&without.len(), "is", "are"),
+                escaped(&without.join(", "))
+            ));
+        }
     }
     points
 }
@@ -136,6 +178,7 @@ fn conclusions(answer: Answer<'_>) -> String {
         Column::words_of("storey by storey", "/conclusions/*/by_storey/holds"),
         Column::of("true", "sum /conclusions/*/counts/+/0", 1.0).below("models and records"),
         Column::of("of", "sum /conclusions/*/counts/+/1", 1.0).below("models and records"),
+        Column::words_of("in the minority", "/conclusions/*/minority/+/+"),
     ];
     let heads = all
         .iter()
@@ -167,13 +210,16 @@ fn spread(answer: Answer<'_>) -> String {
         Column::of("models (%)", of("spread/between_models"), 1.0e2).below("spread between"),
         Column::of("records (%)", of("spread/between_records"), 1.0e2).below("spread between"),
         Column::of("maximum / minimum model", of("spread/greatest_ratio"), 1.0),
+        Column::count_of("records with a value", of("spread/records")),
+        Column::count_of("models of zero", of("spread/models_of_zero")),
         Column::of("agreement of records", of("ranking/concordance"), 1.0),
-        Column::words_of("maximum by", of("ranking/models/0")),
+        Column::words_of("maximum by", of("ranking/maximum_by/+")),
     ];
     answer.table("Spread", &columns, quantities(answer))
         + &note(
-            "Spread: standard deviation over mean, root mean square over the others. Agreement of records on the \
-             order of the models: Kendall's W, from 0 to 1.",
+            "Spread: standard deviation over mean, root mean square over the others; between models over the records with \
+             a value that is not zero, between records without models whose values are all zero. Agreement of records on \
+             the order of the models: Kendall's W, from 0 to 1; none where all models are the same.",
         )
 }
 

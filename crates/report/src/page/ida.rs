@@ -13,6 +13,14 @@ use super::table::Column;
 /// Demands side by side in a table.
 const BESIDE: usize = 4;
 
+/// What stands before a frequency that is an upper bound.
+fn at_most(answer: Answer<'_>, path: &str) -> &'static str {
+    match answer.text(path) {
+        "upper bound" => "at most ",
+        _ => "",
+    }
+}
+
 /// The page of what `ida --json` prints; `target` is the frequency that the study asks a gap
 /// for (1/year).
 #[must_use]
@@ -92,7 +100,8 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
         });
         if !answer.at(&at("mean_annual_frequency")).is_null() {
             sentence.push_str(&format!(
-                "; mean annual frequency {} 1/year",
+                "; mean annual frequency {}{} 1/year",
+                at_most(answer, &at("mean_annual_frequency_is")),
                 answer.say(&at("mean_annual_frequency"), 1.0)
             ));
         }
@@ -134,7 +143,11 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
             continue;
         };
         let asked = figures(target);
-        let frequency = answer.say(&at("minimum/mean_annual_frequency"), 1.0);
+        let frequency = format!(
+            "{}{}",
+            at_most(answer, &at("minimum/mean_annual_frequency_is")),
+            answer.say(&at("minimum/mean_annual_frequency"), 1.0)
+        );
         points.push(match minimum["width"].is_null() {
             false => format!(
                 "<strong>Gap {name} needs {}{} mm</strong> for a mean annual frequency of {asked} 1/year; there it \
@@ -213,6 +226,8 @@ fn fits(answer: Answer<'_>, list: &str) -> String {
     if states.iter().any(|s| !s["mean_annual_frequency"].is_null()) {
         let frequency = "mean annual frequency (1/year)";
         columns.push(Column::of("value", of("mean_annual_frequency"), 1.0).below(frequency));
+        columns
+            .push(Column::words_of("which is an", of("mean_annual_frequency_is")).below(frequency));
         if states
             .iter()
             .any(|s| !s["mean_annual_frequency_bounds"].is_null())

@@ -146,21 +146,29 @@ fn fragilities(
 
 /// Frequency of pounding over the width of a gap, with bounds; nothing of a single width.
 fn frequencies(gap: &str, widths: &[GapResult]) -> Option<Plot> {
-    let points: Vec<(f64, f64)> = widths
-        .iter()
-        .filter_map(|w| Some((w.width * 1e3, w.result.frequency?)))
-        .collect();
-    if points.len() < 2 {
-        return None;
-    }
-    let mut series = vec![Series {
-        name: "estimate".to_owned(),
+    let points = |at_most: bool| -> Vec<(f64, f64)> {
+        let widths = widths.iter();
+        let such = widths.filter(|w| w.result.frequency_is_at_most() == at_most);
+        let points = such.filter_map(|w| Some((w.width * 1e3, w.result.frequency?)));
+        points.collect()
+    };
+    let of = |name: &str, points: Vec<(f64, f64)>, look: usize| Series {
+        name: name.to_owned(),
         points,
         look: Look {
             few_markers: false,
-            ..Look::points(0)
+            ..Look::points(look)
         },
-    }];
+    };
+    let (estimates, bounds) = (points(false), points(true));
+    if estimates.len() + bounds.len() < 2 {
+        return None;
+    }
+    let mut series = vec![
+        of("estimate", estimates, 0),
+        of("upper bound, as the counts give no curve", bounds, 1),
+    ];
+    series.retain(|s| !s.points.is_empty());
     let bounds = widths.iter().filter_map(|w| {
         let bounds = w.result.frequency_bounds?;
         Some((w.width * 1e3, bounds.low?, bounds.high?))

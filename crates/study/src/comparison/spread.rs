@@ -1,34 +1,56 @@
 //! Spread between models beside spread between records, and the order of the models.
 
+use crate::gap_check::SAME;
+
 /// Spread of one quantity. A value without meaning (NaN) is left out wherever it stands.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Spread {
     /// Standard deviation over mean between models, root mean square over records (-).
     pub between_models: f64,
     /// The same between records, root mean square over models (-); NaN with one record. A model
-    /// whose values are all zero beside those of others, or zero but for round-off, has none.
+    /// whose values are all zero, or zero but for round-off beside those of others, has none.
     pub between_records: f64,
     /// Models left out of the spread between records since theirs are zero.
     pub models_of_zero: usize,
     /// Maximum over minimum between models, of the record where that is a maximum
     /// (-); NaN where a smallest value is zero, or zero but for round-off.
     pub greatest_ratio: f64,
-    /// Records under which some model has a value: those that the spread is over.
+    /// Records under which some model has a value that is not zero: those that the spread between
+    /// models is over. Where all are zero, as the impacts under a record without contact, there is
+    /// no spread: zero over zero.
     pub records: usize,
 }
 
 /// The order of the models in one quantity.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ranking {
-    /// Numbers of the models, maximum value first. Records under which no model has a
-    /// value are left out, then models without a value under one of the others.
+    /// Numbers of the models, maximum value first. Records under which no model has a value, or
+    /// none that is not zero, are left out, then models without a value under one of the others.
     pub order: Vec<usize>,
     /// Mean over records of value over the mean of the models (-), in that order.
     pub relative: Vec<f64>,
     /// Agreement of the records on the order (-), 0 to 1: Kendall's W (Kendall and
     /// Babington Smith, Annals of Mathematical Statistics 10 (1939) 275), ties with mean
-    /// ranks; NaN with one record or one model.
+    /// ranks; NaN with one record or one model, and where all models are the same.
     pub concordance: f64,
+}
+
+impl Ranking {
+    /// Numbers of the models that share the maximum; none where all models are the same.
+    #[must_use]
+    pub fn at_the_top(&self) -> &[usize] {
+        let most = self.relative.first().copied().unwrap_or_default();
+        let tied = self.relative.iter().take_while(|x| same(most, **x)).count();
+        match tied == self.order.len() {
+            true => &[],
+            false => &self.order[..tied],
+        }
+    }
+}
+
+/// Whether two values differ by no more than two computations of one number.
+fn same(a: f64, b: f64) -> bool {
+    (a - b).abs() <= SAME * a.abs().max(b.abs())
 }
 
 /// Part of the maximum value below which another is zero but for round-off.
@@ -38,17 +60,14 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Standard deviation (with `n - 1`) over mean; `None` for fewer than two values, zero
-/// where all are zero.
+/// Standard deviation (with `n - 1`) over mean; `None` for fewer than two values, and where all
+/// are zero.
 fn variation(values: &[f64]) -> Option<f64> {
-    if values.len() < 2 {
+    if values.len() < 2 || values.iter().all(|x| *x == 0.0) {
         return None;
     }
     let mean = mean(values);
     let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
-    if squares == 0.0 {
-        return Some(0.0);
-    }
     Some((squares / (values.len() - 1) as f64).sqrt() / mean)
 }
 
@@ -63,16 +82,21 @@ fn of_record(values: &[Vec<f64>], record: usize) -> Vec<f64> {
     column.filter(|x| x.is_finite()).collect()
 }
 
+/// Whether there is nothing but zeros, or what round-off leaves of them beside other values.
+fn is_zero(some: &[f64], all: &[Vec<f64>]) -> bool {
+    let values = all.iter().flatten().filter(|x| x.is_finite());
+    let most = values.fold(0.0_f64, |m, x| m.max(x.abs()));
+    some.iter().all(|x| x.abs() <= ROUND_OFF * most)
+}
+
 /// Spread of `values[model][record]`.
 pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
     let records = values.first().map_or(0, Vec::len);
-    let columns: Vec<Vec<f64>> = (0..records).map(|r| of_record(values, r)).collect();
+    let columns = (0..records).map(|r| of_record(values, r));
+    let columns: Vec<Vec<f64>> = columns.filter(|c| !is_zero(c, values)).collect();
     let finite = |row: &Vec<f64>| row.iter().copied().filter(|x| x.is_finite()).collect();
     let rows: Vec<Vec<f64>> = values.iter().map(finite).collect();
-    let most = rows.iter().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
-    let zero = |row: &Vec<f64>| {
-        most > 0.0 && !row.is_empty() && row.iter().all(|x| x.abs() <= ROUND_OFF * most)
-    };
+    let zero = |row: &Vec<f64>| !row.is_empty() && is_zero(row, values);
     let (zeros, rows): (Vec<Vec<f64>>, Vec<Vec<f64>>) = rows.into_iter().partition(zero);
     let ratio = |column: &Vec<f64>| {
         let low = column.iter().copied().fold(f64::INFINITY, f64::min);
@@ -81,7 +105,7 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
         (column.len() > 1 && low > ROUND_OFF * high).then(|| high / low)
     };
     Spread {
-        records: columns.iter().filter(|c| !c.is_empty()).count(),
+        records: columns.len(),
         between_models: root_mean_square(columns.iter().filter_map(|c| variation(c))),
         between_records: root_mean_square(rows.iter().filter_map(|r| variation(r))),
         models_of_zero: zeros.len(),
@@ -93,17 +117,14 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
 pub(super) fn ranking(values: &[Vec<f64>]) -> Ranking {
     let records = 0..values.first().map_or(0, Vec::len);
     let used: Vec<usize> = records
-        .filter(|r| values.iter().any(|row| row[*r].is_finite()))
+        .filter(|r| !is_zero(&of_record(values, *r), values))
         .collect();
     let full = |row: &Vec<f64>| !used.is_empty() && used.iter().all(|r| row[*r].is_finite());
     let kept: Vec<usize> = (0..values.len()).filter(|m| full(&values[*m])).collect();
     let column = |r: &usize| -> Vec<f64> { kept.iter().map(|m| values[*m][*r]).collect() };
     let columns: Vec<Vec<f64>> = used.iter().map(column).collect();
     let relative = |place: usize| {
-        let ratios = columns.iter().map(|c| {
-            let mean = mean(c);
-            if mean == 0.0 { 1.0 } else { c[place] / mean }
-        });
+        let ratios = columns.iter().map(|c| c[place] / mean(c));
         mean(&ratios.collect::<Vec<_>>())
     };
     let mut order: Vec<(usize, f64)> = kept
@@ -112,6 +133,10 @@ pub(super) fn ranking(values: &[Vec<f64>]) -> Ranking {
         .map(|(place, model)| (*model, relative(place)))
         .collect();
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
+    // Of those that are the same the order is that of the models, not of round-off.
+    for tied in order.chunk_by_mut(|a, b| same(a.1, b.1)) {
+        tied.sort_by_key(|o| o.0);
+    }
     Ranking {
         concordance: concordance(&columns),
         order: order.iter().map(|o| o.0).collect(),
@@ -119,14 +144,18 @@ pub(super) fn ranking(values: &[Vec<f64>]) -> Ranking {
     }
 }
 
-/// Ranks from 1, ties with their mean.
+/// Ranks from 1, ties with their mean. Neighbours that are the same are tied.
 fn ranks(values: &[f64]) -> Vec<f64> {
-    let rank = |x: &f64| {
-        let below = values.iter().filter(|y| *y < x).count() as f64;
-        let equal = values.iter().filter(|y| *y == x).count() as f64;
-        below + 0.5 * (equal + 1.0)
-    };
-    values.iter().map(rank).collect()
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|a, b| values[*a].total_cmp(&values[*b]));
+    let (mut ranks, mut below) = (vec![0.0; values.len()], 0);
+    for tied in order.chunk_by(|a, b| same(values[*a], values[*b])) {
+        for place in tied {
+            ranks[*place] = below as f64 + 0.5 * (tied.len() as f64 + 1.0);
+        }
+        below += tied.len();
+    }
+    ranks
 }
 
 /// Kendall's W with its correction for ties.
@@ -180,7 +209,7 @@ mod tests {
     }
 
     /// Nor has it a spread between records: that is of the other models alone, and how many are
-    /// left out is counted. Where all are zero nothing varies.
+    /// left out is counted. Where all are zero there is no spread.
     #[test]
     fn no_spread_of_round_off() {
         let others = [vec![4.0e3, 5.0e3], vec![2.0e3, 3.0e3]];
@@ -196,7 +225,8 @@ mod tests {
             assert_eq!(found.models_of_zero, 1);
         }
         let none = spread(&[vec![0.0, 0.0], vec![0.0, 0.0]]);
-        assert_eq!((none.between_records, none.models_of_zero), (0.0, 0));
+        assert!(none.between_records.is_nan() && none.between_models.is_nan());
+        assert_eq!((none.models_of_zero, none.records), (2, 0));
         // Small in one record alone is a value.
         let some = spread(&[vec![1.0e-12, 1.0], vec![1.0, 1.0]]);
         assert_eq!(some.models_of_zero, 0);
@@ -213,9 +243,9 @@ mod tests {
         assert!(r.concordance.is_nan());
     }
 
-    /// Six records with contact and one without: the last has no force, and neither
-    /// spread nor order changes by it. As zeros it would make the spread sqrt(6/7) of what
-    /// it is, 8.78 % for 9.48 %.
+    /// Six records with contact and one without: the last has no force and no impacts, and neither
+    /// spread nor order changes by it. Taken as a record without spread it would make it sqrt(6/7)
+    /// of what it is, 8.78 % for 9.48 %.
     #[test]
     fn a_record_without_contact_is_no_record_of_zero_force() {
         let low = 1.0 - 0.094_8 / 2.0_f64.sqrt();
@@ -230,12 +260,37 @@ mod tests {
         assert_eq!(alone.records, 6);
         let seven = [with(low, f64::NAN), with(other, f64::NAN)];
         assert_eq!(spread(&seven), alone);
-        let zeros = spread(&[with(low, 0.0), with(other, 0.0)]);
-        assert!((zeros.between_models - 0.087_8).abs() < 5.0e-5, "{zeros:?}");
+        let zeros = [with(low, 0.0), with(other, 0.0)];
+        let found = spread(&zeros);
+        assert_eq!(
+            (found.between_models, found.records),
+            (alone.between_models, 6)
+        );
+        assert_eq!(ranking(&zeros), ranking(&seven));
         let ranked = ranking(&seven);
         assert_eq!(ranked, ranking(&[six(low), six(other)]));
         assert_eq!(ranked.order, [1, 0]);
         assert_eq!(ranked.concordance, 1.0);
+    }
+
+    /// A building that nobody hits: round-off of the ninth digit makes no order, and there is
+    /// nothing that records could agree on.
+    #[test]
+    fn round_off_is_no_order() {
+        let third = 0.079_421_898_307_744;
+        let values = [
+            vec![third * (1.0 + 2.0e-9), third],
+            vec![third, third * (1.0 + 1.0e-9)],
+            vec![third * (1.0 + 1.0e-9), third],
+        ];
+        let found = ranking(&values);
+        assert_eq!(found.order, [0, 1, 2]);
+        assert!(found.concordance.is_nan(), "{found:?}");
+        assert!(found.at_the_top().is_empty());
+        let some = ranking(&[&values[..], &[vec![0.02, 0.03]]].concat());
+        assert_eq!(some.order, [0, 1, 2, 3]);
+        assert_eq!(some.at_the_top(), [0, 1, 2]);
+        assert!((some.concordance - 1.0).abs() < 1.0e-15, "{some:?}");
     }
 
     /// No record with a value: no order.

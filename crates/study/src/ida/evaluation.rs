@@ -50,6 +50,20 @@ pub struct LimitResult {
     pub frequency_bounds: Option<FrequencyBounds>,
 }
 
+/// Whether remarks say that a frequency is an upper bound.
+fn is_at_most(remarks: &[FitRemark]) -> bool {
+    let at_most = |remark: &FitRemark| matches!(remark, FitRemark::AtMost { .. });
+    remarks.iter().any(at_most)
+}
+
+impl LimitResult {
+    /// Whether the frequency is an upper bound, as the counts give no curve.
+    #[must_use]
+    pub fn frequency_is_at_most(&self) -> bool {
+        is_at_most(&self.remarks)
+    }
+}
+
 /// Pounding at one width of a gap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GapResult {
@@ -72,6 +86,14 @@ pub struct MinimumGap {
     pub open: Option<OpenGap>,
     /// What must be said of the frequency.
     pub remarks: Vec<FitRemark>,
+}
+
+impl MinimumGap {
+    /// Whether the frequency is an upper bound, as the counts give no curve.
+    #[must_use]
+    pub fn frequency_is_at_most(&self) -> bool {
+        is_at_most(&self.remarks)
+    }
 }
 
 /// Why a least gap is an upper bound: at narrower widths runs are missing where the frequency

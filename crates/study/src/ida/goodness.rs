@@ -110,6 +110,12 @@ pub enum FitRemark {
         /// What is left out if the first power law went on (1/year).
         uncounted: f64,
     },
+    /// The counts give no curve, and the frequency is that of a state which is reached right above
+    /// an intensity at which nobody reaches it.
+    AtMost {
+        /// This intensity.
+        above: ShownIntensity,
+    },
     /// The bootstrap has no upper bound of the frequency.
     NoUpperBound {
         /// Sets whose records reach the state at the lowest intensity already, some or all.
@@ -152,6 +158,7 @@ impl FitRemark {
         matches!(
             self,
             Self::BelowHazard { .. }
+                | Self::AtMost { .. }
                 | Self::NoUpperBound { .. }
                 | Self::NoLowerBound { .. }
                 | Self::AboveHazard { .. }
@@ -223,6 +230,10 @@ impl fmt::Display for FitRemark {
                     }
                 )
             }
+            Self::AtMost { above } => write!(
+                f,
+                "the frequency is an upper bound, as if the state were reached right above {above}, where no record reaches it: the counts give no curve; add intensities from there on"
+            ),
             Self::NoUpperBound { above, unknown } => {
                 write!(
                     f,

@@ -136,7 +136,15 @@ pub(super) fn remarks(
         FragilityFit::Always { .. } | FragilityFit::None => return Vec::new(),
     };
     let mut remarks = Vec::new();
-    if uncounted > NEGLIGIBLE * frequency {
+    let complete = uncounted <= NEGLIGIBLE * frequency;
+    if let (true, FragilityFit::Step { lower: above, .. } | FragilityFit::Never { up_to: above }) =
+        (complete, fit)
+    {
+        remarks.push(FitRemark::AtMost {
+            above: shown(*above),
+        });
+    }
+    if !complete {
         remarks.push(FitRemark::BelowHazard {
             first: shown(first.0),
             probability,

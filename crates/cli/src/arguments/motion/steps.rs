@@ -12,7 +12,7 @@ const STEPS: [(&str, &str, &str, &str); 10] = [
         "true_unit",
         "true-unit",
         "UNIT",
-        "The values, taken as m/s2, are in truth in this unit",
+        "The values as the file prints them are in this unit, whatever unit it states",
     ),
     ("sign", "sign", "reversed", "Turn the sign"),
     (

@@ -16,7 +16,7 @@ use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
 use crate::deal::{deal, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
-use crate::files::have_a_place;
+use crate::files::{an_answer_has_a_place, have_a_place};
 use crate::output::{pretty, print};
 use crate::progress::{Progress, Unit, threads};
 use crate::{page, plot};
@@ -40,8 +40,8 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
         arguments.csv.as_deref(),
         arguments.plot.as_deref(),
         arguments.report.as_deref(),
-        arguments.output.as_deref(),
     ])?;
+    an_answer_has_a_place(arguments.output.as_deref())?;
     let options = ComparisonOptions {
         models: arguments.models.clone(),
         stiffness_rule: match arguments.stiffness_rule {

@@ -269,6 +269,8 @@ struct Spread {
 #[derive(Serialize)]
 struct Ranking<'c> {
     models: Vec<&'static str>,
+    /// Those that share the maximum; none where all models are the same.
+    maximum_by: Vec<&'static str>,
     relative: &'c [f64],
     concordance: f64,
 }
@@ -295,6 +297,7 @@ impl<'c> Quantity<'c> {
             },
             ranking: Ranking {
                 models: names(c, &ranking.order),
+                maximum_by: names(c, ranking.at_the_top()),
                 relative: &ranking.relative,
                 concordance: ranking.concordance,
             },

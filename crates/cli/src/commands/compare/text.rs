@@ -6,7 +6,7 @@ use pounding_catalogue::wording::{agreeing, counted};
 use pounding_gap_element::Verification;
 use pounding_study::comparison::{Comparison, Holds, Judgement, Quantity, QuantityKind};
 
-use crate::tables::{G, collapsed, new_table, warning_lines};
+use crate::tables::{G, collapsed, links_stay, new_table, warning_lines};
 
 /// More records than this have no tables of their own.
 const LISTED: usize = 6;
@@ -55,6 +55,7 @@ pub fn report(case: &Case, c: &Comparison) -> String {
     if !case.title.is_empty() {
         text.push_str(&format!("{}\n", case.title));
     }
+    text.push_str(links_stay(case));
     text.push_str(&warning_lines(&c.warnings));
     text.push_str(&collapsed(
         (&c.collapsed, c.records.len()),
@@ -237,7 +238,7 @@ fn without_contact(c: &Comparison) -> String {
         if !without.is_empty() {
             let names: Vec<_> = without.iter().map(|r| c.records[*r].as_str()).collect();
             text.push_str(&format!(
-                "{}: no contact with any model under {} of {}, which {} no force, impulse, approach velocity or restitution and {} left out of their spread and ranking: {}\n",
+                "{}: no contact with any model under {} of {}, which {} no force, impulse, approach velocity or restitution and {} left out of the spread between models and the ranking of all that is of the gap: {}\n",
                 gap.of,
                 without.len(),
                 counted(c.records.len(), "record"),
@@ -274,17 +275,20 @@ fn ranking(c: &Comparison) -> String {
             all.join(", ")
         };
         let n = r.order.len();
+        let the_same = n > 1 && r.at_the_top().is_empty();
         let concordance = if r.concordance.is_nan() {
             "-".to_owned()
         } else {
             format!("{:.2}", r.concordance)
         };
-        table.add_row([
-            q.label().replace('_', " "),
-            places((0..n.min(3)).collect()),
-            places((n.saturating_sub(3)..n).rev().collect()),
-            concordance,
-        ]);
+        let [largest, smallest] = match the_same {
+            true => ["the same with all models".to_owned(), String::new()],
+            false => [
+                places((0..n.min(3)).collect()),
+                places((n.saturating_sub(3)..n).rev().collect()),
+            ],
+        };
+        table.add_row([q.label().replace('_', " "), largest, smallest, concordance]);
     }
     format!(
         "\nRanking: value over the mean of all models, mean over records; agreement is Kendall's W (1: the same order under every record)\n{table}\n"

@@ -23,7 +23,7 @@ use crate::asked_separation::{Asked, overridden};
 use crate::deal::{deal, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
-use crate::files::have_a_place;
+use crate::files::{an_answer_has_a_place, have_a_place};
 use crate::output::{pretty, print};
 use crate::progress::{Progress, Unit, threads};
 use crate::{page, plot};
@@ -62,8 +62,8 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.plot.as_deref(),
         arguments.spectra.as_deref(),
         arguments.report.as_deref(),
-        arguments.output.as_deref(),
     ])?;
+    an_answer_has_a_place(arguments.output.as_deref())?;
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| {
         progress.show(done, total, "");

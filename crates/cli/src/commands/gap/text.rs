@@ -10,7 +10,7 @@ use pounding_study::gap_check::{
 use super::answer::answer;
 use super::rules;
 use super::suite::{suite, target};
-use crate::tables::{against_capacity, collapsed, decimal, new_table, warning_lines};
+use crate::tables::{against_capacity, collapsed, decimal, links_stay, new_table, warning_lines};
 
 /// More records than this are summed up instead of listed.
 const LISTED: usize = 6;
@@ -23,11 +23,7 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     if !case.title.is_empty() {
         text.push_str(&format!("{}\n", case.title));
     }
-    if !case.links.is_empty() {
-        text.push_str(
-            "  links stay in place in all that follows: \"isolated\" means without contact\n",
-        );
-    }
+    text.push_str(links_stay(case));
     text.push_str(&foundations(case, check));
     text.push_str(&target(check));
     text.push_str(&warning_lines(&check.warnings));

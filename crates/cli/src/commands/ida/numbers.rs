@@ -57,6 +57,8 @@ struct Limit<'a> {
     goodness_of_fit: Option<Goodness>,
     remarks: Vec<String>,
     mean_annual_frequency: Option<f64>,
+    /// Whether that is an estimate or an upper bound.
+    mean_annual_frequency_is: Option<&'static str>,
     /// By a bootstrap over records, at the confidence of the study; one that is null is not known.
     mean_annual_frequency_bounds: Option<[Option<f64>; 2]>,
 }
@@ -126,6 +128,8 @@ struct Width<'a> {
 struct Minimum {
     width: Option<f64>,
     mean_annual_frequency: f64,
+    /// Whether that is an estimate or an upper bound.
+    mean_annual_frequency_is: &'static str,
     /// Whether the width is an upper bound, as runs are missing at narrower ones.
     upper_bound: bool,
     /// Width that is too narrow whatever the missing runs would say.
@@ -177,6 +181,14 @@ impl<'a> Analysis<'a> {
     }
 }
 
+/// What a frequency is.
+fn word(at_most: bool) -> &'static str {
+    match at_most {
+        true => "upper bound",
+        false => "estimate",
+    }
+}
+
 impl Minimum {
     fn of(minimum: &MinimumGap) -> Self {
         let open = minimum.open.iter().map(ToString::to_string);
@@ -184,6 +196,7 @@ impl Minimum {
         Self {
             width: minimum.width,
             mean_annual_frequency: minimum.frequency,
+            mean_annual_frequency_is: word(minimum.frequency_is_at_most()),
             upper_bound: minimum.open.is_some(),
             wider_than: minimum.open.map(|open| open.wider_than),
             remarks: open.chain(remarks).collect(),
@@ -229,6 +242,7 @@ impl<'a> Limit<'a> {
             }),
             remarks: limit.remarks.iter().map(ToString::to_string).collect(),
             mean_annual_frequency: limit.frequency,
+            mean_annual_frequency_is: limit.frequency.map(|_| word(limit.frequency_is_at_most())),
             mean_annual_frequency_bounds: limit
                 .frequency_bounds
                 .map(|b| [b.low, b.high])

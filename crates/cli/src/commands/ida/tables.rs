@@ -157,11 +157,12 @@ fn poor_fits<'s>(
 ) -> String {
     let mut text = String::new();
     let (scale, unit) = report.shown_intensity();
-    let mut untested = Vec::new();
+    let (mut untested, mut at_most) = (Vec::new(), false);
     for (name, state) in states.filter(|(_, s)| !s.remarks.is_empty()) {
         for remark in &state.remarks {
             match remark {
                 FitRemark::NotTested => untested.push(name.clone()),
+                FitRemark::AtMost { .. } => at_most = true,
                 remark => text.push_str(&format!("  {name}: {remark}\n")),
             }
         }
@@ -195,6 +196,11 @@ fn poor_fits<'s>(
     if !untested.is_empty() {
         let names = untested.join(", ");
         text.push_str(&format!("  {names}: {}\n", FitRemark::NotTested));
+    }
+    if at_most {
+        text.push_str(
+            "  \"at most\": the counts give no curve; the frequency is that of a state which is reached right above the highest intensity at which no record reaches it\n",
+        );
     }
     text
 }
@@ -231,7 +237,7 @@ fn widths(
                     ""
                 },
                 width * 1e3,
-                digits(minimum.frequency),
+                frequency_of(minimum),
                 beside(minimum)
             ),
             None => format!(
@@ -243,11 +249,20 @@ fn widths(
                 },
                 gap.gap,
                 digits(target),
-                digits(minimum.frequency)
+                frequency_of(minimum)
             ),
         });
     }
     text
+}
+
+/// The frequency at a least gap.
+fn frequency_of(minimum: &MinimumGap) -> String {
+    let at_most = match minimum.frequency_is_at_most() {
+        true => "at most ",
+        false => "",
+    };
+    format!("{at_most}{}", digits(minimum.frequency))
 }
 
 /// What must be said of a least gap, a line each.
@@ -270,6 +285,9 @@ fn counts(limit: &LimitResult) -> String {
 /// The mean annual frequency, or why there is none.
 fn frequency(limit: &LimitResult, (scale, unit): (f64, &str)) -> String {
     match (limit.frequency, limit.fit) {
+        (Some(frequency), _) if limit.frequency_is_at_most() => {
+            format!("at most {}", digits(frequency))
+        }
         (Some(frequency), _) => match limit.frequency_bounds {
             Some(bounds) if bounds.low.or(bounds.high).is_some() => {
                 let shown = |bound: Option<f64>| bound.map_or("?".to_owned(), digits);

@@ -12,6 +12,7 @@ use super::{reading, words, writing};
 use crate::arguments::value;
 use crate::arguments::{MatchArguments, MatchMethod, OutputArguments};
 use crate::failure::Failure;
+use crate::files::have_a_place;
 use crate::plot;
 use crate::progress::Progress;
 
@@ -34,6 +35,7 @@ pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
     };
     drop(progress);
     let motion = &matched.accelerogram;
+    have_a_place([Some(&*arguments.output.output)])?;
     if let Some(path) = &arguments.output.svg {
         let band = (options.from, options.to);
         let drawn = plot::of_motion(picture(&record, motion, &target, band))?;

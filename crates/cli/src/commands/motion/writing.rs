@@ -12,6 +12,7 @@ use serde::Serialize;
 
 use crate::arguments::OutputArguments;
 use crate::failure::Failure;
+use crate::files::have_a_place;
 use crate::output::{pretty, print};
 use crate::plot;
 use crate::tables::G;
@@ -61,6 +62,8 @@ pub fn finish(
     title: &str,
     more: Option<Matched<'_>>,
 ) -> Result<(), Failure> {
+    // Neither file without a place for the other.
+    have_a_place([Some(&*output.output), output.svg.as_deref()])?;
     write(&output.output, motion, title)?;
     if let Some(path) = &output.svg {
         let drawn = plot::of_motion(histories(&[Named::at_rest(title, motion)]))?;

@@ -74,6 +74,11 @@ pub(super) fn roof(result: &RunResult, index: usize) -> Outcome {
 pub(super) fn profiles(result: &RunResult, building: &BuildingResult) -> Outcome {
     let ground = &result.ground_acceleration;
     let ground = ground.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    // What links do is no pounding.
+    let together = match result.links.is_empty() {
+        true => "with pounding",
+        false => "with gaps and links",
+    };
     // `base` is the value at the ground; a value for each storey has none.
     let profile = |caption: &str, (peaks, factor): (&StoreyPeaks, f64), base: Option<f64>| {
         let curve = |name: &str, values: &[f64]| {
@@ -95,7 +100,7 @@ pub(super) fn profiles(result: &RunResult, building: &BuildingResult) -> Outcome
             caption: format!("Elevation (m) over {caption}"),
             horizontal: caption.to_owned(),
             curves: vec![
-                curve("with pounding", &peaks.value),
+                curve(together, &peaks.value),
                 curve("isolated", &peaks.isolated),
             ],
         };

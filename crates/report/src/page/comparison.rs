@@ -219,7 +219,7 @@ fn spread(answer: Answer<'_>) -> String {
         + &note(
             "Spread: standard deviation over mean, root mean square over the others; between models over the records with \
              a value that is not zero, between records without models whose values are all zero. Agreement of records on \
-             the order of the models: Kendall's W, from 0 to 1; none where all models are the same.",
+             the order of the models: Kendall's W, from 0 to 1, of records under which models differ.",
         )
 }
 

@@ -161,6 +161,11 @@ fn frequencies(gap: &str, widths: &[GapResult]) -> Option<Plot> {
         },
     };
     let (estimates, bounds) = (points(false), points(true));
+    // A single series has no legend.
+    let what = match estimates.is_empty() {
+        true => "Upper bound of the mean annual frequency",
+        false => "Mean annual frequency",
+    };
     if estimates.len() + bounds.len() < 2 {
         return None;
     }
@@ -187,7 +192,7 @@ fn frequencies(gap: &str, widths: &[GapResult]) -> Option<Plot> {
         });
     }
     Some(Plot {
-        heading: format!("Mean annual frequency of pounding, {gap}"),
+        heading: format!("{what} of pounding, {gap}"),
         horizontal: Axis::linear("width of the gap (mm)"),
         vertical: Axis::logarithmic("frequency (1/year)"),
         series,

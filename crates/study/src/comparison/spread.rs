@@ -31,7 +31,7 @@ pub struct Ranking {
     pub relative: Vec<f64>,
     /// Agreement of the records on the order (-), 0 to 1: Kendall's W (Kendall and
     /// Babington Smith, Annals of Mathematical Statistics 10 (1939) 275), ties with mean
-    /// ranks; NaN with one record or one model, and where all models are the same.
+    /// ranks; NaN with one record or one model. Records under which all models are the same are none.
     pub concordance: f64,
 }
 
@@ -160,12 +160,15 @@ fn ranks(values: &[f64]) -> Vec<f64> {
 
 /// Kendall's W with its correction for ties.
 fn concordance(columns: &[Vec<f64>]) -> f64 {
-    let judges = columns.len() as f64;
     let models = columns.first().map_or(0, Vec::len);
-    if columns.len() < 2 || models < 2 {
+    // A record under which all models are the same has no order to agree on.
+    let orders = |ranks: &Vec<f64>| ranks.iter().any(|r| *r != ranks[0]);
+    let ranked = columns.iter().map(|c| ranks(c)).filter(orders);
+    let ranked: Vec<Vec<f64>> = ranked.collect();
+    let judges = ranked.len() as f64;
+    if ranked.len() < 2 || models < 2 {
         return f64::NAN;
     }
-    let ranked: Vec<Vec<f64>> = columns.iter().map(|c| ranks(c)).collect();
     let sums: Vec<f64> = (0..models)
         .map(|m| ranked.iter().map(|r| r[m]).sum())
         .collect();
@@ -320,6 +323,9 @@ mod tests {
             vec![2.0, 1.0, 3.0],
         ]);
         assert!((some - 4.0 / 9.0).abs() < 1.0e-15, "{some}");
+        // One record alone tells the models apart.
+        let one = concordance(&[vec![1.0, 1.0, 1.0], vec![5.0, 6.0, 9.0]]);
+        assert!(one.is_nan(), "{one}");
         let tied = concordance(&[vec![1.0, 1.0, 2.0], vec![5.0, 5.0, 9.0]]);
         assert!((tied - 1.0).abs() < 1.0e-15, "ties that agree: {tied}");
     }

@@ -272,7 +272,10 @@ fn ranking(c: &Comparison) -> String {
         };
         let places = |range: Vec<usize>| -> String {
             let all: Vec<_> = range.into_iter().filter_map(place).collect();
-            all.join(", ")
+            match all.is_empty() {
+                true => "-".to_owned(),
+                false => all.join(", "),
+            }
         };
         let n = r.order.len();
         let the_same = n > 1 && r.at_the_top().is_empty();

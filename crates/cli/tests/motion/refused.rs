@@ -102,7 +102,7 @@ fn bad_input() {
     refused(
         2,
         &["convert", &file, "-o", &out, "--quantity", "velocity"],
-        &["no component \"velocity\""],
+        &["there is no velocity among"],
     );
     refused(
         2,

@@ -325,3 +325,57 @@ fn models(answer: Answer<'_>) -> String {
     out.push_str("<h3>The collision in which they agree</h3>\n");
     out + &answer.table("Reference collisions", &collision, rows(gaps))
 }
+
+#[cfg(test)]
+mod tests {
+    use serde_json::json;
+
+    use super::*;
+
+    /// What the answer says of models that ran, of which the last failed under so many of two
+    /// records, with impacts under each.
+    fn told(models: usize, failures: usize, impacts: [usize; 2], count: usize) -> String {
+        let model = |i: usize| {
+            let failed = if i + 1 == models { failures } else { 0 };
+            json!({ "name": format!("model_{i}"), "failures": vec![json!({}); failed] })
+        };
+        let without = ["a", "b"].into_iter().zip(impacts);
+        let without: Vec<&str> = without.filter(|(_, n)| *n == 0).map(|(r, _)| r).collect();
+        let answer = json!({
+            "models": (0..models).map(model).collect::<Vec<_>>(),
+            "records": ["a", "b"],
+            "gaps": [{ "name": "left-right", "models_in_contact": impacts, "records_without_contact": without }],
+            "conclusions": [{ "statement": "s", "holds": "holds for all models", "counts": [[0, count], [0, count]] }],
+            "quantities": [{ "name": "impulse", "of": "left-right", "unit": "N s", "spread": { "between_models": 0.2 } }],
+        });
+        points(Answer(&answer)).join("\n")
+    }
+
+    /// No answer is drawn from one model, and none from buildings that do not touch.
+    #[test]
+    fn an_answer_needs_models_and_contact() {
+        let one = told(1, 0, [1, 1], 1);
+        assert!(
+            one.contains("That is not answered") && !one.contains("No."),
+            "{one}"
+        );
+        let rest = told(2, 2, [1, 1], 1);
+        assert!(rest.contains("That is not answered"), "{rest}");
+        assert!(rest.contains("Under no record: model_1."), "{rest}");
+        let some = told(3, 1, [1, 0], 2);
+        assert!(some.contains("<strong>No.</strong>"), "{some}");
+        assert!(some.contains("Not under every record: model_2."), "{some}");
+        assert!(
+            some.contains("No model closes left-right under 1 of 2 records"),
+            "{some}"
+        );
+        assert!(some.contains("furthest apart in impulse"), "{some}");
+        let none = told(2, 0, [0, 0], 2);
+        assert!(
+            none.contains("Nothing touches") && !none.contains("furthest"),
+            "{none}"
+        );
+        let alone = told(2, 0, [1, 1], 1);
+        assert!(alone.contains("of 1 no more than one model"), "{alone}");
+    }
+}

@@ -490,6 +490,17 @@ mod tests {
             panic!("{said:?}")
         };
         assert!((uncounted / expected - 1.0).abs() < 1e-12);
+        // Where the curve reaches below it the frequency is an upper bound, and so is that of a state
+        // which nobody reaches.
+        for fit in [step, FragilityFit::Never { up_to: 0.2 }] {
+            let said = remarks(&fit, &whole, &wide, shown);
+            let [FitRemark::AtMost { above }] = said[..] else {
+                panic!("{said:?}")
+            };
+            assert_eq!(above.si, 0.2);
+            let bound = mean_annual_frequency(&fit, &whole).unwrap();
+            assert!((bound / law(0.2).1 - 1.0).abs() < 1e-12);
+        }
         for x in [0.3, 0.7, 2.9, 30.0] {
             let again = short.intensity(short.frequency(x)).unwrap();
             assert!((again / x - 1.0).abs() < 1e-12);

@@ -82,21 +82,26 @@ fn of_record(values: &[Vec<f64>], record: usize) -> Vec<f64> {
     column.filter(|x| x.is_finite()).collect()
 }
 
-/// Whether there is nothing but zeros, or what round-off leaves of them beside other values.
-fn is_zero(some: &[f64], all: &[Vec<f64>]) -> bool {
-    let values = all.iter().flatten().filter(|x| x.is_finite());
-    let most = values.fold(0.0_f64, |m, x| m.max(x.abs()));
-    some.iter().all(|x| x.abs() <= ROUND_OFF * most)
+/// What round-off leaves of a zero among these values at most.
+fn round_off(values: &[Vec<f64>]) -> f64 {
+    let finite = values.iter().flatten().filter(|x| x.is_finite());
+    ROUND_OFF * finite.fold(0.0_f64, |m, x| m.max(x.abs()))
+}
+
+/// Whether there is nothing but zeros, or what round-off leaves of them.
+fn is_zero(values: &[f64], round_off: f64) -> bool {
+    values.iter().all(|x| x.abs() <= round_off)
 }
 
 /// Spread of `values[model][record]`.
 pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
     let records = values.first().map_or(0, Vec::len);
+    let round_off = round_off(values);
     let columns = (0..records).map(|r| of_record(values, r));
-    let columns: Vec<Vec<f64>> = columns.filter(|c| !is_zero(c, values)).collect();
+    let columns: Vec<Vec<f64>> = columns.filter(|c| !is_zero(c, round_off)).collect();
     let finite = |row: &Vec<f64>| row.iter().copied().filter(|x| x.is_finite()).collect();
     let rows: Vec<Vec<f64>> = values.iter().map(finite).collect();
-    let zero = |row: &Vec<f64>| !row.is_empty() && is_zero(row, values);
+    let zero = |row: &Vec<f64>| !row.is_empty() && is_zero(row, round_off);
     let (zeros, rows): (Vec<Vec<f64>>, Vec<Vec<f64>>) = rows.into_iter().partition(zero);
     let ratio = |column: &Vec<f64>| {
         let low = column.iter().copied().fold(f64::INFINITY, f64::min);
@@ -116,13 +121,16 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
 /// Order of the models in `values[model][record]`.
 pub(super) fn ranking(values: &[Vec<f64>]) -> Ranking {
     let records = 0..values.first().map_or(0, Vec::len);
+    let round_off = round_off(values);
     let used: Vec<usize> = records
-        .filter(|r| !is_zero(&of_record(values, *r), values))
+        .filter(|r| !is_zero(&of_record(values, *r), round_off))
         .collect();
     let full = |row: &Vec<f64>| !used.is_empty() && used.iter().all(|r| row[*r].is_finite());
     let kept: Vec<usize> = (0..values.len()).filter(|m| full(&values[*m])).collect();
     let column = |r: &usize| -> Vec<f64> { kept.iter().map(|m| values[*m][*r]).collect() };
-    let columns: Vec<Vec<f64>> = used.iter().map(column).collect();
+    let columns = used.iter().map(column);
+    // Who had another value under it may be among those left out.
+    let columns: Vec<Vec<f64>> = columns.filter(|c| !is_zero(c, round_off)).collect();
     let relative = |place: usize| {
         let ratios = columns.iter().map(|c| c[place] / mean(c));
         mean(&ratios.collect::<Vec<_>>())
@@ -130,6 +138,7 @@ pub(super) fn ranking(values: &[Vec<f64>]) -> Ranking {
     let mut order: Vec<(usize, f64)> = kept
         .iter()
         .enumerate()
+        .filter(|_| !columns.is_empty())
         .map(|(place, model)| (*model, relative(place)))
         .collect();
     order.sort_by(|a, b| b.1.total_cmp(&a.1));
@@ -294,6 +303,17 @@ mod tests {
         assert_eq!(some.order, [0, 1, 2, 3]);
         assert_eq!(some.at_the_top(), [0, 1, 2]);
         assert!((some.concordance - 1.0).abs() < 1.0e-15, "{some:?}");
+    }
+
+    /// A record of zeros is none, and nor is one under which nobody but a model that is left out, as
+    /// it has no value under another, is above zero.
+    #[test]
+    fn nothing_is_ranked_by_who_is_left_out() {
+        let found = ranking(&[vec![0.0, 0.0], vec![0.0, 0.0], vec![3.0, f64::NAN]]);
+        assert_eq!(found.order, [2, 0, 1]);
+        let values = [vec![0.0, 1.0], vec![0.0, 2.0], vec![3.0, f64::NAN]];
+        let found = ranking(&values);
+        assert_eq!((found.order, found.relative.len()), (vec![1, 0], 2));
     }
 
     /// No record with a value: no order.

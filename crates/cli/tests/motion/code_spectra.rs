@@ -133,7 +133,7 @@ fn codes_that_are_none() {
                 "--code",
                 "eurocode_8_2004, ag=0.2 g, ag=0.3 g, ground_type=B",
             ],
-            "once each, separated by commas",
+            "\"ag\" is given twice, as \"0.2 g\" and as \"0.3 g\"",
         ),
         (vec!["--code", "eurocode_8_2004, ag=0.2 g"], "ground_type"),
         (vec!["--code", "asce_7_2016, s_ds=1 g, s_d1=0.6 g"], "t_l"),

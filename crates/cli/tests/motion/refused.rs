@@ -172,7 +172,7 @@ fn bad_input() {
             "--to",
             "5 s",
         ],
-        &["target spectrum: period", "outside [0.01, 4]"],
+        &["it reaches from 0.01 to 4 s", "the band goes from 0.1 to 5"],
     );
     assert!(!folder.path("o.csv").exists());
 }

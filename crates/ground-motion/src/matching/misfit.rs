@@ -72,9 +72,7 @@ impl Deviations {
         from: f64,
         to: f64,
     ) -> Result<Self, GroundMotionError> {
-        for end in [from, to] {
-            target.at(end)?;
-        }
+        target.covers(from, to)?;
         let periods = grid(record, target, from, to)?;
         let at = |periods: &[f64]| deviations(record, target, periods);
         let found = at(&periods)?;

@@ -197,6 +197,7 @@ pub fn band_factor(
         f64::MAX,
     )?;
     let periods = logarithmic_periods(from, to, BAND_PERIODS)?;
+    target.covers(from, to)?;
     let mut sum = 0.0;
     for record in records {
         let linear = Evaluation::PiecewiseLinear;

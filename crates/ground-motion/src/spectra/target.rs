@@ -1,5 +1,6 @@
 //! A spectrum to reach.
 
+use pounding_catalogue::numbers::six_digits;
 use serde::Serialize;
 
 use crate::error::{GroundMotionError, positive, within};
@@ -86,6 +87,22 @@ impl TargetSpectrum {
     #[must_use]
     pub fn range(&self) -> (f64, f64) {
         (self.periods[0], self.periods[self.periods.len() - 1])
+    }
+
+    /// Refuses a band (s) that it does not cover.
+    pub(crate) fn covers(&self, from: f64, to: f64) -> Result<(), GroundMotionError> {
+        let (first, last) = self.range();
+        if first <= from && to <= last {
+            return Ok(());
+        }
+        let [first, last, from, to] = [first, last, from, to].map(six_digits);
+        Err(GroundMotionError::NotPossible {
+            step: STEP,
+            reason: format!(
+                "it reaches from {first} to {last} s, the band goes from {from} to {to} s"
+            ),
+            remedy: "take a band within it (nothing is extrapolated), or give more of the spectrum",
+        })
     }
 
     /// Pseudo-acceleration (m/s2) at a period (s).

@@ -1,9 +1,9 @@
 //! The spectrum of a code from the words of an option.
 
-use pounding_case::{CaseError, SpectrumSource};
+use pounding_case::SpectrumSource;
 use pounding_ground_motion::spectra::design::CodeSpectrum;
 
-use super::words::Words;
+use super::words::{Words, quoted};
 use crate::failure::Failure;
 
 /// The spectrum that `--code` names: the code, then its parameters with the keys of the case
@@ -23,10 +23,11 @@ pub fn code_spectrum(text: &str, damping: f64) -> Result<CodeSpectrum, Failure> 
         ));
     }
     let mut keys = words.pairs_as_toml();
-    keys.insert(0, format!("code = {:?}", words.word));
+    keys.insert(0, format!("code = {}", quoted(words.word)));
     keys.push(format!("damping = {damping:?}"));
     let line = format!("process = [{{ scale = {{ {} }} }}]", keys.join(", "));
-    let read = pounding_case::process_steps(&line, "code").map_err(|e| unreadable(text, &e))?;
+    let read = pounding_case::process_steps(&line, "code")
+        .map_err(|e| Failure::input(format!("--code: {}", e.message), e.help))?;
     let target = read.first().and_then(|step| step.value.target());
     let target = target.map(|band| &band.spectrum);
     match target {
@@ -35,16 +36,5 @@ pub fn code_spectrum(text: &str, damping: f64) -> Result<CodeSpectrum, Failure> 
             format!("--code: \"{text}\" is no code"),
             None,
         )),
-    }
-}
-
-/// What is wrong with the words of the option: the case file is not what was written.
-fn unreadable(text: &str, error: &CaseError) -> Failure {
-    match error.message.strip_prefix("this is not TOML: ") {
-        Some(reason) => Failure::input(
-            format!("--code: \"{text}\" cannot be read: {reason}"),
-            Some("write the code and its parameters once each, separated by commas: \"eurocode_8_2004, ag=0.25 g, ground_type=B\"".to_owned()),
-        ),
-        None => Failure::input(format!("--code: {}", error.message), error.help.clone()),
     }
 }

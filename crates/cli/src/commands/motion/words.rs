@@ -24,7 +24,7 @@ impl<'a> Words<'a> {
         };
         for (place, part) in text.split(',').map(str::trim).enumerate() {
             match part.split_once('=') {
-                Some((key, value)) => words.pairs.push((key.trim(), value.trim())),
+                Some((key, value)) => words.add(key.trim(), value.trim())?,
                 None if place == 0 => words.word = part,
                 None => {
                     return Err(Failure::input(
@@ -39,23 +39,30 @@ impl<'a> Words<'a> {
         Ok(words)
     }
 
-    /// Refuses keys that mean nothing here, and keys given twice.
-    pub fn only(&self, known: &[&str]) -> Result<(), Failure> {
-        for (place, (key, _)) in self.pairs.iter().enumerate() {
-            let twice = self.pairs[..place].iter().any(|(k, _)| k == key);
-            if !known.contains(key) || twice {
-                let what = if twice {
-                    "is given twice"
-                } else {
-                    "is not known"
-                };
-                return Err(Failure::input(
-                    format!("--{}: \"{key}\" {what}", self.option),
-                    Some(format!("known keys: {}", known.join(", "))),
-                ));
-            }
+    /// Takes a pair; of two with one key it could not be known which is meant.
+    fn add(&mut self, key: &'a str, value: &'a str) -> Result<(), Failure> {
+        if let Some((_, first)) = self.pairs.iter().find(|(k, _)| *k == key) {
+            return Err(Failure::input(
+                format!(
+                    "--{}: \"{key}\" is given twice, as \"{first}\" and as \"{value}\"",
+                    self.option
+                ),
+                Some(format!("leave one \"{key}=...\"")),
+            ));
         }
+        self.pairs.push((key, value));
         Ok(())
+    }
+
+    /// Refuses keys that mean nothing here.
+    pub fn only(&self, known: &[&str]) -> Result<(), Failure> {
+        match self.pairs.iter().find(|(key, _)| !known.contains(key)) {
+            None => Ok(()),
+            Some((key, _)) => Err(Failure::input(
+                format!("--{}: \"{key}\" is not known", self.option),
+                Some(format!("known keys: {}", known.join(", "))),
+            )),
+        }
     }
 
     /// Whether a key is given.
@@ -95,9 +102,14 @@ impl<'a> Words<'a> {
     pub fn pairs_as_toml(&self) -> Vec<String> {
         let pairs = self.pairs.iter();
         pairs
-            .map(|(k, v)| format!("{k} = {}", literal(v)))
+            .map(|(k, v)| format!("{} = {}", quoted(k), literal(v)))
             .collect()
     }
+}
+
+/// A text in the quotes of TOML.
+pub fn quoted(text: &str) -> String {
+    serde_json::Value::String(text.to_owned()).to_string()
 }
 
 /// Numbers and flags as they are, all else in quotes.
@@ -113,7 +125,7 @@ fn literal(text: &str) -> String {
             _ => text.to_owned(),
         };
     }
-    serde_json::Value::String(text.to_owned()).to_string()
+    quoted(text)
 }
 
 /// Refuses two options of which the first is not below the second.

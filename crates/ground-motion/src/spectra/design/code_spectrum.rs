@@ -117,7 +117,8 @@ impl CodeSpectrum {
     /// As [`Self::target`], and a period outside its range.
     pub fn check_periods(&self, periods: &[f64]) -> Result<(), GroundMotionError> {
         let (from, to) = self.target()?.range();
-        let mut periods = periods.iter();
-        periods.try_for_each(|t| within(self.name(), "period", *t, from, to).map(|_| ()))
+        // The last first, and the first: ends of a band are what was asked for.
+        let mut ends_first = periods.last().into_iter().chain(periods);
+        ends_first.try_for_each(|t| within(self.name(), "period", *t, from, to).map(|_| ()))
     }
 }

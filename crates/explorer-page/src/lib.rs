@@ -10,6 +10,7 @@ use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::GzEncoder;
+use pounding_report::DASHES;
 use pounding_report::page::{Document, Script};
 use serde_json::json;
 
@@ -113,6 +114,7 @@ pub fn page(inputs: &Inputs<'_>) -> Result<String, ExplorerPageError> {
         "files": files?,
         "rules": inputs.rules.map(|(name, text)| json!({ "name": name, "text": text })),
         "documentation": inputs.documentation,
+        "dashes": DASHES,
     });
     let document = Document {
         title: match inputs.title {

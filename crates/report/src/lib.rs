@@ -22,7 +22,7 @@ mod reading;
 mod result;
 
 pub use answer_file::{AnswerFileError, Answered, AnsweredCommand, SCHEMA_VERSION};
-pub use chart::{Chart, PAGE};
+pub use chart::{Chart, DASHES, PAGE};
 pub use conversion::{Converted, PictureFormat};
 pub use error::ReportError;
 pub use figure::{Curve, Panel, Reference, figure, figure_with_references};

@@ -274,7 +274,7 @@
     told([{ message: `the solver cannot start here: ${error.message}`, help: "open the page in a current browser", line: "" }]);
     return;
   }
-  sweep = sweepOf(state, solver.background, {
+  sweep = sweepOf(state, solver.background, data.dashes, {
     changed: downloads,
     provided: (gap) => {
       if (!run || !run.summary.gaps[gap]) return NaN;

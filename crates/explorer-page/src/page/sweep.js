@@ -2,8 +2,8 @@
 // What pounding does at many widths, in the background: a curve for the law of the gap, and one
 // for each model beside it. Widths grow from right to left of what is known: the curve is drawn as
 // it comes.
-const sweepOf = (state, background, actions) => {
-  const { part, html, svg, shown, ticks, save } = elements;
+const sweepOf = (state, background, dashes, actions) => {
+  const { part, html, svg, shown, clean, ticks, save } = elements;
   const QUANTITIES = {
     impacts: ["impacts", 1, (columns) => columns.impacts],
     peak_force: ["peak contact force (kN)", 1e-3, (columns) => columns.peak_force],
@@ -17,9 +17,7 @@ const sweepOf = (state, background, actions) => {
     ],
     impact_energy: ["energy dissipated in contacts (kJ)", 1e-3, (columns) => columns.impact_energy],
   };
-  // Dashes and spaces of curves in turn, as figures have them (px). There are six colours: up to 42
-  // curves no two have the same dashes and colour.
-  const DASHES = ["", "6.7 2.1", "1.8 1.8", "8 2.1 1.8 2.1", "3.7 1.9", "10.7 2.1 1.8 2.1 1.8 2.1", "4.7 4"];
+  // Seven dashes and six colours in turn: up to 42 curves no two have the same of both.
   const COLOURS = 6;
   // Widths of one request: few enough to be stopped soon.
   const AT_ONCE = 10;
@@ -32,8 +30,10 @@ const sweepOf = (state, background, actions) => {
   let curves = new Map();
   let done = [0, 0];
 
+  // Dashes and spaces as figures have them (pt), on the screen.
+  const pixels = dashes.map((dash) => dash.split(" ").map((length) => length && clean((length * 4) / 3)).join(" "));
   // How curve number so many is drawn, and a piece of a line as it stands in the legend.
-  const looks = (i) => ({ class: `curve curve-${i % COLOURS}`, "stroke-dasharray": DASHES[i % DASHES.length] || null });
+  const looks = (i) => ({ class: `curve curve-${i % COLOURS}`, "stroke-dasharray": pixels[i % pixels.length] || null });
   const SAMPLE = 40;
   const sample = (look) => svg("svg", { class: "key", width: SAMPLE, height: 8, viewBox: `0 0 ${SAMPLE} 8`, "aria-hidden": "true" }, svg("path", { ...look, d: `M0 4H${SAMPLE}` }));
   const mark = (kind) => ({ class: `mark ${kind}` });

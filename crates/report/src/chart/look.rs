@@ -8,8 +8,8 @@ use serde::{Deserialize, Serialize};
 const COLOURS: [&str; 7] = [
     "#10437f", "#c8502a", "#2d8a4e", "#8a5bb0", "#a47d00", "#0e8fa0", "#7a2f4a",
 ];
-/// Dashes and spaces in turn (pt); the first is a solid line.
-const DASHES: [&str; 7] = [
+/// Dashes and spaces of curves in turn (pt); the first is a solid line.
+pub const DASHES: [&str; 7] = [
     "",
     "5 1.6",
     "1.3 1.3",

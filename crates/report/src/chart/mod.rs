@@ -12,7 +12,7 @@ mod look;
 
 pub use axis::{Axis, Scale};
 pub(crate) use drawing::FACES;
-pub use look::Look;
+pub use look::{DASHES, Look};
 
 /// A series of points with its look.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -114,3 +114,29 @@ fn a_record_of_the_same_size_and_time_is_read_anew() {
     assert!(told.contains("of another version of the study"), "{told}");
     assert_eq!(copies(&bench).len(), 3);
 }
+
+/// What is said of a record when it is read stands in every shard, whichever came first, and in one
+/// that goes on: the merged file is that of one call.
+#[test]
+fn what_is_said_of_a_record_does_not_depend_on_the_order_of_shards() {
+    let bench = bench();
+    let text = String::from_utf8(bench.bytes("b.csv")).unwrap();
+    // Six times as strong: larger than any recorded.
+    let mut scaled = String::new();
+    for line in text.lines() {
+        let values: Vec<_> = line.split(',').map(str::parse::<f64>).collect();
+        match values.as_slice() {
+            [Ok(time), Ok(value)] => scaled += &format!("{time},{}\n", 6.0 * value),
+            _ => scaled += &format!("{line}\n"),
+        }
+    }
+    std::fs::write(bench.path("b.csv"), scaled).unwrap();
+    let told = bench.text("sweep study.toml -o whole.h5");
+    assert!(told.contains("larger than any recorded"), "{told}");
+    for shard in [3, 1, 2] {
+        let told = bench.text(&format!("sweep study.toml --shard {shard}/3 --into all"));
+        assert!(told.contains("larger than any recorded"), "{shard}: {told}");
+    }
+    bench.text("merge all -o merged.h5");
+    assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
+}

@@ -45,7 +45,7 @@ pub(crate) use demand::levels;
 pub(crate) use parallel::in_parallel;
 #[cfg(feature = "results")]
 pub(crate) use records::across_of_another;
-pub(crate) use records::{of_each_record, of_reading, warnings};
+pub(crate) use records::{of_each_record, of_reading, said_in_reading, warnings};
 pub use systems::rebuilt;
 
 use pounding_case::{Case, Separation};

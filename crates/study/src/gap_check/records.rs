@@ -30,9 +30,10 @@ pub(crate) fn warnings(case: &Case, records: &[CaseUnderRecord]) -> Vec<String> 
         return Vec::new();
     };
     let structure = Warning::of_structure(&first.assembly.system);
-    let read = records
-        .iter()
-        .map(|record| (record.name.as_str(), &record.assembly.accelerogram));
+    let read = records.iter().map(|record| {
+        let said = said_in_reading(&record.assembly.accelerogram);
+        (record.name.as_str(), said)
+    });
     let excitation = records.iter().flat_map(|record| {
         let assembly = &record.assembly;
         let found = Warning::of_excitation(&assembly.system, &assembly.options);
@@ -46,18 +47,20 @@ pub(crate) fn warnings(case: &Case, records: &[CaseUnderRecord]) -> Vec<String> 
     told
 }
 
+/// What was said when a record was read.
+pub(crate) fn said_in_reading(record: &Accelerogram) -> Vec<String> {
+    match record.origin() {
+        Some(origin) => origin.warnings.clone(),
+        // A motion that comes from no file was held against nothing.
+        None => record.unusual_time_step().into_iter().collect(),
+    }
+}
+
 /// What was said when records were read, by their names: the first of each kind, with how many
 /// are like it.
-pub(crate) fn of_reading<'r>(
-    records: impl Iterator<Item = (&'r str, &'r Accelerogram)>,
-) -> Vec<String> {
+pub(crate) fn of_reading<'r>(records: impl Iterator<Item = (&'r str, Vec<String>)>) -> Vec<String> {
     let mut kinds: Vec<(String, String, BTreeSet<&str>)> = Vec::new();
-    for (name, record) in records {
-        // A motion that comes from no file was held against nothing.
-        let said = match record.origin() {
-            Some(origin) => origin.warnings.clone(),
-            None => record.unusual_time_step().into_iter().collect(),
-        };
+    for (name, said) in records {
         for text in said {
             let kind = text.replace(|c: char| c.is_ascii_digit() || "+-.".contains(c), "");
             match kinds.iter_mut().find(|known| known.0 == kind) {

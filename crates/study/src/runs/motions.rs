@@ -10,7 +10,7 @@ use sha2::{Digest, Sha256};
 
 use super::shared_records::{self, SharedRecords};
 use crate::error::StudyError;
-use crate::gap_check::Shape;
+use crate::gap_check::{Shape, said_in_reading};
 use crate::study_file::{IntensityMeasure, RecordKind, RecordSource, Study, Target};
 use pounding_files::checksum::hexadecimal;
 
@@ -29,6 +29,8 @@ pub(crate) struct Motion {
     pub intensity: Option<f64>,
     /// Time of its peak acceleration (s).
     pub peak_time: f64,
+    /// What was said when it was read.
+    pub warnings: Vec<String>,
 }
 
 /// All motions; those that cannot be read with the reason.
@@ -198,6 +200,7 @@ pub(crate) fn motion(
         first: String::new(),
         intensity: measure.map(|m| m.of(&record)).transpose()?,
         peak_time: record.peak().time,
+        warnings: said_in_reading(&record),
         record: Some(Arc::new(record)),
         sha256,
     })

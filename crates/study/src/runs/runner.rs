@@ -117,10 +117,7 @@ impl<'s> Runner<'s> {
         warnings.extend(beside_that_across(study));
         let told = || motions.all.iter().zip(&study.records);
         warnings.extend(of_reading(told().filter_map(|(motion, source)| {
-            Some((
-                source.name.as_str(),
-                motion.as_ref().ok()?.record.as_deref()?,
-            ))
+            Some((source.name.as_str(), motion.as_ref().ok()?.warnings.clone()))
         })));
         warnings.extend(of_each_record(told().filter_map(|(motion, source)| {
             let (duration, peak) = (duration_of_case(study)?, motion.as_ref().ok()?.peak_time);

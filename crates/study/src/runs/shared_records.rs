@@ -50,6 +50,8 @@ struct Known {
     intensity: Option<u64>,
     /// The bits of the time of the peak.
     peak_time: u64,
+    /// See [`Motion::warnings`]: every shard has them, so that the merged result does.
+    warnings: Vec<String>,
 }
 
 /// By what a file that was changed is told, or another in its place: programs that copy set the time of
@@ -104,6 +106,7 @@ impl SharedRecords {
             first: known.first.clone(),
             intensity: known.intensity.map(f64::from_bits),
             peak_time: f64::from_bits(known.peak_time),
+            warnings: known.warnings.clone(),
         })
     }
 
@@ -154,6 +157,7 @@ impl SharedRecords {
                 first: motion.first.clone(),
                 intensity: motion.intensity.map(f64::to_bits),
                 peak_time: motion.peak_time.to_bits(),
+                warnings: motion.warnings.clone(),
             });
         }
         if self.list.records == before {

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 use pounding_files::{AskedOfTargets, FileUse, LeftOver, PartFile, ask_of_targets, left_over};
 use pounding_report::Answered;
 use pounding_results::{Kind, Label};
-use pounding_study::ShardName;
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
+use pounding_study::{ShardName, is_shard_of_check};
 
 use crate::arguments::InputPath;
 use crate::failure::Failure;
@@ -96,10 +96,13 @@ pub fn no_result_stands(path: &Path) -> Result<(), Failure> {
     }
 }
 
-/// Refuses to put anything but a result into the place of one.
+/// Refuses to put anything but a result into the place of one, or of a shard of a check.
 fn no_run_stands(path: &Path) -> Result<(), Failure> {
     match Label::of(path) {
         Some(found) => Err(stands(path, &format!("the result of {}", found.kind))),
+        None if is_shard_of_check(path) => {
+            Err(stands(path, "a finished shard of `gap` or `compare`"))
+        }
         None => Ok(()),
     }
 }

@@ -54,6 +54,8 @@ mod table;
 pub const BUILD: &str = env!("POUNDING_BUILD");
 
 pub use dealt::Deal;
+#[cfg(feature = "results")]
+pub use dealt::is_shard_of_check;
 
 #[cfg(feature = "results")]
 pub use design::{Design, MOST_DIMENSIONS};
@@ -63,7 +65,7 @@ pub use fractiles::fractile;
 #[cfg(feature = "results")]
 pub use ida::*;
 #[cfg(feature = "results")]
-pub use merge::{MergeReport, merge};
+pub use merge::{MergeReport, merge, read_by_study};
 #[cfg(feature = "results")]
 pub use pounding_results::study::{
     Coordinate, Description, Fault, MergeOptions, Part, ResultReader, StudyFileError, Survey,

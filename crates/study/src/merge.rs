@@ -1,5 +1,6 @@
 //! One result from the results of all shards.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use pounding_files::FileUse;
@@ -8,6 +9,7 @@ use pounding_results::study::{Description, MergeOptions, ResultWriter, Shards};
 
 use crate::error::StudyError;
 use crate::shard_name::ShardName;
+use crate::study_file::Study;
 use crate::sweep::{default_result, of_this_study};
 use crate::table::RunTable;
 
@@ -33,7 +35,7 @@ pub struct MergeReport {
 /// merge lacks some.
 ///
 /// # Errors
-/// [`StudyError::FileUse`] if the output or the table is one of the files,
+/// [`StudyError::FileUse`] if the output or the table is one of the files, or one that the study reads,
 /// as [`Shards::open`], [`StudyError::NamedAsShard`], [`StudyError::NotMerged`] if runs of the study would be lost that stand
 /// in the place of the output alone, or [`StudyError::ResultFile`].
 pub fn merge(
@@ -45,6 +47,9 @@ pub fn merge(
     let mut used = FileUse::new();
     for file in files {
         used.reads("shard", file);
+    }
+    for (role, file) in read_by_study(files) {
+        used.reads(role, file);
     }
     used.writes("output", output);
     if let Some(path) = csv {
@@ -80,6 +85,26 @@ pub fn merge(
     }
     writer.finish()?;
     Ok(report)
+}
+
+/// The files that the study of these shards reads, as far as it is found where they say, with what
+/// each is: merging reads none of them, and must replace none.
+#[must_use]
+pub fn read_by_study(shards: &[PathBuf]) -> Vec<(&'static str, PathBuf)> {
+    let mut studies = BTreeSet::new();
+    for label in shards.iter().filter_map(|shard| Label::of(shard)) {
+        studies.insert(label.file);
+    }
+    let mut files = Vec::new();
+    for study in studies.into_iter().map(PathBuf::from) {
+        if study.is_file() {
+            match Study::read(&study) {
+                Ok(study) => files.extend(study.files()),
+                Err(_) => files.push(("study", study)),
+            }
+        }
+    }
+    files
 }
 
 /// The study file that the merged result says it is of, as one call would: that of the shards, under

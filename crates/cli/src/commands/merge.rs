@@ -7,19 +7,22 @@ use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_results::{Kind, Label};
-use pounding_study::{Fault, MergeOptions, Survey, ranges, survey, writable};
+use pounding_study::{Fault, MergeOptions, Survey, ranges, read_by_study, survey, writable};
 use serde::Serialize;
 
 use crate::arguments::MergeArguments;
 use crate::failure::Failure;
-use crate::files::{Replaced, shard_files};
+use crate::files::{Replaced, reads_too, shard_files};
 use crate::output::{pretty, print, warn};
 use crate::separate::{Reading, by_child, reading, warnings};
 use crate::study::{none_succeeded, shows_a_run};
 
 /// Merges the results of shards, or says whether they can be merged.
-pub fn merge(arguments: &MergeArguments, files: FileUse) -> Result<(), Failure> {
+pub fn merge(arguments: &MergeArguments, mut files: FileUse) -> Result<(), Failure> {
     let shards = shard_files(&arguments.shards)?;
+    if arguments.output.is_some() {
+        reads_too(&mut files, read_by_study(&shards))?;
+    }
     if let Some(output) = &arguments.output {
         writable(output)?;
         replaced(output, None).spared(true)?;

@@ -7,9 +7,10 @@ use std::time::{Duration, SystemTime};
 
 use pounding_case::Dimension;
 use pounding_catalogue::wording::counted;
-use pounding_files::checksum::is_absent;
-use pounding_files::free_name;
+use pounding_files::checksum::{ChecksumError, WithoutChecksum, is_absent};
+use pounding_files::{free_name, same_file};
 use pounding_results::Label;
+use pounding_results::study::ResultReader;
 use pounding_study::{ShardName, ranges};
 use serde::Serialize;
 
@@ -17,7 +18,7 @@ use crate::arguments::{StatusArguments, value};
 use crate::failure::Failure;
 use crate::heartbeat::{Beat, State, read, told};
 use crate::interruption::{resumed, shell_line};
-use crate::output::{pretty, print, print_as_it_is};
+use crate::output::{note, pretty, print, print_as_it_is};
 use crate::plan::path_word;
 use crate::progress::time;
 
@@ -64,13 +65,24 @@ pub fn status(arguments: &StatusArguments) -> Result<(), Failure> {
     }
 }
 
-/// The list of shards that are unfinished, as the plan of the one study takes it that has some.
+/// The list of shards that are unfinished, as the plan of the one study takes it that has some. Those in
+/// whose places other results stand, which the plan refuses to replace, are named beside it.
 fn list_of_one(folder: &Path, studies: &[Progress]) -> Result<String, Failure> {
     let has_some = |study: &&Progress| !study.unfinished().is_empty();
     let unfinished: Vec<&Progress> = studies.iter().filter(has_some).collect();
     match unfinished[..] {
         [] => Ok(String::new()),
-        [one] => Ok(ranges(&one.unfinished())),
+        [one] => {
+            let in_the_way = one.in_the_way();
+            if !in_the_way.is_empty() {
+                note(&format!(
+                    "shards {} are not in the list: what stands in their places has to be moved away first, as `pounding status {}` shows",
+                    ranges(&in_the_way),
+                    shell_line(&[path_word(folder)])
+                ));
+            }
+            Ok(ranges(&one.for_the_plan()))
+        }
         _ => {
             let named = unfinished
                 .iter()
@@ -117,6 +129,9 @@ struct Progress {
     command: Option<(PathBuf, Vec<String>)>,
     /// Commands that go on with shards that are neither done nor running.
     commands: Vec<String>,
+    /// Shards in whose places results stand that are of no use and that no call replaces.
+    #[serde(skip)]
+    no_use: Vec<usize>,
 }
 
 /// How far a shard is.
@@ -171,6 +186,8 @@ fn look(folder: &Path) -> Result<Vec<Progress>, Failure> {
 struct Found {
     shard: usize,
     is_whole: bool,
+    /// Why it cannot be read here.
+    unreadable: Option<String>,
     /// Identity of its study, and when it was written.
     version: Option<(SystemTime, String)>,
 }
@@ -178,7 +195,12 @@ struct Found {
 impl Found {
     fn at(path: &Path, shard: usize) -> Self {
         // The end of a result is the last that is written: without it the file was cut off.
-        let is_whole = matches!(is_absent(path), Ok(false));
+        let checksum = is_absent(path);
+        let is_whole = matches!(checksum, Ok(false));
+        let unreadable = match checksum {
+            Err(ChecksumError::Read(reason)) => Some(reason.to_string()),
+            _ => None,
+        };
         let version = || {
             let study = Label::of(path)?.study?;
             Some((path.metadata().ok()?.modified().ok()?, study.sha256))
@@ -186,13 +208,14 @@ impl Found {
         Self {
             shard,
             is_whole,
+            unreadable,
             version: is_whole.then(version).flatten(),
         }
     }
 }
 
 /// What stands under the name of the result of a shard.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 enum Standing {
     /// A part of the result.
     Result,
@@ -200,15 +223,29 @@ enum Standing {
     OtherVersion,
     /// What is cut off, or no result.
     Damaged,
+    /// What cannot be read here, and why.
+    Unreadable(String),
+}
+
+impl Standing {
+    /// Why a result that is whole, as far as is known, is of no use.
+    fn of_no_use(&self) -> Option<String> {
+        match self {
+            Self::OtherVersion => Some("its result is of another version of the study".to_owned()),
+            Self::Unreadable(reason) => Some(format!("its result cannot be read here: {reason}")),
+            Self::Result | Self::Damaged => None,
+        }
+    }
 }
 
 /// What stands for each shard that something stands for.
 fn standing(found: &[Found]) -> BTreeMap<usize, Standing> {
     let versions = found.iter().filter_map(|file| file.version.as_ref());
     let last = versions.max().map(|(_, identity)| identity);
-    let standing = |file: &Found| match &file.version {
+    let standing = |file: &Found| match (&file.version, &file.unreadable) {
+        (_, Some(reason)) => Standing::Unreadable(reason.clone()),
         _ if !file.is_whole => Standing::Damaged,
-        Some((_, identity)) if Some(identity) != last => Standing::OtherVersion,
+        (Some((_, identity)), _) if Some(identity) != last => Standing::OtherVersion,
         _ => Standing::Result,
     };
     found
@@ -231,20 +268,30 @@ impl Progress {
             collapsed: 0,
             command: None,
             commands: Vec::new(),
+            no_use: Vec::new(),
         };
         for index in 1..=count {
             let beat = read(folder, &progress.shard(index));
             // A call that was refused or failed leaves what stood there, which may be no part of
             // this study.
             let failed = beat.as_ref().is_some_and(|b| b.state == State::Failed);
-            let found = standing.get(&index).copied();
-            let stands = found == Some(Standing::Result) && !failed;
+            let found = standing.get(&index);
+            if found.is_some_and(|found| found.of_no_use().is_some()) {
+                progress.no_use.push(index);
+            }
+            let stands = found == Some(&Standing::Result) && !failed;
             // Runs of a result that is gone are gone.
             let gone_again = |b: &&Beat| stands || b.state != State::Done;
-            if let Some(beat) = beat.as_ref().filter(gone_again) {
-                progress.finished += beat.finished;
-                progress.failed += beat.failed;
-                progress.collapsed += beat.collapsed;
+            let told = beat.as_ref().filter(gone_again);
+            match told.filter(|beat| !stands || beat.state == State::Done) {
+                Some(beat) => progress.count(beat.finished, [beat.failed, beat.collapsed]),
+                // Nothing was told of what stands: it was copied here, or what told of it is lost.
+                None if stands => {
+                    let (finished, ended) =
+                        counted_in(&folder.join(progress.shard(index).result()));
+                    progress.count(finished, ended);
+                }
+                None => {}
             }
             if let Some(beat) = &beat {
                 let command = || (beat.folder.clone(), beat.command.clone());
@@ -252,10 +299,10 @@ impl Progress {
             }
             match beat {
                 _ if stands => progress.done.push(index),
-                None if found == Some(Standing::OtherVersion) => {
-                    progress.ended.push(Of::other_version(index));
-                }
-                None => progress.missing.push(index),
+                None => match found.and_then(Standing::of_no_use) {
+                    Some(why) => progress.ended.push(Of::untold(index, why)),
+                    None => progress.missing.push(index),
+                },
                 Some(beat) => {
                     let running = beat.is_running();
                     let of = Of {
@@ -280,10 +327,11 @@ impl Progress {
         }
         let unfinished = progress.unfinished();
         let commands = unfinished.iter().filter_map(|shard| {
-            let command = progress.goes_on(*shard)?;
+            let command = progress.goes_on(folder, *shard)?;
             // A call moves what is damaged out of its way, and refuses to replace anything else.
             let moved = match standing.get(shard) {
                 None | Some(Standing::Damaged) => String::new(),
+                Some(Standing::Unreadable(_)) => return None,
                 Some(_) => moved(&folder.join(progress.shard(*shard).result())),
             };
             Some(format!("{moved}{command}"))
@@ -300,8 +348,28 @@ impl Progress {
         }
     }
 
+    fn count(&mut self, finished: usize, [failed, collapsed]: [usize; 2]) {
+        self.finished += finished;
+        self.failed += failed;
+        self.collapsed += collapsed;
+    }
+
     fn is_done(&self) -> bool {
         self.done.len() == self.shards
+    }
+
+    /// Unfinished shards in whose places results stand that a plan does not replace.
+    fn in_the_way(&self) -> Vec<usize> {
+        let unfinished = self.unfinished();
+        let stand = |shard: &usize| self.no_use.contains(shard);
+        unfinished.into_iter().filter(stand).collect()
+    }
+
+    /// Unfinished shards that a plan makes.
+    fn for_the_plan(&self) -> Vec<usize> {
+        let unfinished = self.unfinished();
+        let free = |shard: &usize| !self.no_use.contains(shard);
+        unfinished.into_iter().filter(free).collect()
     }
 
     /// Shards that are neither done nor running.
@@ -312,24 +380,34 @@ impl Progress {
         all
     }
 
-    /// The command that goes on with a shard: that of another one, with this number.
-    fn goes_on(&self, shard: usize) -> Option<String> {
-        let (folder, words) = self.command.as_ref()?;
-        let mut words = words.clone();
-        let numbered = format!("{shard}/{}", self.shards);
-        let at = words.iter().position(|word| word == "--shard");
-        match at.and_then(|at| words.get_mut(at + 1)) {
-            Some(word) => *word = numbered,
-            None => {
-                let joined = words.iter_mut().find(|word| word.starts_with("--shard="))?;
-                *joined = format!("--shard={numbered}");
+    /// The command that goes on with a shard in a folder: that of another one, with this number. The
+    /// folder may have been moved or copied since.
+    fn goes_on(&self, into: &Path, shard: usize) -> Option<String> {
+        let (called_in, words) = self.command.as_ref()?;
+        let (mut called_in, mut words) = (called_in.clone(), words.clone());
+        let into = std::path::absolute(into).ok()?;
+        set(&mut words, "--shard", |_| {
+            format!("{shard}/{}", self.shards)
+        })?;
+        set(&mut words, "--into", |named| {
+            if !called_in.is_dir() && into.ends_with(named) {
+                // All has moved, the study with the results of its shards.
+                let above = into.ancestors().nth(Path::new(named).components().count());
+                called_in = above.map_or(called_in.clone(), Path::to_owned);
             }
-        }
+            match same_file(&called_in.join(named), &into) {
+                true => named.to_owned(),
+                false => into.display().to_string(),
+            }
+        })?;
         let line = shell_line(&resumed(words));
-        let here = std::env::current_dir().is_ok_and(|here| here == *folder);
+        let here = std::env::current_dir().is_ok_and(|here| here == called_in);
         Some(match here {
             true => line,
-            false => format!("cd {} && {line}", shell_line(&[folder.to_string_lossy()])),
+            false => format!(
+                "cd {} && {line}",
+                shell_line(&[called_in.to_string_lossy()])
+            ),
         })
     }
 
@@ -376,10 +454,15 @@ impl Progress {
         if let Some(first) = self.commands.first() {
             text.push_str(&format!("go on with\n  {first}\n"));
             if unfinished.len() > 1 {
-                text.push_str(&format!(
-                    "and likewise with the others, or give the script of the plan this list: {}\n",
-                    ranges(&unfinished)
-                ));
+                let listed = self.for_the_plan();
+                text.push_str("and likewise with the others");
+                if !listed.is_empty() {
+                    text.push_str(&format!(
+                        ", or give the script of the plan this list: {}",
+                        ranges(&listed)
+                    ));
+                }
+                text.push('\n');
             }
         }
         if self.is_done() {
@@ -393,21 +476,41 @@ impl Progress {
     }
 }
 
+/// Sets the value of an option among the words of a command; `None` if it is not among them.
+fn set(words: &mut [String], option: &str, value: impl FnOnce(&str) -> String) -> Option<()> {
+    if let Some(at) = words.iter().position(|word| word == option) {
+        let word = words.get_mut(at + 1)?;
+        *word = value(word);
+        return Some(());
+    }
+    let joined = format!("{option}=");
+    let word = words.iter_mut().find(|word| word.starts_with(&joined))?;
+    *word = format!("{joined}{}", value(&word[joined.len()..]));
+    Some(())
+}
+
 /// What moves a file out of the way of a command that follows.
 fn moved(path: &Path) -> String {
     let words = [path_word(path), path_word(&free_name(path))];
     format!("mv {} && ", shell_line(&words))
 }
 
-/// Said of a shard whose result is of no use for the others.
-const OTHER_VERSION: &str = "its result is of another version of the study";
+/// How many runs stand in the result of a shard, and how many of them failed and collapsed. Of one that
+/// is damaged nothing is known here: merging says what it is.
+fn counted_in(result: &Path) -> (usize, [usize; 2]) {
+    let counted = || {
+        let result = ResultReader::open(result, WithoutChecksum::Accept).ok()?;
+        Some((result.rows, result.failed_and_collapsed().ok()?))
+    };
+    counted().unwrap_or_default()
+}
 
 impl Of {
     /// One that has told nothing of itself.
-    fn other_version(shard: usize) -> Self {
+    fn untold(shard: usize, how: String) -> Self {
         Self {
             shard,
-            how: OTHER_VERSION.to_owned(),
+            how,
             runs: 0,
             finished: 0,
             rate: 0.0,
@@ -418,14 +521,14 @@ impl Of {
     }
 }
 
-fn how(beat: &Beat, found: Option<Standing>) -> String {
+fn how(beat: &Beat, found: Option<&Standing>) -> String {
     let mut text = format!("{} of {}", beat.finished, counted(beat.runs, "run"));
     if beat.failed > 0 {
         text.push_str(&format!(", {} failed", beat.failed));
     }
     match beat.state {
         State::Running if beat.is_gone() => text.push_str(&format!(
-            ", {} stored; without a word for {} (process {} on {})",
+            ", {} stored when it last told of itself; without a word for {} (process {} on {})",
             beat.stored,
             time(beat.silent() as f64),
             beat.process,
@@ -438,10 +541,10 @@ fn how(beat: &Beat, found: Option<Standing>) -> String {
             }
             text.push_str(&format!(" (process {} on {})", beat.process, beat.host));
         }
-        State::Done if found == Some(Standing::OtherVersion) => {
-            text.push_str(&format!("; {OTHER_VERSION}"));
-        }
-        State::Done => text.push_str("; it was done, but its result is gone or cut off"),
+        State::Done => text.push_str(&match found.and_then(Standing::of_no_use) {
+            Some(why) => format!("; {why}"),
+            None => "; it was done, but its result is gone or cut off".to_owned(),
+        }),
         State::Interrupted => text.push_str(&format!(", {} stored; interrupted", beat.stored)),
         State::Failed => text.push_str(&format!("; {}", beat.message)),
     }

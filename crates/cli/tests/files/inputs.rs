@@ -18,7 +18,7 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 45] = [
+const CALLS: [Call; 46] = [
     call("run case.toml", CASE),
     call("explore case.toml", CASE),
     call(
@@ -103,6 +103,8 @@ const CALLS: [Call; 45] = [
     ),
     call("ida study.toml", STUDY),
     call("merge 1.h5 2.h5", &["1.h5", "2.h5"]),
+    // What the study reads stays as well, where it is found.
+    call("merge 2.h5 --partial", STUDY),
     call(
         "motion info record.csv second.csv",
         &["record.csv", "second.csv"],

@@ -165,6 +165,40 @@ fn no_text_takes_the_place_of_a_result() {
     }
 }
 
+/// Nor of a finished shard of a check, whose runs are stored nowhere else.
+#[test]
+fn nothing_takes_the_place_of_a_shard_of_a_check() {
+    let fixture = Fixture::new();
+    let run = |command: &str| fixture.run(&command.split(' ').collect::<Vec<_>>());
+    let made = run("gap case.toml --points 3 --shard 1/2 --into parts");
+    assert!(made.status.success(), "{}", message(&made));
+    let shard = "parts/case.gap-shard-1-of-2.runs";
+    let kept = std::fs::read(fixture.path(shard)).unwrap();
+    for command in [
+        "gap case.toml --points 0 --csv",
+        "gap case.toml --points 0 -o",
+        "compare case.toml --models linear_elastic --report",
+        "run case.toml -o",
+        "sweep study.toml -o",
+        "sweep study.toml -o new.h5 --csv",
+        "explore case.toml -o",
+        "motion convert record.csv -o",
+        "motion info record.csv -o",
+    ] {
+        let output = run(&format!("{command} {shard}"));
+        let said = message(&output);
+        assert_eq!(output.status.code(), Some(4), "{command}: {said}");
+        assert!(
+            said.contains("a finished shard of `gap`"),
+            "{command}: {said}"
+        );
+        assert!(
+            std::fs::read(fixture.path(shard)).unwrap() == kept,
+            "{command}"
+        );
+    }
+}
+
 /// Nor does anything but an answer take the place of an answer, and one of another command or file
 /// says so.
 #[test]

@@ -1,5 +1,6 @@
 //! How far the shards of a study are.
 
+use std::path::Path;
 use std::process::Command;
 
 use serde_json::{Value, json};
@@ -41,7 +42,7 @@ fn what_is_missing_is_named_and_goes_on() {
     let told = String::from_utf8(output.stdout).unwrap();
     for part in [
         "1 of 4 shards done in all",
-        "shard 2 ended before its end: 7 of 16 runs, 6 stored; without a word",
+        "shard 2 ended before its end: 7 of 16 runs, 6 stored when it last told of itself; without a word",
         "shard 3 ended before its end: 0 of 16 runs; no room on the disk",
         "not begun: 4",
         "--shard 2/4 --into all --keep-going --resume",
@@ -251,7 +252,15 @@ fn shards_of_two_versions_are_not_done() {
     ] {
         assert!(told.contains(part), "{part}: {told}");
     }
-    assert!(!told.contains("merge them"), "{told}");
+    assert!(
+        !told.contains("merge them") && !told.contains("script of the plan"),
+        "{told}"
+    );
+    // A plan does not replace them: they are not in its list.
+    let output = bench.run("status all --unfinished");
+    assert_eq!(output.stdout, b"\n");
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(told.contains("shards 1-2 are not in the list"), "{told}");
     goes_on_as_told(&bench);
     bench.text("merge all -o merged.h5");
     bench.text("sweep study.toml -o whole.h5");
@@ -260,17 +269,28 @@ fn shards_of_two_versions_are_not_done() {
 
 /// Does what `status` says, and finds all shards done.
 fn goes_on_as_told(bench: &Bench) {
-    let output = bench.run("status all --json");
+    goes_on_as_told_in(bench.folder.path(), "all");
+}
+
+/// The same, of the folder of shards of this name in another folder.
+fn goes_on_as_told_in(folder: &Path, shards: &str) {
+    let status = |option: &str| {
+        let mut command = super::pounding();
+        command.current_dir(folder).args(["status", shards]);
+        command.args((!option.is_empty()).then_some(option));
+        command.output().unwrap()
+    };
+    let output = status("--json");
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     for line in json["studies"][0]["commands"].as_array().unwrap() {
         let done = Command::new("sh")
             .args(["-c", line.as_str().unwrap()])
-            .current_dir(bench.folder.path())
+            .current_dir(folder)
             .output()
             .unwrap();
         assert!(done.status.success(), "{line}: {done:?}");
     }
-    assert_eq!(bench.run("status all").status.code(), Some(0));
+    assert_eq!(status("").status.code(), Some(0));
 }
 
 /// What `status` says of a damaged shard makes it again, and so does the list that a plan takes; the
@@ -332,4 +352,69 @@ fn names_behind_two_dashes_stay_names() {
     std::fs::rename(bench.path("m.h5"), bench.path("-m.h5")).unwrap();
     bench.text("report -o page.html -- -m.h5");
     bench.text("sweep --shard 1/2 --into all -- -s.toml");
+}
+
+/// Results that were copied without what told of them are counted all the same, with those that failed.
+#[test]
+fn results_without_a_word_are_counted() {
+    let bench = Bench::new(MIXED);
+    let study = String::from_utf8(bench.bytes("study.toml")).unwrap();
+    bench.study(&study.replace("kobe_1995_jma_ns.csv", "nowhere.csv"));
+    for shard in 1..=2 {
+        bench.run(&format!(
+            "sweep study.toml --shard {shard}/2 --into all --keep-going"
+        ));
+    }
+    let before = bench.text("status all");
+    assert!(before.contains("60 runs finished, 30 failed"), "{before}");
+    std::fs::remove_dir_all(bench.path("all/status")).unwrap();
+    assert_eq!(bench.text("status all"), before);
+}
+
+/// Where the folder of the shards was moved, alone or with the study, the command that is shown goes on
+/// there.
+#[test]
+fn a_moved_folder_goes_on_where_it_is() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml --shard 1/2 --into all");
+    std::fs::rename(bench.path("all"), bench.path("moved")).unwrap();
+    goes_on_as_told_in(&bench.path(""), "moved");
+    assert!(!bench.path("all").exists());
+    // All of it; a study that has not the name of its folder keeps its own.
+    let bench = Bench::new(MIXED);
+    std::fs::create_dir(bench.path("old")).unwrap();
+    for (from, to) in [
+        ("case.toml", "old/case.toml"),
+        ("study.toml", "old/own.toml"),
+    ] {
+        std::fs::rename(bench.path(from), bench.path(to)).unwrap();
+    }
+    let mut begun = bench.command("sweep own.toml --shard 1/2 --into all");
+    let begun = begun.current_dir(bench.path("old")).output().unwrap();
+    assert!(begun.status.success());
+    std::fs::rename(bench.path("old"), bench.path("new")).unwrap();
+    goes_on_as_told_in(&bench.path("new"), "all");
+    assert!(!bench.path("old").exists());
+}
+
+/// A result that this user may not read is said to be that, not gone.
+#[cfg(unix)]
+#[test]
+fn a_result_that_may_not_be_read_is_not_called_gone() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml --shard 1/2 --into all");
+    let name = bench.folder.path().canonicalize().unwrap();
+    let name = name.file_name().unwrap().to_str().unwrap().to_owned();
+    let result = bench.path(&format!("all/{name}.shard-1-of-2.h5"));
+    std::fs::set_permissions(&result, std::fs::Permissions::from_mode(0o000)).unwrap();
+    if std::fs::File::open(&result).is_ok() {
+        // Root may read everything.
+        return;
+    }
+    let told = String::from_utf8(bench.run("status all").stdout).unwrap();
+    assert!(
+        told.contains("cannot be read here: Permission denied"),
+        "{told}"
+    );
 }

@@ -144,6 +144,31 @@ impl ResultReader {
         })
     }
 
+    /// How many of its runs failed, and in how many a building collapsed.
+    ///
+    /// # Errors
+    /// [`StudyFileError::File`].
+    pub fn failed_and_collapsed(&self) -> Result<[usize; 2], StudyFileError> {
+        let _reading = Reading::of(&self.path);
+        let status = match self.rows {
+            0 => Ok(Vec::new()),
+            rows => column::<i8>(&self.status, &(0..rows)),
+        };
+        let status = status.map_err(|e| StudyFileError::File {
+            what: "read",
+            path: self.path.clone(),
+            reason: e.to_string(),
+        })?;
+        let endings = [
+            Ending::Failed(String::new()),
+            Ending::Collapsed(String::new()),
+        ];
+        Ok(endings.map(|ending| {
+            let (flag, _) = ending.status();
+            status.iter().filter(|status| **status == flag).count()
+        }))
+    }
+
     /// Rows at these places of the file, with the values of the variables.
     ///
     /// # Errors

@@ -1,6 +1,6 @@
 //! The files of shards.
 
-use std::io::{Error, ErrorKind};
+use std::io::{Error, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use pounding_case::Case;
@@ -135,6 +135,24 @@ struct Content {
 
 /// Bytes of the hash at the end.
 const HASH: usize = 32;
+/// How the line of JSON begins.
+const BEGINS: &[u8] = b"{\"check\":\"";
+
+/// Whether a file is a whole shard of a gap check or a comparison, of whatever case.
+#[must_use]
+pub fn is_shard_of_check(file: &Path) -> bool {
+    let mut begins = [0; BEGINS.len()];
+    let first = input::open(file).and_then(|mut file| file.read_exact(&mut begins));
+    first.is_ok()
+        && begins == BEGINS
+        && input::read(file).is_ok_and(|bytes| whole(&bytes).is_some())
+}
+
+/// What stands before the hash, if that is its.
+fn whole(bytes: &[u8]) -> Option<&[u8]> {
+    let (content, hash) = bytes.split_at(bytes.len().checked_sub(HASH)?);
+    (Sha256::digest(content).as_slice() == hash).then_some(content)
+}
 
 impl Content {
     fn of<T: Stored>(shard: Shard, count: usize, mine: &[usize], made: &[Made<T>]) -> Self {
@@ -175,11 +193,7 @@ impl Content {
         let wrong = |reason: &'static str| Error::new(ErrorKind::InvalidData, reason);
         let bytes = input::read(file)?;
         let damaged = || wrong("it is damaged, or no shard of a check");
-        let body = bytes.len().checked_sub(HASH).ok_or_else(damaged)?;
-        let (content, hash) = bytes.split_at(body);
-        if Sha256::digest(content).as_slice() != hash {
-            return Err(damaged());
-        }
+        let content = whole(&bytes).ok_or_else(damaged)?;
         let end = content
             .iter()
             .position(|b| *b == b'\n')

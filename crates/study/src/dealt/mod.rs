@@ -15,6 +15,8 @@ use crate::sweep::Shard;
 
 #[cfg(feature = "results")]
 pub(crate) use files::identity;
+#[cfg(feature = "results")]
+pub use files::is_shard_of_check;
 
 /// Who makes the runs of a check.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]

@@ -70,7 +70,7 @@ impl Stamp {
         if now != *self {
             return Err(OpenError::Changed);
         }
-        let file = hdf5::File::open(path).map_err(|e| OpenError::Hdf5(first_line(&e)))?;
+        let file = hdf5::File::open(path).map_err(|e| OpenError::Hdf5(reason_of(&e)))?;
         Ok(ResultFile {
             file,
             checksum: self.checksum,
@@ -116,7 +116,7 @@ impl ResultFile {
         // Before the content is read: what is written meanwhile is seen by it.
         let before = Stamp::of(path, Checksum::Matches).map_err(ChecksumError::Read)?;
         let checksum = check(path, without)?;
-        let file = hdf5::File::open(path).map_err(|e| OpenError::Hdf5(first_line(&e)))?;
+        let file = hdf5::File::open(path).map_err(|e| OpenError::Hdf5(reason_of(&e)))?;
         // Cut off right where its content ends, a file looks as if it never had one.
         if checksum == Checksum::Absent && file.attr_names().is_ok_and(|all| has_one(&all)) {
             return Err(ChecksumError::Removed.into());
@@ -151,10 +151,13 @@ fn has_one(names: &[String]) -> bool {
     names.iter().any(|name| name == CHECKSUM)
 }
 
-/// What HDF5 says without its call stack.
-fn first_line(error: &hdf5::Error) -> String {
+/// Why HDF5 could not read or write: of its call stack, what the system said, or else the first line.
+fn reason_of(error: &dyn std::fmt::Display) -> String {
     let text = error.to_string();
-    text.lines().next().unwrap_or_default().to_owned()
+    let quoted = text.split("error message = '").nth(1);
+    let said = quoted.and_then(|rest| rest.split('\'').next());
+    let first = || text.lines().next().unwrap_or_default();
+    said.unwrap_or_else(first).to_owned()
 }
 
 #[cfg(test)]

@@ -89,7 +89,7 @@ pub enum StudyError {
         stored: usize,
     },
     /// Finished runs of another study, or of another version of this one.
-    #[error("{folder} holds runs of another study or of another version of it")]
+    #[error("{folder} holds runs of another study, of another version of it, or of another shard")]
     OtherStudy {
         /// Folder of the finished chunks.
         folder: PathBuf,
@@ -257,7 +257,7 @@ impl StudyError {
             }
             Self::Unfinished { .. } => "go on with --resume, or remove the folder to begin anew",
             Self::OtherStudy { .. } => {
-                "name another result with -o, or remove the folder if its runs are of no use"
+                "name another result with -o, give all shards one folder with --into, where each has a name of its own, or remove the folder if its runs are of no use"
             }
             Self::OtherBuild { .. } => {
                 "go on with the build that began, name another result with -o, or remove the folder to make all runs anew"

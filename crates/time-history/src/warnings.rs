@@ -5,6 +5,7 @@ use std::fmt;
 use std::sync::Arc;
 
 use pounding_catalogue::STANDARD_GRAVITY;
+use pounding_catalogue::numbers::six_digits;
 use pounding_gap_element::{Bodies, ImpactModel, collide};
 use pounding_hysteresis::laboratory;
 use pounding_shear_building::{Damping, DampingMatrix, Modes, OVERTURNING_RATIO, ShearBuilding};
@@ -274,7 +275,9 @@ impl fmt::Display for Warning {
                 peak,
             } => write!(
                 f,
-                "the run ends at {duration} s, before the peak ground acceleration at {peak} s{place}, and what follows is left out: take a longer `duration`, or leave it out; where a filter puts zeros before the record, `keep_pads = false` in the filter leaves them out"
+                "the run ends at {} s, before the peak ground acceleration at {} s{place}, and what follows is left out: take a longer `duration`, or leave it out; where a filter puts zeros before the record, `keep_pads = false` in the filter leaves them out",
+                six_digits(*duration),
+                six_digits(*peak)
             ),
             Self::EnergyFromContacts { place, energy } => write!(
                 f,

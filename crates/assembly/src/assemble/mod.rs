@@ -360,10 +360,9 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
         let at_matrix = b.lateral.as_ref().map_or(&b.name.span, |l| &l.span);
         let at_isolator = b.isolator.as_ref().map_or(&b.name.span, |i| &i.span);
         let (place, help) = match &e {
-            ShearBuildingError::Unstable { .. } => (&b.name.span, None),
-            ShearBuildingError::UnstableMatrix { .. } | ShearBuildingError::Length { .. } => {
-                (at_matrix, None)
-            }
+            ShearBuildingError::Unstable { .. } => (&b.name.span, Some(OVERTURNED.to_owned())),
+            ShearBuildingError::UnstableMatrix { .. } => (at_matrix, Some(OVERTURNED.to_owned())),
+            ShearBuildingError::Length { .. } => (at_matrix, None),
             ShearBuildingError::TooManyStoreys { .. } => (
                 &b.name.span,
                 Some("join storeys: several of them as one of their total height and mass, and of their stiffnesses in series".to_owned()),
@@ -384,6 +383,10 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
     let made = building.with_contact_points(points);
     made.map_err(|e| case.error(b.name.span.clone(), e.to_string(), None))
 }
+
+/// What to do about a building that gravity overturns.
+const OVERTURNED: &str =
+    "correct stiffness, masses and heights, with their units; `p_delta = false` leaves gravity out";
 
 fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {
     let at_model = |e: GapElementError| case.error(gap.model.span.clone(), e.to_string(), e.help());

@@ -58,7 +58,8 @@ impl Reader<'_> {
         message: impl Into<String>,
         help: impl Into<String>,
     ) -> CaseError {
-        CaseError::new(self.file, self.source, span, message, Some(help.into()))
+        let help = Some(help.into()).filter(|help| !help.is_empty());
+        CaseError::new(self.file, self.source, span, message, help)
     }
 
     /// Records an error; in the place of the value that is not there because of it.

@@ -91,6 +91,12 @@ fn errors_point_at_their_place() {
             "name = \"impacts\"",
             vec!["\"impacts\" cannot name a coordinate"],
         ),
+        // A column of tables alone.
+        (
+            "name = \"gap\"",
+            "name = \"diagnosis\"",
+            vec!["\"diagnosis\" cannot name a coordinate"],
+        ),
         (
             "name = \"gap\"",
             "name = \"model\"",

@@ -24,7 +24,7 @@ use sha2::{Digest, Sha256};
 
 use crate::attributes::{self, text};
 use crate::dimension_scales;
-use crate::label;
+use crate::{label, reason_of};
 pub(crate) use buildings::with_base_moment;
 pub use memory::{image, run_in_memory, write_run};
 pub use size::{MAXIMUM_RESPONSES, ResponsesTooLarge, check_size};
@@ -195,15 +195,6 @@ impl HistorySink for RunWriter<'_> {
             TimeHistoryError::Recorder(failure.clone())
         })
     }
-}
-
-/// Why HDF5 could not write: of its call stack, what the system said, or else the first line.
-fn reason_of(error: &hdf5::Error) -> String {
-    let text = error.to_string();
-    let quoted = text.split("error message = '").nth(1);
-    let said = quoted.and_then(|rest| rest.split('\'').next());
-    let first = || text.lines().next().unwrap_or_default();
-    said.unwrap_or_else(first).to_owned()
 }
 
 fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {

@@ -76,7 +76,7 @@ impl StudyFileError {
         let text = match self {
             Self::Aside { source, .. } => return source.help(),
             Self::File { what: "write", .. } => {
-                "check that the folder exists, may be written to and has room, or name another file with -o; runs that were finished stay stored, and --resume goes on with them"
+                "check that the folder exists, may be written to and has room, or name another file with -o; what was finished stays stored: a sweep goes on with it by --resume, and shards can be merged anew"
             }
             Self::File { .. } => NO_SWEEP,
             Self::Checksum { source, .. } => source.help().unwrap_or(NO_SWEEP),

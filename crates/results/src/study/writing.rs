@@ -14,7 +14,7 @@ use super::datasets::{
 use super::{Description, Row, StudyFileError, Value};
 use crate::attributes::unicode;
 use crate::dimension_scales::make_scale;
-use crate::{label, new_file};
+use crate::{label, new_file, reason_of};
 
 /// Rows of a block, and of a chunk of the file: hundreds of kilobytes before compression.
 pub(super) const BLOCK: usize = 1024;
@@ -82,7 +82,7 @@ impl ResultWriter {
         StudyFileError::File {
             what: "write",
             path: self.path.clone(),
-            reason: error.to_string(),
+            reason: reason_of(error),
         }
     }
 

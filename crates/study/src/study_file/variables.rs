@@ -21,6 +21,7 @@ use super::values::{Numbers, Spacing, Values, Whole, all, table_with_range, unit
 use super::{IntensityMeasure, RecordSource, Target, Variable, records};
 use crate::case_text::{Edit, Entry as CaseEntry, Lost, Path, Variant, entry, with_model};
 use crate::runs::written;
+use crate::table::DIAGNOSIS;
 
 table_with_range! {
     /// Something that varies: an entry of the case, the records, or their intensity
@@ -67,7 +68,7 @@ struct ModelTable {
 }
 
 /// Names that results use themselves.
-const RESERVED: [&str; 5] = ["run", "storey", "level", "status", "run_id"];
+const RESERVED: [&str; 6] = ["run", "storey", "level", "status", "run_id", DIAGNOSIS];
 
 /// A variable, with the records if it is the one that names them.
 type Read = (Variable, Option<Vec<RecordSource>>);

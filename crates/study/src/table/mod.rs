@@ -16,6 +16,9 @@ use pounding_files::checksum::hexadecimal;
 
 pub(crate) use growing::GrowingTable;
 
+/// Heading of the last column: why a run failed, or what collapsed.
+pub(crate) const DIAGNOSIS: &str = "diagnosis";
+
 /// Writes a table beside its place; `finish` puts it there. It is Parquet if its name ends
 /// in `.parquet`, else CSV.
 #[derive(Debug)]
@@ -201,6 +204,6 @@ fn header(d: &Description) -> Vec<String> {
                 .map(|p| with_unit(&format!("{}: {}", q.name, p.heading()), q.unit)),
         );
     }
-    cells.push("diagnosis".to_owned());
+    cells.push(DIAGNOSIS.to_owned());
     cells
 }

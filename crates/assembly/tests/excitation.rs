@@ -198,7 +198,11 @@ fn refused_scales_point_at_themselves() {
             20,
             "two columns",
         ),
-        ("{ target = \"s.csv\", from = 1, to = 4 }", 9, "period = "),
+        (
+            "{ target = \"s.csv\", from = 1, to = 4 }",
+            9,
+            "last period of the band = 4",
+        ),
         ("{ psa = 1, period = 1e-9 }", 9, "period = 1e-9"),
     ] {
         let error = refused(&format!("scale = {scale}"));

@@ -172,7 +172,7 @@ fn bad_input() {
             "--to",
             "5 s",
         ],
-        &["it reaches from 0.01 to 4 s", "the band goes from 0.1 to 5"],
+        &["last period of the band = 5 is outside [0.01, 4]"],
     );
     assert!(!folder.path("o.csv").exists());
 }

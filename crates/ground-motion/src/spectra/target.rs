@@ -1,6 +1,5 @@
 //! A spectrum to reach.
 
-use pounding_catalogue::numbers::six_digits;
 use serde::Serialize;
 
 use crate::error::{GroundMotionError, positive, within};
@@ -92,17 +91,9 @@ impl TargetSpectrum {
     /// Refuses a band (s) that it does not cover.
     pub(crate) fn covers(&self, from: f64, to: f64) -> Result<(), GroundMotionError> {
         let (first, last) = self.range();
-        if first <= from && to <= last {
-            return Ok(());
-        }
-        let [first, last, from, to] = [first, last, from, to].map(six_digits);
-        Err(GroundMotionError::NotPossible {
-            step: STEP,
-            reason: format!(
-                "it reaches from {first} to {last} s, the band goes from {from} to {to} s"
-            ),
-            remedy: "take a band within it (nothing is extrapolated), or give more of the spectrum",
-        })
+        within(STEP, "first period of the band", from, first, last)?;
+        within(STEP, "last period of the band", to, first, last)?;
+        Ok(())
     }
 
     /// Pseudo-acceleration (m/s2) at a period (s).

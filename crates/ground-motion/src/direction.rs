@@ -101,7 +101,7 @@ impl Direction {
             "S" | "SOUTH" => Some(Self::Azimuth(180.0)),
             "W" | "WEST" => Some(Self::Azimuth(270.0)),
             "V" | "Z" | "U" | "UP" | "UD" | "U-D" | "VERT" | "VERTICAL" => Some(Self::Up),
-            "DOWN" | "DN" => Some(Self::Down),
+            "DOWN" | "DN" | "DWN" => Some(Self::Down),
             _ => None,
         };
         named

@@ -31,6 +31,7 @@ mod recording;
 mod select;
 mod source;
 mod start_times;
+mod stated_step;
 mod station_xml;
 mod step_record;
 mod text;

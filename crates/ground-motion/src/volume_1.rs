@@ -8,6 +8,7 @@ use crate::number;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
+use crate::stated_step::{STEP_TOLERANCE, StatedStep, state_step};
 use crate::text::{Line, Lines};
 use crate::time_column::{PrintedDigits, even_step_of_rounded, part_ties, tied_times};
 use crate::volume::{ChannelHeader, end_of_channel, unit_of_number};
@@ -197,12 +198,6 @@ fn unit(
     Err(source.error(at, 0, message, REMEDY_UNIT))
 }
 
-/// A time step as a header states it, in seconds or as a rate.
-struct StatedStep {
-    line: usize,
-    step: f64,
-}
-
 /// Every sampling rate in the text of the header, and the step on the line that counts the
 /// points; elsewhere `at .. sec` is the time of something.
 fn steps_of_header(header: &ChannelHeader<'_>) -> Vec<StatedStep> {
@@ -220,11 +215,8 @@ fn steps_of_header(header: &ChannelHeader<'_>) -> Vec<StatedStep> {
     found
 }
 
-/// Part of a step by which two statements of it may differ.
-const STEP_TOLERANCE: f64 = 0.01;
-
 /// Takes the step of the line before the data, else of the header; all must be the same.
-fn state_step(
+fn state_steps(
     draft: &mut Draft,
     source: &Source<'_>,
     header: &ChannelHeader<'_>,
@@ -237,39 +229,7 @@ fn state_step(
         .map(|(step, _)| StatedStep { line, step })
         .collect();
     stated.extend(steps_of_header(header));
-    let Some(first) = stated.first() else {
-        return;
-    };
-    draft.times = Times::Step(Some(first.step));
-    let differs = |s: &&StatedStep| (s.step - first.step).abs() > STEP_TOLERANCE * first.step;
-    let Some(other) = stated.iter().find(differs) else {
-        return;
-    };
-    let message = format!(
-        "the time step is {} s ({} samples/s) here, but {} s ({} samples/s) in line {}",
-        bound(first.step),
-        bound(1.0 / first.step),
-        bound(other.step),
-        bound(1.0 / other.step),
-        other.line
-    );
-    let near = |given: f64| {
-        let near = move |s: &&StatedStep| (s.step - given).abs() <= 1.0e-6 * given.abs();
-        stated.iter().find(near)
-    };
-    if let Some(used) = source.options.time_step.and_then(near) {
-        draft.times = Times::Step(Some(used.step));
-        draft.warnings.push(format!(
-            "line {}: {message}; {} s was given",
-            first.line, used.step
-        ));
-        return;
-    }
-    let remedy = format!(
-        "the header contradicts itself: get the record again, or say which step is right, `time_step = \"{0} s\"` in [ground_motion] of a case, `--time-step \"{0} s\"` with `pounding motion` (`lenient = true` takes {0} s)",
-        bound(first.step)
-    );
-    draft.step_conflict = Some((first.line, message, remedy));
+    state_step(draft, source, &stated);
 }
 
 /// `MAX = -.200 G, AT 11.576 SEC.`: in its own unit, whatever that of the samples.
@@ -322,7 +282,7 @@ fn even(
     draft.other_counts = in_words;
     draft.quantities = NamedQuantity::of(label.number, &text).into_iter().collect();
     draft.warnings = warnings;
-    state_step(&mut draft, source, header, place);
+    state_steps(&mut draft, source, header, place);
     Ok(draft)
 }
 

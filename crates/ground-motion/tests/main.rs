@@ -3,6 +3,7 @@
 mod agency_files;
 mod agency_measures;
 mod agency_more;
+mod at2_headers;
 mod column_headers;
 mod common;
 mod component_directions;

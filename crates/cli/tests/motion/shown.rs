@@ -121,6 +121,23 @@ fn all_directions_of_equal_components() {
     }
 }
 
+/// A file beside itself, and a copy of it that says no other direction, are no second component.
+#[test]
+fn a_record_beside_itself_is_no_second_component() {
+    let file = el_centro();
+    let folder = Folder::new();
+    let copy = folder.name("copy.csv");
+    let north = std::fs::read_to_string(&file).unwrap();
+    std::fs::write(&copy, north.replace("NS (north-south)", "H2")).unwrap();
+    for second in [&file, &copy] {
+        refused::refused(
+            2,
+            &["spectrum", &file, "--rotated", "--second-file", second],
+            &["both components are the same series", "second_component"],
+        );
+    }
+}
+
 /// Ricker's wavelet: amplitude `2 A f^2 Tp^3/sqrt(pi) exp(-(f Tp)^2)` (Ricker 1953, in
 /// today's notation).
 #[test]

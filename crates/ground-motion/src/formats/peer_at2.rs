@@ -3,15 +3,18 @@
 //! four or seven header lines, and the free header of Peknold's El Centro.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, Times};
+use crate::direction::Direction;
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
+use crate::fortran::Layout;
 use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::Source;
+use crate::stated_step::{StatedStep, state_step};
 use crate::text::{Line, Lines};
-use crate::writers::peer_at2::RAW;
+use crate::writers::peer_at2::{OTHER, RAW};
 
 /// Lines looked through for the header.
 const HEADER_LINES: usize = 12;
@@ -24,7 +27,7 @@ const REMEDY: &str =
 struct Header {
     line: usize,
     count: usize,
-    step: Option<f64>,
+    steps: Vec<StatedStep>,
     text: Vec<String>,
 }
 
@@ -76,7 +79,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     source.ends_whole()?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
-    draft.times = Times::Step(header.step);
+    state_step(&mut draft, source, &header.steps);
     draft.header_count = Some(header.count);
     // One value a row has nothing to fill.
     draft.last_row = Some(last_row).filter(|n| *n > 1);
@@ -85,6 +88,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         Some(first) if first == RAW => Processing::Raw,
         _ => Processing::Corrected,
     };
+    draft.component = component(&header);
     draft.quantities = quantities(&header.text);
     let all = header.text.join(" ");
     draft.peak = peak(&draft.unit, &all);
@@ -118,8 +122,19 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     {
         text.push(l.text().trim().to_owned());
     }
-    let (count, step) = counts(source, line)?;
-    let Some(count) = count else {
+    let mut counts = Vec::new();
+    let mut steps = Vec::new();
+    let others = source.lines().take_while(|l| l.number <= last);
+    // The line of the count goes before the others.
+    for stated in std::iter::once(line).chain(others.filter(|l| l.number != line.number)) {
+        let (more, times) = statements(source, stated)?;
+        counts.extend(more.into_iter().map(|count| (stated.number, count)));
+        steps.extend(times.into_iter().map(|step| StatedStep {
+            line: stated.number,
+            step,
+        }));
+    }
+    let Some((first, count)) = counts.first().copied().filter(|c| c.0 == line.number) else {
         return Err(source.error(
             line.number,
             0,
@@ -127,12 +142,48 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
             REMEDY,
         ));
     };
+    if let Some((at, other)) = counts.iter().find(|(_, other)| *other != count) {
+        source.contradiction(
+            first,
+            format!("the header says {count} samples here, but {other} in line {at}"),
+        )?;
+    }
     Ok(Header {
         line: line.number,
         count,
-        step,
+        steps,
         text,
     })
+}
+
+/// Components of which no direction is known: numbered, along and across an instrument, parallel
+/// and normal to a fault.
+const NO_DIRECTION: [&str; 12] = [
+    "H1", "H2", "H3", "L", "T", "LN", "TR", "LONG", "TRAN", "TRANS", "FN", "FP",
+];
+
+/// The component that ends the second line, `EVENT, STATION, 180`: what stands in brackets behind
+/// it is not of its name. Of files that this program wrote it is all that stands there.
+fn component(header: &Header) -> String {
+    let own = [RAW, OTHER].map(Some);
+    let is_own = own.contains(&header.text.first().map(String::as_str));
+    // The line of the count has commas of its own.
+    let second = header.text.get(1).filter(|_| header.line != 2);
+    let Some((_, field)) = second.and_then(|line| line.rsplit_once(',')) else {
+        return String::new();
+    };
+    if is_own {
+        return field.trim().to_owned();
+    }
+    let name = field.split('(').next().unwrap_or(field).trim();
+    let is_name = Direction::parse(name).is_some()
+        || Direction::of_name(name).is_some()
+        || NO_DIRECTION.iter().any(|n| n.eq_ignore_ascii_case(name));
+    if is_name {
+        name.to_owned()
+    } else {
+        String::new()
+    }
 }
 
 /// The quantities of the lines on the unit and on the kind of series, such as `VELOCITY TIME
@@ -147,52 +198,166 @@ fn quantities(text: &[String]) -> Vec<NamedQuantity> {
     text.iter().enumerate().filter_map(named).collect()
 }
 
-/// What stands behind `DT =`.
-fn behind_dt(lower: &str) -> Option<&str> {
-    let at = lower.find("dt")? + "dt".len();
-    let rest = lower.get(at..)?.trim_start().strip_prefix('=')?;
-    Some(rest.trim_start())
+/// What stands behind each `KEY =` of a line in lower case.
+fn behind<'t>(lower: &'t str, key: &'t str) -> impl Iterator<Item = &'t str> {
+    lower.match_indices(key).filter_map(move |(at, _)| {
+        let is_word = !lower[..at].ends_with(|c: char| c.is_ascii_alphanumeric());
+        let rest = lower[at + key.len()..].trim_start().strip_prefix('=')?;
+        is_word.then(|| rest.trim_start())
+    })
 }
 
-fn counts(
+/// A count that a text starts with; `Err`: digits in groups.
+fn count_in(text: &str) -> Result<Option<usize>, String> {
+    let digits =
+        |text: &str| text.len() - text.trim_start_matches(|c: char| c.is_ascii_digit()).len();
+    let (number, rest) = text.split_at(digits(text));
+    let grouped = rest
+        .strip_prefix(',')
+        .is_some_and(|group| digits(group) > 0);
+    if grouped && !number.is_empty() {
+        let shown: String = text
+            .chars()
+            .take_while(|c| c.is_ascii_digit() || *c == ',')
+            .collect();
+        let shown = shown.trim_end_matches(',');
+        return Err(format!(
+            "the count \"{shown}\" has a comma within its digits"
+        ));
+    }
+    let ends = rest.is_empty() || rest.starts_with([' ', '\t', ',', ';']);
+    Ok(number.parse().ok().filter(|_| ends))
+}
+
+/// Counts of samples and time steps (s) of a line.
+fn statements(
     source: &Source<'_>,
     line: Line<'_>,
-) -> Result<(Option<usize>, Option<f64>), GroundMotionError> {
+) -> Result<(Vec<usize>, Vec<f64>), GroundMotionError> {
     let lower = line.lower();
-    let after = |key: &str| {
-        let at = lower.find(key)? + key.len();
-        let rest = lower.get(at..)?.trim_start().strip_prefix('=')?;
-        rest.trim_start().split([' ', ',', '\t']).next()
-    };
-    if let Some(count) = after("npts") {
-        let step = match behind_dt(&lower) {
-            Some(text) => source.step_or_rate(line, text, Bare::Step)?,
-            None => None,
-        };
-        return Ok((count.parse().ok(), step));
+    let mut steps = Vec::new();
+    for text in behind(&lower, "dt") {
+        steps.extend(source.step_or_rate(line, text, Bare::Step)?);
     }
-    let mut numbers = line.fields().filter_map(|(_, f)| number::parse(f).ok());
-    let count = numbers
-        .next()
-        .filter(|n| n.fract() == 0.0 && (0.0..1.0e9).contains(n));
-    Ok((count.map(|n| n as usize), numbers.next()))
+    let mut counts = Vec::new();
+    for text in behind(&lower, "npts") {
+        let count = count_in(text);
+        counts.extend(count.map_err(|message| source.error(line.number, 0, message, REMEDY))?);
+    }
+    if counts.is_empty() && (is_counts(&line) || is_spaced(&line)) {
+        let mut numbers = line.fields().filter_map(|(_, f)| number::parse(f).ok());
+        let count = numbers
+            .next()
+            .filter(|n| n.fract() == 0.0 && (0.0..1.0e9).contains(n));
+        counts.extend(count.map(|n| n as usize));
+        steps.extend(numbers.next().filter(|_| steps.is_empty()));
+    }
+    Ok((counts, steps))
 }
 
 /// Words of the line that says what the values are.
 const OF_VALUES: [&str; 2] = ["time series", "time history"];
 
-/// The unit that a text in lower case states: `in units of g`, `the units are (g)`.
-fn unit_in(lower: &str) -> Option<SeriesUnit> {
+/// A unit and what stands behind it on its line.
+type UnitAndRest<'t> = (SeriesUnit, &'t str);
+
+/// The unit that a text in lower case states: `in units of g`, `the units are (g)`,
+/// `units of cm / sec / sec`.
+fn unit_in(lower: &str) -> Option<UnitAndRest<'_>> {
     lower.split("units").skip(1).find_map(|after| {
         let after = after.trim_start();
         let word = after
             .strip_prefix("of")
             .or_else(|| after.strip_prefix("are"))
             .or_else(|| after.strip_prefix(':'))?;
-        let word = word.trim_start_matches([' ', '(', ':']);
-        let end = word.find([' ', ',', ')', '\t', ';']).unwrap_or(word.len());
-        SeriesUnit::parse(&word[..end])
+        let word = word.trim_start_matches([' ', '(', ':', '\n']);
+        let word = word.split('\n').next().unwrap_or(word);
+        // Blanks may stand within it.
+        let ends = [&[',', ')', ';', '\t'][..], &[' ', ',', ')', ';', '\t']];
+        ends.into_iter().find_map(|ends| {
+            let unit = &word[..word.find(ends).unwrap_or(word.len())];
+            let unit = unit.trim_end_matches('.');
+            Some((SeriesUnit::parse(unit)?, &word[unit.len()..]))
+        })
     })
+}
+
+/// First words that speak of something else where they follow a unit.
+const BEHIND_UNIT: [&str; 17] = [
+    "acceleration",
+    "and",
+    "at",
+    "baseline",
+    "corrected",
+    "data",
+    "filter",
+    "filtered",
+    "for",
+    "format",
+    "from",
+    "in",
+    "instrument",
+    "number",
+    "points",
+    "uncorrected",
+    "with",
+];
+
+/// What a number behind a unit may count.
+const COUNTED: [&str; 5] = ["data", "points", "pts", "samples", "values"];
+
+/// Words that begin a factor or another unit.
+const OF_UNIT: [&str; 9] = [
+    "divided",
+    "e",
+    "factor",
+    "multiplied",
+    "or",
+    "per",
+    "scaled",
+    "times",
+    "x",
+];
+
+/// Whether what stands behind a unit on its line says nothing of the unit: nothing, a key such as
+/// `PGA=`, a Fortran format, the unit once more in brackets, or words of something else.
+fn is_of_something_else(unit: SeriesUnit, rest: &str) -> bool {
+    let blanks = [' ', '\t', ')', '-'];
+    let direct = rest.trim_start_matches(blanks);
+    let text = direct.trim_start_matches(['.', ',', ';', ':', ' ', '\t']);
+    if text.is_empty() {
+        return true;
+    }
+    if let Some(inside) = text.strip_prefix('(') {
+        let (inside, behind) = inside.split_once(')').unwrap_or((inside, ""));
+        let in_words = inside.split([' ', ',']).all(|w| !OF_UNIT.contains(&w))
+            && inside
+                .chars()
+                .all(|c| c.is_ascii_alphabetic() || " ,-".contains(c));
+        let known = match SeriesUnit::parse(inside) {
+            Some(other) => other == unit,
+            None => in_words || Layout::find(text).is_some(),
+        };
+        return known && is_of_something_else(unit, behind);
+    }
+    let first_word = |text: &str| -> usize {
+        let end = text.find(|c: char| !c.is_ascii_alphabetic());
+        end.unwrap_or(text.len())
+    };
+    // `4000 points`.
+    let number = text.trim_start_matches(|c: char| c.is_ascii_digit());
+    let counted = number.trim_start();
+    if number.len() < text.len() {
+        return COUNTED.contains(&&counted[..first_word(counted)]);
+    }
+    let (word, behind) = text.split_at(first_word(text));
+    // A sentence of its own.
+    let apart = direct.len() > text.len();
+    match word {
+        "" => false,
+        _ if behind.trim_start().starts_with('=') || BEHIND_UNIT.contains(&word) => true,
+        word => apart && !OF_UNIT.contains(&word) && SeriesUnit::parse(word).is_none(),
+    }
 }
 
 /// Unit from the header's text: that of the line that names the quantity of the values, such as
@@ -200,7 +365,8 @@ fn unit_in(lower: &str) -> Option<SeriesUnit> {
 fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionError> {
     let lower: Vec<String> = header.text.iter().map(|l| l.to_ascii_lowercase()).collect();
     let all = lower.join(" ");
-    let stated = |of_values: bool| -> Vec<(usize, SeriesUnit)> {
+    let lines = lower.join("\n");
+    let stated = |of_values: bool| -> Vec<(usize, UnitAndRest<'_>)> {
         let lines = lower.iter().enumerate();
         lines
             .filter(|(_, l)| !of_values || OF_VALUES.iter().any(|words| l.contains(words)))
@@ -211,8 +377,27 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
     if units.is_empty() {
         units = stated(false);
     }
-    if let [(first, unit), rest @ ..] = units.as_slice()
-        && let Some((line, other)) = rest.iter().find(|(_, other)| other != unit)
+    if units.is_empty() {
+        // Words may go on in the next line.
+        units.extend(unit_in(&lines).map(|unit| (header.line, unit)));
+    }
+    if let Some((line, (unit, rest))) = units
+        .iter()
+        .find(|(_, (unit, rest))| !is_of_something_else(*unit, rest))
+    {
+        return Err(source.error(
+            *line,
+            0,
+            format!(
+                "\"{}\" behind the unit {} is not understood",
+                number::shown(rest.trim().to_ascii_uppercase().as_bytes()),
+                unit.symbol
+            ),
+            "what follows the unit may change it: write the unit of the values alone, `ACCELERATION TIME SERIES IN UNITS OF G`, and scale the record by `scale` if it has a factor",
+        ));
+    }
+    if let [(first, (unit, _)), rest @ ..] = units.as_slice()
+        && let Some((line, (other, _))) = rest.iter().find(|(_, (other, _))| other != unit)
     {
         return Err(source.error(
             *line,
@@ -224,13 +409,8 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
             "header lines contradict one another: a line such as `ACCELERATION TIME SERIES IN UNITS OF G` must say the unit of the values",
         ));
     }
-    // Words may go on in the next line.
-    let unit = units
-        .first()
-        .map(|(_, unit)| *unit)
-        .or_else(|| unit_in(&all));
-    if let Some(unit) = unit {
-        return Ok(DraftUnit::Stated(unit));
+    if let Some((_, (unit, _))) = units.first() {
+        return Ok(DraftUnit::Stated(*unit));
     }
     let words = |q: Quantity| all.contains(&format!("{} time", q.name()));
     for quantity in [Quantity::Velocity, Quantity::Displacement] {

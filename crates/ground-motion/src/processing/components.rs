@@ -60,12 +60,19 @@ fn starts_together(first: &Accelerogram, second: &Accelerogram) -> Result<(), Gr
     }
 }
 
-/// Refuses a component beside itself, which has no second direction.
+/// Refuses a component beside itself, which has no second direction. Two files with the same
+/// samples are two components where their names say two directions.
 ///
 /// # Errors
 /// The same samples in both.
 pub fn distinct(first: &Accelerogram, second: &Accelerogram) -> Result<(), GroundMotionError> {
-    if first.samples() != second.samples() {
+    let sha = |of: &Accelerogram| of.origin().map(|o| o.sha256.clone());
+    let in_two_directions = || match (direction(first), direction(second)) {
+        (Some(a), Some(b)) => !a.is(b),
+        _ => false,
+    };
+    let of_two_files = sha(first) != sha(second);
+    if first.samples() != second.samples() || (of_two_files && in_two_directions()) {
         return Ok(());
     }
     let name = first.origin().map_or("", |o| o.component.as_str());

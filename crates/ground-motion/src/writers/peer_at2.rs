@@ -9,7 +9,7 @@ use crate::writers::{Written, line};
 
 /// First lines, of raw records and of others.
 pub(crate) const RAW: &str = "RAW MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2";
-const OTHER: &str = "MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2";
+pub(crate) const OTHER: &str = "MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2";
 /// Values on a line.
 const COLUMNS: usize = 5;
 
@@ -33,7 +33,9 @@ pub fn write_peer_at2(series: &Written) -> String {
         Processing::Raw => writeln!(text, "{RAW}"),
         _ => writeln!(text, "{OTHER}"),
     };
-    let title = format!("{}, {}", line(&series.title), line(&series.component));
+    // The component is what follows the last comma.
+    let component = line(&series.component).replace(',', ";");
+    let title = format!("{}, {component}", line(&series.title));
     let _ = writeln!(text, "{}", without_keys(&title));
     let _ = writeln!(text, "{words} TIME SERIES IN UNITS OF {unit}");
     let _ = writeln!(

@@ -77,7 +77,7 @@ pub fn peer(written: i64) -> Vec<Fixture> {
         let text = format!(
             "MADE UP DATABASE RECORD\nNOWHERE 01/01/00 00:00, STATION, 000\n{words}\nNPTS= {written:>6}, DT=   .0050 SEC,\n{data}"
         );
-        let truth = vec![truth(quantity, "", &printed, unit, 0.005)];
+        let truth = vec![truth(quantity, "000", &printed, unit, 0.005)];
         all.push(fixture(name, "peer_at2", text, truth, true));
     }
     all

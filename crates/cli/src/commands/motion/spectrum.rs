@@ -193,9 +193,7 @@ fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure
     read.component.clone_from(&arguments.second_component);
     let second = arguments.second_file.as_deref().unwrap_or(file);
     let second = reading::acceleration(second, &read)?;
-    if arguments.second_file.is_none() {
-        distinct(&first, &second)?;
-    }
+    distinct(&first, &second)?;
     let spectra = dampings
         .iter()
         .map(|d| rotated_spectrum(&first, &second, &periods, *d, evaluation(arguments)))

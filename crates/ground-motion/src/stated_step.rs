@@ -1,0 +1,53 @@
+//! Time steps that a header states more than once.
+
+use crate::draft::{Draft, Times};
+use crate::error::bound;
+use crate::source::Source;
+
+/// A time step as a header states it, in seconds or as a rate.
+pub(crate) struct StatedStep {
+    /// Its line, from 1.
+    pub line: usize,
+    /// Step (s).
+    pub step: f64,
+}
+
+/// Part of a step by which two statements of it may differ.
+pub(crate) const STEP_TOLERANCE: f64 = 0.01;
+
+/// Takes the first of the steps; all must be the same, or the user says which is right.
+pub(crate) fn state_step(draft: &mut Draft, source: &Source<'_>, stated: &[StatedStep]) {
+    let Some(first) = stated.first() else {
+        return;
+    };
+    draft.times = Times::Step(Some(first.step));
+    let differs = |s: &&StatedStep| (s.step - first.step).abs() > STEP_TOLERANCE * first.step;
+    let Some(other) = stated.iter().find(differs) else {
+        return;
+    };
+    let message = format!(
+        "the time step is {} s ({} samples/s) here, but {} s ({} samples/s) in line {}",
+        bound(first.step),
+        bound(1.0 / first.step),
+        bound(other.step),
+        bound(1.0 / other.step),
+        other.line
+    );
+    let near = |given: f64| {
+        let near = move |s: &&StatedStep| (s.step - given).abs() <= 1.0e-6 * given.abs();
+        stated.iter().find(near)
+    };
+    if let Some(used) = source.options.time_step.and_then(near) {
+        draft.times = Times::Step(Some(used.step));
+        draft.warnings.push(format!(
+            "line {}: {message}; {} s was given",
+            first.line, used.step
+        ));
+        return;
+    }
+    let remedy = format!(
+        "the header contradicts itself: get the record again, or say which step is right, `time_step = \"{0} s\"` in [ground_motion] of a case, `--time-step \"{0} s\"` with `pounding motion` (`lenient = true` takes {0} s)",
+        bound(first.step)
+    );
+    draft.step_conflict = Some((first.line, message, remedy));
+}

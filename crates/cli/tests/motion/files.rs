@@ -204,3 +204,27 @@ fn rotation() {
         assert!((a - (i % 5) as f64).abs() < 1e-14, "{i} {a}");
     }
 }
+
+/// `convert` says what is odd about the values, as `info` does, in every format and in JSON.
+#[test]
+fn convert_warns_of_mean_and_peak() {
+    let folder = Folder::new();
+    let file = folder.name("odd.csv");
+    let rows: String = (0..50)
+        .map(|i| format!("{:.2},{}\n", 0.01 * f64::from(i), 40.0 + f64::from(i % 5)))
+        .collect();
+    std::fs::write(&file, format!("time_s,acceleration_m_s2\n{rows}")).unwrap();
+    let told = [
+        "warning: the mean is 4.200000e1 m/s2: an offset of the instrument?",
+        "warning: peak acceleration 44.000 m/s2 is larger than any recorded; check the unit",
+    ];
+    for to in ["pounding_csv", "peer_at2", "plain_columns"] {
+        let out = folder.name(to);
+        let said = text(&["convert", &file, "--to", to, "-o", &out]);
+        for words in told {
+            assert_eq!(said.matches(words).count(), 1, "{said}");
+        }
+        let said = json(&["convert", &file, "--to", to, "-o", &out]);
+        assert_eq!(said["warnings"].as_array().unwrap().len(), 2, "{said}");
+    }
+}

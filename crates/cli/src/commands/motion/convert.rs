@@ -15,6 +15,7 @@ use crate::arguments::{ConvertArguments, Layout};
 use crate::failure::Failure;
 use crate::output::{pretty, print};
 use crate::plot;
+use crate::tables::warning_lines;
 
 /// What is lost where a file has no header.
 const RAW_IN_COLUMNS: &str = "the record is raw, which plain columns do not say: give `offset = \"remove\"` where they are used";
@@ -40,8 +41,14 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
             Some("leave it out, or convert the acceleration".to_owned()),
         ));
     }
+    let mut warnings = series.origin.warnings.clone();
     let mut written = if series.quantity == Quantity::Acceleration {
-        Written::of(&series.accelerogram(&options)?)
+        let record = series.accelerogram(&options)?;
+        // Those of the excitation are of its mean and its peak too.
+        if let Some(origin) = record.origin() {
+            warnings.clone_from(&origin.warnings);
+        }
+        Written::of(&record)
     } else {
         Written::of_series(&series)?
     };
@@ -77,34 +84,10 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
             write_plain_columns(&written, &wanted, unit)
         }
     };
-    let loses_stage = arguments.to == Layout::PlainColumns && written.processing == Processing::Raw;
-    if loses_stage {
-        written.remarks.push(format!("Note: {RAW_IN_COLUMNS}"));
-    }
-    let initial = written.initial.filter(|(v, d)| (*v, *d) != (0.0, 0.0));
-    let lost = initial.filter(|_| {
-        arguments.to != Layout::PoundingCsv && written.quantity == Quantity::Acceleration
-    });
-    let loses_initial = lost.map(|(velocity, displacement)| {
-        format!(
-            "velocity and displacement of the first sample, {} m/s and {} m, are not written, as the format has no place for them: integrals of the acceleration start at zero; pounding_csv holds them",
-            six_digits(velocity),
-            six_digits(displacement)
-        )
-    });
-    if let Some(warning) = &loses_initial {
-        written.remarks.push(format!("Note: {warning}"));
-    }
-    let loses_start = (arguments.to != Layout::PoundingCsv && !written.start_time.is_empty())
-        .then(|| {
-            format!(
-                "the time of the first sample, {}, is not written, as the format has no place for it: components in files of their own are then not held against one another; pounding_csv holds it",
-                written.start_time
-            )
-        });
-    if let Some(warning) = &loses_start {
-        written.remarks.push(format!("Note: {warning}"));
-    }
+    let lost = losses(&written, arguments.to);
+    let notes = lost.iter().map(|loss| format!("Note: {loss}"));
+    written.remarks.extend(notes);
+    warnings.extend(lost);
     plot::write(&arguments.output, &text)?;
     if arguments.json {
         return print(&pretty(&Converted {
@@ -115,6 +98,7 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
             samples: written.samples.len(),
             time_step: written.time_step,
             remarks: &written.remarks,
+            warnings: &warnings,
         })?);
     }
     let mut text = format!(
@@ -124,23 +108,40 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
         counted(written.samples.len(), "sample"),
         written.time_step
     );
-    for warning in &series.origin.warnings {
-        text.push_str(&format!("warning: {warning}\n"));
-    }
-    if loses_stage {
-        text.push_str(&format!("warning: {RAW_IN_COLUMNS}\n"));
-    }
-    if let Some(warning) = &loses_initial {
-        text.push_str(&format!("warning: {warning}\n"));
-    }
-    if let Some(warning) = &loses_start {
-        text.push_str(&format!("warning: {warning}\n"));
-    }
+    text.push_str(&warning_lines(&warnings));
     text.push_str(&format!(
         "written to {} in {symbol}\n",
         arguments.output.display()
     ));
     print(&text)
+}
+
+/// What a series says that a format has no place for.
+fn losses(written: &Written, to: Layout) -> Vec<String> {
+    let mut lost = Vec::new();
+    if to == Layout::PlainColumns && written.processing == Processing::Raw {
+        lost.push(RAW_IN_COLUMNS.to_owned());
+    }
+    if to == Layout::PoundingCsv {
+        return lost;
+    }
+    if let Some((velocity, displacement)) = written.initial
+        && (velocity, displacement) != (0.0, 0.0)
+        && written.quantity == Quantity::Acceleration
+    {
+        lost.push(format!(
+            "velocity and displacement of the first sample, {} m/s and {} m, are not written, as the format has no place for them: integrals of the acceleration start at zero; pounding_csv holds them",
+            six_digits(velocity),
+            six_digits(displacement)
+        ));
+    }
+    if !written.start_time.is_empty() {
+        lost.push(format!(
+            "the time of the first sample, {}, is not written, as the format has no place for it: components in files of their own are then not held against one another; pounding_csv holds it",
+            written.start_time
+        ));
+    }
+    lost
 }
 
 fn columns(text: &str) -> Result<Vec<Column>, Failure> {
@@ -172,4 +173,5 @@ struct Converted<'w> {
     samples: usize,
     time_step: f64,
     remarks: &'w [String],
+    warnings: &'w [String],
 }

@@ -17,6 +17,8 @@ pub(crate) struct Layout {
     pub margin: usize,
     /// Blank columns before each number, which are of its width.
     pub gap: usize,
+    /// Whether the format goes on behind the numbers: what stands there is passed over.
+    pub more: bool,
     /// Digits that are decimals where a number has no point: `-241` under F10.5 is -0.00241.
     decimals: i32,
     /// Power of ten by which numbers without an exponent are printed larger: `kP`.
@@ -31,6 +33,7 @@ impl Layout {
             width,
             margin: 0,
             gap: 0,
+            more: false,
             decimals: 0,
             scale: 0,
         }
@@ -125,6 +128,7 @@ impl Layout {
                     }
                     layout.per_line = group.unwrap_or(1).checked_mul(number.unwrap_or(1))?;
                     layout.width = layout.gap + width;
+                    layout.more = other;
                     break;
                 }
                 _ => return None,

@@ -48,6 +48,40 @@ pub(crate) struct Used {
     pub gravity: bool,
 }
 
+/// Keys of a header with their values and lines.
+#[derive(Default)]
+pub(crate) struct Keys(Vec<(String, String, usize)>);
+
+impl Keys {
+    /// Whether a key stands for the first time; one that stands twice must say the same.
+    ///
+    /// # Errors
+    /// Another value than before, unless the user takes the first.
+    pub(crate) fn is_new(
+        &mut self,
+        source: &Source<'_>,
+        line: Line<'_>,
+        key: &str,
+        value: &str,
+    ) -> Result<bool, GroundMotionError> {
+        let Some((_, first, at)) = self.0.iter().find(|(known, _, _)| known == key) else {
+            self.0.push((key.to_owned(), value.to_owned(), line.number));
+            return Ok(true);
+        };
+        if first != value {
+            let shown = |text: &str| number::shown(text.as_bytes());
+            let message = format!(
+                "{} is \"{}\" here, but \"{}\" in line {at}",
+                shown(key),
+                shown(value),
+                shown(first)
+            );
+            source.contradiction(line.number, message)?;
+        }
+        Ok(false)
+    }
+}
+
 impl<'a> Source<'a> {
     pub(crate) fn new(
         file: &'a str,
@@ -99,7 +133,13 @@ impl<'a> Source<'a> {
         self.used.get()
     }
 
+    /// The lines from the first that is not blank on: blank ones before a header hide no format.
     pub(crate) fn lines(&self) -> Lines<'a> {
+        self.all_lines().from_text()
+    }
+
+    /// All lines, of files whose lines the user counts.
+    pub(crate) fn all_lines(&self) -> Lines<'a> {
         Lines::new(self.bytes)
     }
 

@@ -40,6 +40,20 @@ impl<'a> Lines<'a> {
         }
     }
 
+    /// The same after blank lines.
+    pub(crate) fn from_text(mut self) -> Self {
+        let rest = &self.bytes[self.at..];
+        let is_blank = |b: &u8| b.is_ascii_whitespace() || *b == 0x1a;
+        let blank = rest.iter().position(|b| !is_blank(b)).unwrap_or(rest.len());
+        let ends = |bytes: &[u8]| bytes.iter().rposition(|b| *b == self.end);
+        if let Some(last) = ends(&rest[..blank]) {
+            let ended = rest[..=last].iter().filter(|b| **b == self.end);
+            self.number += ended.count();
+            self.at += last + 1;
+        }
+        self
+    }
+
     /// The next line without going on.
     pub(crate) fn peek(&self) -> Option<Line<'a>> {
         self.clone().next()

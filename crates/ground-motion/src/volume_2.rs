@@ -3,6 +3,7 @@
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, ROW, Times};
 use crate::error::GroundMotionError;
+use crate::number;
 use crate::quantity::Quantity;
 use crate::recording::Series;
 use crate::source::Source;
@@ -95,20 +96,41 @@ fn block(
             label.count,
             header.integers.line_of(index)
         );
-        match count.abs_diff(label.count) > ROW {
-            true => source.contradiction(line.number, message)?,
-            false => draft
-                .warnings
-                .push(format!("line {}: {message}", line.number)),
-        }
+        count_differs(
+            source,
+            &mut draft,
+            line.number,
+            count.abs_diff(label.count),
+            message,
+        )?;
     }
-    if let Some(step) = header.reals.positive(STEP)
-        && (step - label.step.0).abs() > label.step.1
+    if label.quantity == Quantity::Acceleration
+        && let Some((at, count)) = count_in_words(header)
+        && count != label.count
     {
         let message = format!(
-            "the step is {} s here, but {step} s in line {}",
-            label.step.0,
-            header.reals.line_of(STEP)
+            "{} samples follow here, but line {at} says {count}",
+            label.count
+        );
+        count_differs(
+            source,
+            &mut draft,
+            line.number,
+            count.abs_diff(label.count),
+            message,
+        )?;
+    }
+    let of_numbers = header.reals.positive(STEP);
+    let of_numbers = of_numbers.map(|step| (header.reals.line_of(STEP), step));
+    let differs = |(_, step): &(usize, f64)| (step - label.step.0).abs() > label.step.1;
+    if let Some((at, step)) = of_numbers
+        .into_iter()
+        .chain(step_in_words(header))
+        .find(differs)
+    {
+        let message = format!(
+            "the step is {} s here, but {step} s in line {at}",
+            label.step.0
         );
         draft.step_conflict = Some((
             line.number,
@@ -117,6 +139,36 @@ fn block(
         ));
     }
     Ok(draft)
+}
+
+/// The count of `2674  INSTRUMENT AND BASELINE CORRECTED DATA`, with its line.
+fn count_in_words(header: &ChannelHeader<'_>) -> Option<(usize, usize)> {
+    let (line, text) = header.find_line("baseline")?;
+    let count = text.split_whitespace().next()?.parse().ok()?;
+    text.contains("corrected").then_some((line, count))
+}
+
+/// The step (s) of `AT EQUALLY-SPACED INTERVALS OF .020 SEC.`, with its line.
+fn step_in_words(header: &ChannelHeader<'_>) -> Option<(usize, f64)> {
+    let key = "spaced intervals of";
+    let (line, text) = header.find_line(key)?;
+    let (step, _) = number::stated(&text, key)?;
+    (step > 0.0).then_some((line, step))
+}
+
+/// Counts of samples that differ by no more than a last row holds are said, others refused.
+fn count_differs(
+    source: &Source<'_>,
+    draft: &mut Draft,
+    line: usize,
+    by: usize,
+    message: String,
+) -> Result<(), GroundMotionError> {
+    if by > ROW {
+        return source.contradiction(line, message);
+    }
+    draft.warnings.push(format!("line {line}: {message}"));
+    Ok(())
 }
 
 /// Initial velocity and displacement of the acceleration: the first values of

@@ -139,6 +139,7 @@ fn sac_in_counts() {
     let sac = &fixtures("sac", 0)[0].bytes;
     let mut options = ReadOptions {
         unit: Some(AccelerationUnit::MetrePerSecondSquared),
+        offset: Offset::Keep,
         ..ReadOptions::default()
     };
     let peak = |options: &ReadOptions| read_bytes("file", sac, options).unwrap().peak().value.abs();

@@ -110,6 +110,7 @@ fn channel<'a>(
     let other = in_numbers.filter(|n| *n != count % 100_000);
     let other_counts = other.map(|n| (integers.line_of(COUNT), n));
     let start = lines.number() + 1;
+    full_row(source, lines)?;
     let numbers = source.block(lines, DATA, Some(count), None)?;
     let places = (reals.line_of(LENGTH), start, lines.number());
     let unit = DraftUnit::Stated(unit(source, &text, &reals)?);
@@ -139,6 +140,29 @@ fn channel<'a>(
     let number = number.split_once(':').map_or("", |(_, rest)| rest).trim();
     draft.title = format!("{}; {number}", station.trim());
     Ok(draft)
+}
+
+/// Refuses a first row with fewer numbers than the one behind it: it is the last one of the header,
+/// which has a line more than it should.
+fn full_row(source: &Source<'_>, lines: &Lines<'_>) -> Result<(), GroundMotionError> {
+    let mut ahead = lines.clone();
+    let (Some(first), Some(second)) = (ahead.next(), ahead.next()) else {
+        return Ok(());
+    };
+    let numbers = |line: Line<'_>| match line.is_text() || line.bytes.contains(&b'\t') {
+        true => 0,
+        false => line.bytes.len().div_ceil(DATA.width),
+    };
+    let (found, behind) = (numbers(first), numbers(second));
+    if found == 0 || found >= behind {
+        return Ok(());
+    }
+    Err(source.error(
+        first.number,
+        0,
+        format!("the data start with a row of {found} numbers, and {behind} stand in the next one"),
+        "the header has lines too many or too few: get the record again",
+    ))
 }
 
 fn every_second(numbers: &[f64], from: usize) -> Vec<f64> {

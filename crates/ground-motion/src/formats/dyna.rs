@@ -8,7 +8,7 @@ use crate::formats::Format;
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
-use crate::source::Source;
+use crate::source::{Keys, Source};
 use crate::text::Line;
 
 /// What the header says.
@@ -31,6 +31,7 @@ struct Header {
     processing: Processing,
     corners: (Option<f64>, Option<f64>),
     late: bool,
+    keys: Keys,
 }
 
 pub(super) static FORMAT: Format = Format {
@@ -141,6 +142,9 @@ impl Header {
         value: &str,
     ) -> Result<(), GroundMotionError> {
         if value.is_empty() {
+            return Ok(());
+        }
+        if !self.keys.is_new(source, line, key, value)? {
             return Ok(());
         }
         let first = number::first_in(value);

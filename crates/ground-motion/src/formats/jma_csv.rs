@@ -53,7 +53,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         } else if key.starts_with("site") {
             site = value.to_owned();
         } else if key.starts_with("initial time") {
-            start = format!("{value} JST");
+            if !value.is_empty() {
+                start = format!("{value} JST");
+            }
         }
     };
     if names.len() > 12 {
@@ -61,9 +63,21 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     let room = lines.remaining() / (2 * names.len()) + 1;
     let mut values: Vec<Vec<f64>> = names.iter().map(|_| Vec::with_capacity(room)).collect();
+    let mut blank = None;
     for line in lines.by_ref() {
         if line.is_blank() {
+            blank = blank
+                .or(Some(line.number))
+                .filter(|_| !values[0].is_empty());
             continue;
+        }
+        if let Some(blank) = blank {
+            return Err(source.error(
+                blank,
+                0,
+                "a blank row stands within the data: its samples are missing",
+                "the file is damaged: get it again",
+            ));
         }
         let mut at = 0;
         let mut found = 0;

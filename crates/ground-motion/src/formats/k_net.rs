@@ -9,7 +9,7 @@ use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
-use crate::source::Source;
+use crate::source::{Keys, Source};
 use crate::text::{Line, in_brackets};
 
 /// Columns of the names; the values start after them.
@@ -35,6 +35,7 @@ struct Header {
     station: String,
     origin_time: String,
     record_time: String,
+    keys: Keys,
 }
 
 pub(super) static FORMAT: Format = Format {
@@ -191,6 +192,9 @@ impl Header {
         let name = line.columns(0, NAME).to_ascii_lowercase();
         let value = line.columns(NAME, line.bytes.len());
         let first = number::first_in(&value);
+        if !self.keys.is_new(source, line, &name, &value)? {
+            return Ok(());
+        }
         match name.as_str() {
             n if n.starts_with("sampling freq") => {
                 self.frequency = first.map(|n| n.0).filter(|f| *f > 0.0);
@@ -233,9 +237,17 @@ fn in_gal(source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> 
 /// `3920(gal)/6182761` in gal a count.
 fn scale(source: &Source<'_>, line: Line<'_>, value: &str) -> Result<f64, GroundMotionError> {
     in_gal(source, line)?;
-    let parts = value
-        .split_once('/')
-        .and_then(|(above, below)| Some((number::first_in(above)?.0, number::first_in(below)?.0)));
+    // The unit may have a stroke of its own.
+    let (above, rest) = value.split_at(value.find(['(', '/']).unwrap_or(value.len()));
+    let behind_unit = match rest.strip_prefix('(') {
+        Some(unit) => unit.split_once(')').map_or("", |(_, behind)| behind),
+        None => rest,
+    };
+    let whole = |text: &str| number::parse(text.as_bytes()).ok();
+    let parts = behind_unit
+        .trim_start()
+        .strip_prefix('/')
+        .and_then(|below| Some((whole(above)?, whole(below)?)));
     match parts {
         Some((above, below)) if above > 0.0 && below > 0.0 => Ok(above / below),
         _ => Err(source.error(

@@ -132,6 +132,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let data = lines.number();
     let mut times = TimeColumn::with_capacity(lines.remaining() / 4 + 1);
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
+    let mut ends = false;
     while let Some(line) = lines.next() {
         if line.is_blank() {
             continue;
@@ -141,6 +142,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             if let Some(line) = (!is_end).then_some(line).or(lines.text_ahead()) {
                 return Err(source.second_series(line));
             }
+            ends = true;
             break;
         }
         let mut fields = line.fields();
@@ -156,6 +158,18 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         samples.push(source.number(line, value.0, value.1)?);
     }
     let mut draft = Draft::new(samples, unit, (data, data + 1, lines.number()));
+    if !ends {
+        let message = "the file ends without *ENDDATA";
+        if !source.options.lenient {
+            return Err(source.error(
+                lines.number(),
+                0,
+                message,
+                "the file is probably truncated: get it again, or set `lenient = true` to use what is there",
+            ));
+        }
+        draft.warnings.push(message.to_owned());
+    }
     draft.title = title;
     draft.times = times.finish(source, draft.lines.1, &mut draft.warnings)?;
     Ok(vec![draft.finish(source)?])

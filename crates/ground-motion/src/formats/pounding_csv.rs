@@ -20,6 +20,8 @@ pub(crate) const AZIMUTH: &str = "Azimuth";
 pub(crate) const DIP: &str = "Dip";
 /// Key of the time of the first sample.
 pub(crate) const START_TIME: &str = "Start";
+/// Key of the number of samples.
+pub(crate) const SAMPLES: &str = "Samples";
 /// Keys of velocity and displacement at the first sample.
 pub(crate) const INITIAL_VELOCITY: &str = "Initial velocity";
 pub(crate) const INITIAL_DISPLACEMENT: &str = "Initial displacement";
@@ -39,6 +41,7 @@ pub(super) struct Keys {
     stage: Option<Processing>,
     /// Time step (s) and its line.
     step: Option<(usize, f64)>,
+    samples: Option<usize>,
     /// Velocity (m/s) and displacement (m) at the first sample.
     initial_velocity: Option<f64>,
     initial_displacement: Option<f64>,
@@ -114,6 +117,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         true => Times::Step(step),
         false => times.finish(source, first, &mut draft.warnings)?,
     };
+    draft.header_count = keys.samples;
+    draft.last_row = Some(1);
     draft.component.clone_from(&keys.component);
     if keys.initial_velocity.is_some() || keys.initial_displacement.is_some() {
         draft.initial = Some((
@@ -236,6 +241,8 @@ impl Keys {
                 let number = value.strip_suffix('s').unwrap_or(value);
                 self.step = Some((line.number, source.number(line, 0, number.as_bytes())?));
             }
+            // Other words behind this key mean nothing.
+            SAMPLES => self.samples = value.parse().ok(),
             INITIAL_VELOCITY => {
                 self.initial_velocity = Some(initial(source, line, value, Quantity::Velocity)?);
             }

@@ -153,6 +153,10 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         ));
     }
     fill(&words, &mut draft);
+    // Counts are as the instrument gave them.
+    if source.options.sensitivity.is_some() {
+        draft.processing = Processing::Raw;
+    }
     Ok(vec![draft.finish(source)?])
 }
 

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::accelerogram::Processing;
 use crate::error::GroundMotionError;
 use crate::formats::pounding_csv::{
-    AZIMUTH, DIP, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, START_TIME,
+    AZIMUTH, DIP, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, SAMPLES, START_TIME,
 };
 use crate::writers::{Written, acceleration_only, line, number, readable, time};
 
@@ -46,6 +46,7 @@ pub fn write_pounding_csv(series: &Written) -> Result<String, GroundMotionError>
     }
     let _ = writeln!(text, "# Unit: m/s2");
     let _ = writeln!(text, "# dt: {} s", series.time_step);
+    let _ = writeln!(text, "# {SAMPLES}: {}", series.samples.len());
     let _ = writeln!(text, "time_s,acceleration_m_s2");
     for (i, a) in series.samples.iter().enumerate() {
         let _ = writeln!(text, "{},{}", time(i, series.time_step), number(*a));

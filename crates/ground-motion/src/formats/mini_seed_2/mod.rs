@@ -29,14 +29,27 @@ fn matches(source: &Source<'_>) -> bool {
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
-    let mut records = Vec::new();
+    let (mut records, mut emptied) = (Vec::new(), Vec::new());
     let mut at = 0;
     while at < source.bytes.len() {
         let record = Record::read(source, at)?;
         at += record.length;
         if record.count > 0 {
             records.push(record);
+        } else if record.has_data(source) {
+            emptied.push(record);
         }
+    }
+    if let Some(first) = emptied.first() {
+        let more = match emptied.len() {
+            1 => String::new(),
+            n => format!(" (and {} more)", n - 1),
+        };
+        source.warn(&format!(
+            "the record at byte {} of {}{more} says that it has no samples, but data stand in it: it was passed over",
+            first.at,
+            first.label()
+        ));
     }
     // The file's order among equal times, for messages.
     records.sort_by_key(|r| (r.name, r.start, r.at));

@@ -165,6 +165,16 @@ impl Record {
         })
     }
 
+    /// Whether bytes that are no blanks stand where its samples would, in an encoding of numbers:
+    /// records of logs hold text, those of detections nothing.
+    pub(super) fn has_data(&self, source: &Source<'_>) -> bool {
+        let end = self.at + self.length;
+        let data = source.bytes.get(self.at + self.data..end);
+        let is_number = matches!(self.encoding, 1..=5 | 10 | 11);
+        let is_there = self.data >= HEADER && data.is_some_and(|d| d.iter().any(|b| *b != 0));
+        is_number && is_there
+    }
+
     /// Network, station, location and channel.
     pub(super) fn label(&self) -> String {
         let part = |from: usize, to: usize| latin_1(&self.name[from..to]).trim().to_owned();

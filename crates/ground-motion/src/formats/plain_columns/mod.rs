@@ -37,7 +37,7 @@ fn is_comment(line: &Line<'_>) -> bool {
 fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
     let columns = source.options.skip_columns;
     source
-        .lines()
+        .all_lines()
         .skip(source.options.skip_lines)
         .map(move |l| Line {
             number: l.number,
@@ -50,7 +50,7 @@ fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
 /// The line before the rows, comments among them, that names their columns.
 fn header(source: &Source<'_>) -> Option<Header> {
     let first = rows(source).next()?.number;
-    let before = source.lines().skip(source.options.skip_lines);
+    let before = source.all_lines().skip(source.options.skip_lines);
     let before = before.take_while(|l| l.number < first);
     before.filter_map(|l| header::parse(&l)).last()
 }
@@ -66,7 +66,7 @@ struct Faulty {
 fn fault(source: &Source<'_>, header: Option<&Header>) -> Option<Faulty> {
     let first = rows(source).next()?.number;
     let after = header.map_or(0, |h| h.line);
-    let before = source.lines().skip(source.options.skip_lines);
+    let before = source.all_lines().skip(source.options.skip_lines);
     before
         .take_while(|l| l.number < first)
         .filter(|l| l.number > after)
@@ -335,12 +335,16 @@ fn fixed(source: &Source<'_>, layout: Layout) -> Result<Vec<Series>, GroundMotio
     let mut samples = Vec::with_capacity(room);
     let mut first = 0;
     let mut last = 0;
+    let mut card = None;
     let mut lines = rows(source).peekable();
     while let Some(line) = lines.next() {
         first = if first == 0 { line.number } else { first };
         last = line.number;
-        // What stands after the numbers, e.g. row numbers of cards, is not data.
+        // Row numbers of cards stand after the numbers, and are not data.
         let width = layout.margin + layout.per_line * layout.width;
+        if !layout.more {
+            card = counted_card(source, line, width, card)?;
+        }
         let mut bytes = &line.bytes[..width.min(line.bytes.len())];
         if lines.peek().is_none() && line.bytes.len() > width {
             // The last card may hold fewer numbers before its own.
@@ -351,6 +355,38 @@ fn fixed(source: &Source<'_>, layout: Layout) -> Result<Vec<Series>, GroundMotio
     }
     let draft = Draft::new(samples, DraftUnit::Unstated, (first, first, last));
     Ok(vec![draft.finish(source)?])
+}
+
+/// The number of a card that stands behind its numbers, which end at a column; `before` is that of
+/// the card before.
+///
+/// # Errors
+/// Anything else there: the layout has fewer numbers than the rows.
+fn counted_card(
+    source: &Source<'_>,
+    line: Line<'_>,
+    width: usize,
+    before: Option<usize>,
+) -> Result<Option<usize>, GroundMotionError> {
+    let behind = line.columns(width, line.bytes.len());
+    if behind.is_empty() {
+        return Ok(before);
+    }
+    match (before, behind.parse().ok()) {
+        (None, Some(card)) => return Ok(Some(card)),
+        (Some(before), Some(card)) if card == before + 1 => return Ok(Some(card)),
+        _ => {}
+    }
+    Err(source.error(
+        line.number,
+        width + source.options.skip_columns,
+        format!(
+            "the row has {} columns, of which the layout takes {width}: \"{}\" is left over, and does not count the rows",
+            line.bytes.len(),
+            crate::number::shown(behind.as_bytes())
+        ),
+        "give the format of all numbers of a row in `layout`, such as \"8F10.5\"; or that of what is to be passed over behind them, such as \"8F9.5,I7\"",
+    ))
 }
 
 /// A series along the rows, after a row of count and step if there is one.

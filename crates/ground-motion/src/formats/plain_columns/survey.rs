@@ -165,7 +165,7 @@ impl Survey {
         source: &Source<'_>,
         width: usize,
     ) -> Result<Arrangement, GroundMotionError> {
-        let before = source.lines().skip(source.options.skip_lines);
+        let before = source.all_lines().skip(source.options.skip_lines);
         let before = before.take_while(|l| l.number < self.first).last();
         let named = before.is_some_and(|l| header::names_components(&l, width));
         let many = COMPONENTS.contains(&width) && self.rows > EVEN_ROWS;

@@ -1,0 +1,328 @@
+//! Statements that stand twice and differ, files that are cut off or lack rows, and headers behind blank lines.
+#![allow(clippy::unwrap_used)]
+
+use pounding_ground_motion::writers::{Written, write_pounding_csv};
+use pounding_ground_motion::{
+    AccelerationUnit, GroundMotionError, Processing, ReadOptions, Recording, read_all_bytes,
+    read_bytes,
+};
+
+use crate::common::binary::{SENSITIVITY, Seed, record, sac_with, steim};
+use crate::common::{Fixture, all, fixtures};
+
+fn text_of(format: &'static str) -> (Fixture, String) {
+    let fixture = fixtures(format, 0).remove(0);
+    let text = fixture.bytes.iter().map(|b| char::from(*b)).collect();
+    (fixture, text)
+}
+
+fn read(text: &str, options: &ReadOptions) -> Result<Recording, GroundMotionError> {
+    let bytes: Vec<u8> = text.chars().map(|c| c as u8).collect();
+    read_all_bytes("f", &bytes, options)
+}
+
+fn lenient(options: &ReadOptions) -> ReadOptions {
+    ReadOptions {
+        lenient: true,
+        ..options.clone()
+    }
+}
+
+/// Refused at a line that holds some words, and read with a warning where the user takes the file
+/// as it is.
+fn refused(text: &str, options: &ReadOptions, at: &str, words: &[&str]) -> Recording {
+    let line = text.lines().position(|l| l.contains(at)).unwrap() + 1;
+    let error = read(text, options).unwrap_err();
+    let shown = format!("{error}; {}", error.help().unwrap());
+    assert!(shown.starts_with(&format!("f:{line}:1: ")), "{shown}");
+    for words in words.iter().chain([&"lenient"]) {
+        assert!(shown.contains(words), "{words} is not in {shown}");
+    }
+    let read = read(text, &lenient(options)).unwrap();
+    assert!(!read.series[0].origin.warnings.is_empty());
+    read
+}
+
+/// Step and count of the lines before the peaks of a Volume 2.
+#[test]
+fn words_of_volume_2() {
+    for (format, step, other, count, label) in [
+        (
+            "csmip_v2",
+            "intervals of   0.010",
+            "intervals of   0.005",
+            "    23 points of instrument",
+            "points of accel data",
+        ),
+        (
+            "caltech_volume_2",
+            "INTERVALS OF    .020",
+            "INTERVALS OF    .010",
+            "    23  INSTRUMENT",
+            "POINTS OF ACC DATA",
+        ),
+    ] {
+        let (fixture, text) = text_of(format);
+        assert!(text.contains(step) && text.contains(count), "{text}");
+        let words = ["the step is", "in line 17"];
+        refused(&text.replace(step, other), &fixture.options, label, &words);
+        let wrong = count.replace("23", "63");
+        let words = ["23 samples follow here, but line 16 says 63"];
+        refused(
+            &text.replace(count, &wrong),
+            &fixture.options,
+            label,
+            &words,
+        );
+        let near = read(
+            &text.replace(count, &count.replace("23", "24")),
+            &fixture.options,
+        );
+        let warnings = near.unwrap().series[0].origin.warnings.join("; ");
+        assert!(warnings.contains("line 16 says 24"), "{warnings}");
+    }
+}
+
+#[test]
+fn keys_that_stand_twice() {
+    let (fixture, text) = text_of("dyna");
+    for (line, again) in [
+        ("UNITS: cm/s^2\n", "UNITS: m/s^2\n"),
+        ("SAMPLING_INTERVAL_S: 0.01\n", "SAMPLING_INTERVAL_S: 0.02\n"),
+        ("STREAM: HNE\n", "STREAM: HNN\n"),
+    ] {
+        let twice = text.replace(line, &format!("{line}{again}"));
+        let (key, value) = again.trim().split_once(": ").unwrap();
+        let words = [key, &format!("\"{value}\" here, but")];
+        let read = refused(&twice, &fixture.options, again.trim(), &words);
+        assert_eq!(read.series[0].component, "HNE");
+        assert_eq!(read.series[0].unit, "cm/s2");
+        self::read(&text.replace(line, &line.repeat(2)), &fixture.options).unwrap();
+    }
+    let (fixture, text) = text_of("k_net");
+    let line = "Dir.              E-W\n";
+    let twice = text.replace(line, &format!("{line}Dir.              N-S\n"));
+    let words = ["dir. is \"N-S\" here, but \"E-W\" in line 13"];
+    let read = refused(&twice, &fixture.options, "N-S", &words);
+    assert_eq!(read.series[0].component, "EW");
+}
+
+#[test]
+fn scale_factors_of_k_net() {
+    let (fixture, text) = text_of("k_net");
+    let with = |scale: &str| read(&text.replace("3920(gal)/6182761", scale), &fixture.options);
+    let samples = with("3920(gal)/6182761").unwrap().series[0].samples.clone();
+    for scale in [
+        "3920(cm/s2)/6182761",
+        "3920 (gal) / 6182761",
+        "3920/6182761",
+    ] {
+        assert_eq!(with(scale).unwrap().series[0].samples, samples, "{scale}");
+    }
+    for scale in [
+        "3920(gal)/6,182,761",
+        "3920(gal)/6 182 761",
+        "3920(gal)/6182761/2",
+        "3920(gal)6182761",
+        "(gal)/6182761",
+    ] {
+        let error = with(scale).unwrap_err().to_string();
+        assert!(
+            error.starts_with("f:14:19: scale factor"),
+            "{scale}: {error}"
+        );
+    }
+}
+
+/// Counts have the offset of their instrument, in SAC as in miniSEED.
+#[test]
+fn counts_of_sac_are_raw() {
+    let bytes = sac_with(&[], &[], "HNE");
+    let counts = ReadOptions {
+        sensitivity: Some(SENSITIVITY),
+        ..ReadOptions::default()
+    };
+    let record = read_bytes("f", &bytes, &counts).unwrap();
+    let origin = record.origin().unwrap();
+    assert_eq!(origin.processing, Processing::Raw);
+    assert!(origin.mean_removed && origin.warnings[0].contains("was taken off"));
+    let unit = ReadOptions {
+        unit: Some(AccelerationUnit::Gal),
+        ..ReadOptions::default()
+    };
+    let record = read_bytes("f", &bytes, &unit).unwrap();
+    assert_eq!(record.origin().unwrap().processing, Processing::Unstated);
+}
+
+/// Our CSV states its number of samples; files without it are read as before.
+#[test]
+fn csv_that_is_cut_off() {
+    let (_, plain) = text_of("pounding_csv");
+    let record = read_bytes("f", plain.as_bytes(), &ReadOptions::default()).unwrap();
+    let text = write_pounding_csv(&Written::of(&record)).unwrap();
+    assert!(text.contains("\n# Samples: 23\n"), "{text}");
+    let cut = text[..text.trim_end().rfind('\n').unwrap()].to_owned() + "\n";
+    let error = read(&cut, &ReadOptions::default()).unwrap_err();
+    assert!(
+        matches!(
+            error,
+            GroundMotionError::TooFewSamples {
+                expected: 23,
+                found: 22,
+                ..
+            }
+        ),
+        "{error}"
+    );
+    let taken = read(&cut, &lenient(&ReadOptions::default())).unwrap();
+    assert_eq!(taken.series[0].samples.len(), 22);
+    // Words of others behind the key.
+    let words = plain.replace("# dt", "# Samples: by hand\n# dt");
+    read(&words, &ReadOptions::default()).unwrap();
+}
+
+#[test]
+fn midas_without_its_end() {
+    let (fixture, text) = text_of("midas_sgs");
+    let cut = text.replace("*ENDDATA\n", "");
+    let last = cut.lines().last().unwrap().to_owned();
+    refused(&cut, &fixture.options, &last, &["ends without *ENDDATA"]);
+}
+
+#[test]
+fn blank_rows_of_jma() {
+    let (fixture, text) = text_of("jma_csv");
+    let lines: Vec<&str> = text.lines().collect();
+    let with_blank = |at: usize| [&lines[..at], &[""], &lines[at..]].concat().join("\n");
+    let error = read(&with_blank(12), &fixture.options)
+        .unwrap_err()
+        .to_string();
+    assert!(error.starts_with("f:13:1: a blank row"), "{error}");
+    for at in [7, lines.len()] {
+        read(&with_blank(at), &fixture.options).unwrap();
+    }
+    let start = text.replace("2000 01 01 00 00 00", "");
+    assert_eq!(
+        read(&start, &fixture.options).unwrap().series[0]
+            .origin
+            .start_time,
+        ""
+    );
+}
+
+/// A Fortran format must take all numbers of a row, or say what stands behind them.
+#[test]
+fn numbers_behind_a_layout() {
+    let rows = "  1.25000  2.25000  3.25000  4.25000\n".repeat(3);
+    let with = |rows: &str, layout: &str| {
+        let options = ReadOptions {
+            unit: Some(AccelerationUnit::Gal),
+            time_step: Some(0.01),
+            layout: Some(layout.to_owned()),
+            ..ReadOptions::default()
+        };
+        read(rows, &options).map_err(|e| format!("{e}; {}", e.help().unwrap()))
+    };
+    let error = with(&rows, "2F9.5").unwrap_err();
+    for words in [
+        "f:1:",
+        "36 columns, of which the layout takes 18",
+        "8F9.5,I7",
+    ] {
+        assert!(error.contains(words), "{error}");
+    }
+    for (layout, count) in [("4F9.5", 12), ("2F9.5,2F9.5", 6)] {
+        assert_eq!(with(&rows, layout).unwrap().series[0].samples.len(), count);
+    }
+    // Numbers of cards.
+    let cards = |by: usize| {
+        let row = |i: usize| format!("  1.25000  2.25000{:>4}\n", 7 + by * i);
+        (0..3).map(row).collect::<String>()
+    };
+    assert_eq!(with(&cards(1), "2F9.5").unwrap().series[0].samples.len(), 6);
+    assert!(with(&cards(2), "2F9.5").is_err());
+}
+
+/// With a line too many in the header the last numbers of it are none of the data.
+#[test]
+fn a_header_of_bhrc_with_a_line_more() {
+    let (fixture, text) = text_of("bhrc");
+    let data: Vec<&str> = text.lines().collect();
+    let last = 13 + 7 + 7;
+    let row = data[last - 1];
+    assert!(row.len() < 30, "{row}");
+    let more = text.replacen(&format!("{row}\n"), &format!("{row}\n{row}\n"), 1);
+    let error = read(&more, &fixture.options).unwrap_err().to_string();
+    assert!(
+        error.starts_with(&format!(
+            "f:{}:1: the data start with a row of 2 numbers",
+            last + 1
+        )),
+        "{error}"
+    );
+}
+
+/// Blank lines before a header hide no format.
+#[test]
+fn blank_lines_before_a_header() {
+    for fixture in all(0) {
+        if ["mini_seed_2", "sac"].contains(&fixture.format) {
+            continue;
+        }
+        let read = |bytes: &[u8]| {
+            let read = read_all_bytes("f", bytes, &fixture.options);
+            read.unwrap_or_else(|e| panic!("{}: {e}", fixture.name))
+                .series
+        };
+        let behind = read(&[b"\n  \r\n", &fixture.bytes[..]].concat());
+        for (a, b) in read(&fixture.bytes).iter().zip(&behind) {
+            assert_eq!(b.origin.format, fixture.format, "{}", fixture.name);
+            assert_eq!((&a.samples, &a.component), (&b.samples, &b.component));
+        }
+    }
+    // Lines keep their numbers.
+    let (fixture, text) = text_of("dyna");
+    let wrong = text.replace("UNITS: cm/s^2", "UNITS: furlongs");
+    let error = read(&format!("\n\n{wrong}"), &fixture.options).unwrap_err();
+    let shown = error.to_string();
+    assert!(shown.starts_with("f:12:"), "{shown}");
+}
+
+/// A record that says it has no samples, but holds data, is not passed over in silence.
+#[test]
+fn records_of_mini_seed_without_samples() {
+    let options = ReadOptions {
+        sensitivity: Some(SENSITIVITY),
+        ..ReadOptions::default()
+    };
+    let make = |channel: &[u8; 3], encoding: u8, start: u32, count: u16, data: Vec<u8>| {
+        record(&Seed {
+            channel,
+            encoding,
+            big: true,
+            start,
+            count,
+            data,
+        })
+    };
+    let data = steim(&[1, 5, -3, 2], 1, true);
+    let good = make(b"HNE", 10, 0, 4, data.clone());
+    let emptied = make(b"HNE", 10, 400, 0, data);
+    for (bytes, at) in [
+        ([good.clone(), emptied.clone()].concat(), "byte 512"),
+        ([emptied, good.clone()].concat(), "byte 0"),
+    ] {
+        let read = read_all_bytes("f", &bytes, &options).unwrap();
+        let warnings = read.series[0].origin.warnings.join("; ");
+        assert!(
+            warnings.contains(at) && warnings.contains("no samples"),
+            "{warnings}"
+        );
+        assert_eq!(read.series[0].samples.len(), 4);
+    }
+    // Logs and detections.
+    let log = make(b"LOG", 0, 0, 0, b"clock locked".to_vec());
+    let detection = make(b"HNE", 10, 0, 0, Vec::new());
+    let read = read_all_bytes("f", &[log, detection, good].concat(), &options).unwrap();
+    assert!(read.series[0].origin.warnings.is_empty());
+}

@@ -6,6 +6,7 @@ import _thread
 import gc
 import threading
 import time
+import tomllib
 
 import numpy as np
 import pytest
@@ -53,6 +54,24 @@ def test_an_interruption_ends_a_run() -> None:
     timer.join()
     # The interpreter goes on.
     assert pounding.run(PAIR).summary["status"] == "complete"
+
+
+@pytest.mark.parametrize("work", ["gap_check", "compare"])
+def test_an_interruption_ends_a_single_long_run(work: str) -> None:
+    tables = tomllib.loads(PAIR.read_text())
+    tables["analysis"] = {"method": "newmark", "step": 2e-6}
+    case = pounding.Case.from_dict(tables, folder=PAIR.parent)
+    began = time.monotonic()
+    timer = threading.Timer(0.5, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        if work == "gap_check":
+            pounding.gap_check(case, threads=1)
+        else:
+            pounding.compare(case, ["jankowski_2005"], threads=1)
+    timer.join()
+    # To its end it takes minutes.
+    assert time.monotonic() - began < 5.0
 
 
 def test_progress_is_told_and_may_end_the_work() -> None:

@@ -44,7 +44,7 @@ pub use methods::Information;
 pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
 pub use recorder::{GridRecorder, History, HistorySink, Recorder, StepView};
-pub use relative_displacement::{RelativeDisplacement, isolated_demand};
+pub use relative_displacement::{RelativeDisplacement, isolated_demand, isolated_demand_beside};
 #[cfg(feature = "serde")]
 pub use summary::Summary;
 pub use system::{

@@ -73,8 +73,23 @@ pub fn isolated_demand(
     system: &System,
     options: &RunOptions,
 ) -> Result<(Outcome, Vec<Peak>), TimeHistoryError> {
-    let mut recorder = RelativeDisplacement::of_levels(system);
-    let isolated = system.without_gaps();
-    let outcome = run(&isolated, options, &mut [&mut recorder], &mut |_| {})?;
-    Ok((outcome, recorder.peaks))
+    isolated_demand_beside(system, options, &mut [])
+}
+
+/// The same with recorders of that run, which may end it.
+///
+/// # Errors
+/// As [`isolated_demand`].
+pub fn isolated_demand_beside(
+    system: &System,
+    options: &RunOptions,
+    recorders: &mut [&mut dyn Recorder],
+) -> Result<(Outcome, Vec<Peak>), TimeHistoryError> {
+    let mut demand = RelativeDisplacement::of_levels(system);
+    let mut all: Vec<&mut dyn Recorder> = vec![&mut demand];
+    for recorder in recorders {
+        all.push(&mut **recorder);
+    }
+    let outcome = run(&system.without_gaps(), options, &mut all, &mut |_| {})?;
+    Ok((outcome, demand.peaks))
 }

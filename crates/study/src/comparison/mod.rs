@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use pounding_case::Case;
 use pounding_gap_element::{ImpactModel, ModelDescriptor};
-use pounding_time_history::{BuildingOutcome, Peak, StoreyPeaks, System, run};
+use pounding_time_history::{BuildingOutcome, Peak, Recorder, StoreyPeaks, System, run};
 
 use crate::calibration::{calibrated, descriptors, references};
 use crate::dealt::{Deal, Numbers, Stored, identity};
@@ -229,11 +229,17 @@ pub fn compare_dealt(
         ..options.clone()
     };
     let identity = || identity("compare", &asked, case, asked_for);
-    let runs = deal.runs(identity, count, (options.threads, &tell), |number| {
-        let model = &models[number / records.len()];
-        let record = number % records.len();
-        one(model, &records[record], &own[record].isolated, &quantities)
-    })?;
+    let runs = deal.runs(
+        identity,
+        count,
+        (options.threads, &tell),
+        |number, ending| {
+            let model = &models[number / records.len()];
+            let record = number % records.len();
+            let isolated = &own[record].isolated;
+            one(model, &records[record], isolated, &quantities, ending)
+        },
+    )?;
     let mut runs = runs.into_iter();
     for model in &mut models {
         model.records = runs.by_ref().take(records.len()).collect();
@@ -392,6 +398,7 @@ fn one(
     record: &CaseUnderRecord,
     isolated: &[BuildingOutcome],
     quantities: &[Quantity],
+    ending: &mut dyn Recorder,
 ) -> Result<ModelRun, String> {
     let calibrated = model.calibrated.as_ref().map_err(Clone::clone)?;
     let laws: Vec<Arc<dyn ImpactModel>> = calibrated.iter().map(|c| Arc::clone(&c.model)).collect();
@@ -399,7 +406,12 @@ fn one(
         (level.width, Arc::clone(&laws[gap]))
     });
     let system = system.map_err(|e| e.to_string())?;
-    let outcome = run(&system, &record.assembly.options, &mut [], &mut |_| {});
+    let outcome = run(
+        &system,
+        &record.assembly.options,
+        &mut [ending],
+        &mut |_| {},
+    );
     let outcome = outcome.map_err(|e| e.to_string())?;
     let rigid = laws.iter().any(|l| l.rigid_restitution().is_some());
     let jumps = quantities::jumps(&outcome, rigid);

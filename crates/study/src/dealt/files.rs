@@ -11,7 +11,7 @@ use sha2::{Digest, Sha256};
 
 use super::{Made, Numbers, Stored};
 use crate::BUILD;
-use crate::gap_check::{CaseUnderRecord, CheckError, Progress, in_parallel};
+use crate::gap_check::{CaseUnderRecord, CheckError, Ending, Progress, runs_in_parallel};
 use crate::sweep::Shard;
 
 /// Makes the runs of a shard and stores them in its file, unless they stand there.
@@ -20,7 +20,7 @@ pub(super) fn part<T: Stored>(
     identity: &str,
     count: usize,
     (threads, progress): (usize, Progress<'_>),
-    make: impl Fn(usize) -> Made<T> + Sync,
+    make: impl Fn(usize, &mut Ending<'_>) -> Made<T> + Sync,
 ) -> Result<Vec<Made<T>>, CheckError> {
     let mine: Vec<usize> = (shard.index - 1..count).step_by(shard.count).collect();
     let failed = |e: Error| CheckError::Unwritten {
@@ -38,7 +38,9 @@ pub(super) fn part<T: Stored>(
                 "it is not this shard of this check: move it away",
             ));
         }
-        let made = in_parallel(mine.len(), threads, progress, |i| make(mine[i]))?;
+        let made = runs_in_parallel(mine.len(), threads, progress, |i, ending| {
+            make(mine[i], ending)
+        })?;
         let content = Content::of(shard, count, &mine, &made).encode(identity);
         pounding_files::write(file, &content).map_err(failed)?;
     }
@@ -253,7 +255,7 @@ mod tests {
         }
     }
 
-    fn make(number: usize) -> Made<Run> {
+    fn make(number: usize, _: &mut Ending<'_>) -> Made<Run> {
         match number % 5 {
             3 => Err(format!("run {number}\nfailed")),
             few => Ok(Run((0..few).map(|i| (number + i) as f64 / 3.0).collect())),

@@ -9,7 +9,7 @@ mod files;
 #[cfg(feature = "results")]
 use std::path::PathBuf;
 
-use crate::gap_check::{CheckError, Progress, in_parallel};
+use crate::gap_check::{CheckError, Ending, Progress, runs_in_parallel};
 #[cfg(feature = "results")]
 use crate::sweep::Shard;
 
@@ -90,12 +90,12 @@ impl Deal {
         identity: impl FnOnce() -> String,
         count: usize,
         (threads, progress): (usize, Progress<'_>),
-        make: impl Fn(usize) -> Made<T> + Sync,
+        make: impl Fn(usize, &mut Ending<'_>) -> Made<T> + Sync,
     ) -> Result<Vec<Made<T>>, CheckError> {
         #[cfg(not(feature = "results"))]
         let _ = identity;
         match self {
-            Self::All => in_parallel(count, threads, progress, make),
+            Self::All => runs_in_parallel(count, threads, progress, make),
             #[cfg(feature = "results")]
             Self::Part { shard, file } => {
                 let on = (threads, progress);

@@ -2,12 +2,12 @@
 
 use crate::dealt::Numbers;
 use pounding_time_history::{
-    BuildingOutcome, Gap, GapOutcome, LevelPlace, Peak, System, TimeHistoryError, isolated_demand,
-    run,
+    BuildingOutcome, Gap, GapOutcome, LevelPlace, Peak, Recorder, System, TimeHistoryError,
+    isolated_demand_beside, run,
 };
 
 use super::error::CheckError;
-use super::parallel::{Progress, in_parallel};
+use super::parallel::{Progress, runs_in_parallel};
 use super::records::CaseUnderRecord;
 
 /// A contact level of a gap.
@@ -197,10 +197,12 @@ pub(super) fn by_record(
     threads: usize,
     progress: Progress<'_>,
 ) -> Result<Vec<Result<RecordDemand, CheckError>>, CheckError> {
-    in_parallel(records.len(), threads, progress, |i| one(&records[i]))
+    runs_in_parallel(records.len(), threads, progress, |i, ending| {
+        one(&records[i], ending)
+    })
 }
 
-fn one(record: &CaseUnderRecord) -> Result<RecordDemand, CheckError> {
+fn one(record: &CaseUnderRecord, ending: &mut dyn Recorder) -> Result<RecordDemand, CheckError> {
     let (system, options) = (&record.assembly.system, &record.assembly.options);
     let failed = |source: TimeHistoryError| CheckError::Record {
         record: record.name.clone(),
@@ -208,7 +210,8 @@ fn one(record: &CaseUnderRecord) -> Result<RecordDemand, CheckError> {
     };
     // Observers change nothing: where nothing touches, peaks are those of the runs with gaps to
     // the last bit, and amplifications are exactly one.
-    let (isolated, peaks) = isolated_demand(system, options).map_err(failed)?;
+    let (isolated, peaks) =
+        isolated_demand_beside(system, options, &mut [ending]).map_err(failed)?;
     let of_gap = |gap: &Gap| peaks[gap.first_level..gap.first_level + gap.levels].to_vec();
     let duration = options.duration.unwrap_or(system.record_duration());
     let ground = |gap: &Gap| {
@@ -217,7 +220,7 @@ fn one(record: &CaseUnderRecord) -> Result<RecordDemand, CheckError> {
             .map(|level| system.relative_ground_displacement(level, duration))
             .collect()
     };
-    let pounding = run(system, options, &mut [], &mut |_| {});
+    let pounding = run(system, options, &mut [ending], &mut |_| {});
     Ok(RecordDemand {
         name: record.name.clone(),
         factor: record.assembly.accelerogram.scale(),

@@ -42,7 +42,7 @@ pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_wid
 #[cfg(feature = "results")]
 pub(crate) use demand::closes;
 pub(crate) use demand::levels;
-pub(crate) use parallel::in_parallel;
+pub(crate) use parallel::{Ending, in_parallel, runs_in_parallel};
 #[cfg(feature = "results")]
 pub(crate) use records::across_of_another;
 pub(crate) use records::{of_each_record, of_reading, said_in_reading, warnings};

@@ -9,7 +9,7 @@ use pounding_time_history::{
 use super::collapse::collapsed_building;
 use super::demand::{Amplification, RecordDemand, amplification};
 use super::error::CheckError;
-use super::parallel::Progress;
+use super::parallel::{Ending, Progress};
 use super::records::CaseUnderRecord;
 use super::systems::rebuilt;
 use crate::dealt::{Deal, Numbers, Stored};
@@ -239,7 +239,7 @@ pub(crate) fn sweep(
         }
         // Nothing to make, which is dealt out as well.
         let on = (shared.threads, shared.progress);
-        let none = |_: usize| Err::<SweepRun, _>(String::new());
+        let none = |_: usize, _: &mut Ending<'_>| Err::<SweepRun, _>(String::new());
         shared.deal.runs(shared.identity, 0, on, none)?;
         return Ok(GapSweep {
             gap: asked.gap.clone(),
@@ -249,11 +249,16 @@ pub(crate) fn sweep(
     }
     let widths = even_widths(asked.from, to, asked.points);
     let count = widths.len() * records.len();
-    let make = |number: usize| {
+    let make = |number: usize, ending: &mut Ending<'_>| {
         let (i, r) = (number / records.len(), number % records.len());
         let assembly = &records[r].assembly;
         let system = (&assembly.system, &assembly.options);
-        at_width(system, &demands[r].isolated, (widths[i], gap), &mut [])
+        at_width(
+            system,
+            &demands[r].isolated,
+            (widths[i], gap),
+            &mut [ending],
+        )
     };
     let on = (shared.threads, shared.progress);
     let runs = shared.deal.runs(shared.identity, count, on, make)?;

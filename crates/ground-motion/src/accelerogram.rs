@@ -4,6 +4,7 @@ use std::borrow::Cow;
 use std::sync::Arc;
 
 use serde::{Deserialize, Serialize};
+use sha2::{Digest as _, Sha256};
 
 use crate::direction::Orientation;
 use crate::error::{GroundMotionError, bound};
@@ -213,6 +214,45 @@ impl Accelerogram {
         }
         self.history.origin = Some(origin);
         self
+    }
+
+    /// The same record as one that is given in memory under a name. One that no file holds as it is,
+    /// since it was made of numbers, scaled or processed, has the [hash](Self::sha256) of its samples.
+    #[must_use]
+    pub fn of_memory(mut self, name: &str) -> Self {
+        let sha256 = self.sha256();
+        let as_read = self.history.scale == 1.0 && self.history.steps.is_empty();
+        match &mut self.history.origin {
+            Some(_) if as_read => self,
+            Some(origin) => {
+                origin.sha256 = sha256;
+                self
+            }
+            None => {
+                let origin = Origin {
+                    file: name.to_owned(),
+                    format: "array in memory".into(),
+                    unit: AccelerationUnit::MetrePerSecondSquared.symbol().to_owned(),
+                    time_step: format!("{} s", self.time_step),
+                    warnings: self.unusual_time_step().into_iter().collect(),
+                    sha256,
+                    ..Origin::default()
+                };
+                self.with_origin(origin)
+            }
+        }
+    }
+
+    /// SHA-256, hexadecimal, of the time step (s) and the samples (m/s2), numbers of eight bytes from
+    /// the lowest on.
+    #[must_use]
+    pub fn sha256(&self) -> String {
+        let mut hash = Sha256::new();
+        hash.update(self.time_step.to_le_bytes());
+        for a in self.samples.iter() {
+            hash.update(a.to_le_bytes());
+        }
+        hash.finalize().iter().map(|b| format!("{b:02x}")).collect()
     }
 
     /// The same record with other samples (m/s2) and time step (s): where it came

@@ -6,13 +6,11 @@ use std::sync::Arc;
 
 use pounding_assembly::read_record;
 use pounding_ground_motion::Accelerogram;
-use sha2::{Digest, Sha256};
 
 use super::shared_records::{self, SharedRecords};
 use crate::error::StudyError;
 use crate::gap_check::{Shape, said_in_reading};
 use crate::study_file::{IntensityMeasure, RecordKind, RecordSource, Study, Target};
-use pounding_files::checksum::hexadecimal;
 
 /// A motion of a study.
 #[derive(Debug, Clone)]
@@ -187,14 +185,7 @@ pub(crate) fn motion(
     };
     let sha256 = match record.origin() {
         Some(origin) => origin.sha256.clone(),
-        None => {
-            let mut hash = Sha256::new();
-            hash.update(record.time_step().to_le_bytes());
-            for a in record.samples() {
-                hash.update(a.to_le_bytes());
-            }
-            hexadecimal(&hash.finalize())
-        }
+        None => record.sha256(),
     };
     Ok(Motion {
         first: String::new(),

@@ -48,7 +48,7 @@ def construction(name: str, owner: type) -> str:
     """How an object is made; empty for those that functions return."""
     if issubclass(owner, BaseException):
         return ""
-    if not inspect.isfunction(owner.__init__):
+    if "__init__" not in vars(owner):
         return f"```python\n{name}(**keys)\n```\n\n" if issubclass(owner, dict) else ""
     made = inspect.signature(owner.__init__).parameters
     if "native" in made or getattr(owner, "__dataclass_fields__", None):
@@ -118,6 +118,11 @@ def page() -> str:
                     "\n",
                     words(member.__doc__ or ""),
                 ]
+    parts += ["\n## plot\n\n", words(pounding.plot.__doc__ or "")]
+    for name in pounding.plot.__all__:
+        function = getattr(pounding.plot, name)
+        parts += [f"\n### plot.{name}\n\n", signature(name, function), "\n"]
+        parts.append(words(function.__doc__ or ""))
     return re.sub(r"\n{3,}", "\n\n", "".join(parts))
 
 

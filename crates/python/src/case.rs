@@ -1,5 +1,6 @@
 //! Cases.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -35,8 +36,14 @@ pub struct PyCase {
     pub case: Arc<Case>,
     /// A motion that takes the place of the record of the case.
     pub motion: Option<Arc<Accelerogram>>,
+    /// Its name.
+    pub motion_name: String,
     /// The file that this motion was read from.
     motion_file: Option<PathBuf>,
+    /// The text of the case, which says so of such a motion.
+    pub text: Arc<str>,
+    /// The file as it was given, by which results call what the case reads.
+    given: Option<PathBuf>,
     /// Whether nobody wrote the text, so that places are told by keys.
     made: bool,
 }
@@ -47,13 +54,38 @@ impl PyCase {
             Ok(case) => Ok(Self {
                 case: Arc::new(case),
                 motion: None,
+                motion_name: String::new(),
                 motion_file: None,
+                text: source.into(),
+                given: None,
                 made,
             }),
             Err(error) => {
                 let made = made.then(|| file.display().to_string());
                 Err(Problem::from(Failure::case(error, source)).by_keys(made))
             }
+        }
+    }
+
+    /// A case of a file that is called as it was given.
+    fn of_file(source: &str, file: PathBuf) -> Result<Self, Problem> {
+        let made = Self::parsed(source, &here(file.clone()), false, false)?;
+        Ok(Self {
+            given: Some(file),
+            ..made
+        })
+    }
+
+    /// The case with the file as it was given, as long as that leads there from the working folder.
+    fn as_given(&self) -> Cow<'_, Case> {
+        let leads_there = |given: &&PathBuf| here((*given).clone()) == self.case.file;
+        match self.given.as_ref().filter(leads_there) {
+            Some(given) => {
+                let mut case = Case::clone(&self.case);
+                case.file.clone_from(given);
+                Cow::Owned(case)
+            }
+            None => Cow::Borrowed(&self.case),
         }
     }
 
@@ -75,7 +107,7 @@ impl PyCase {
     /// # Errors
     /// As [`assembly`](Self::assembly).
     pub fn assembly_sharing(&self, files: &RecordFiles) -> Result<Assembly, Problem> {
-        let case = self.case.as_ref();
+        let case = &*self.as_given();
         let made = match &self.motion {
             None => assemble_sharing(case, files),
             Some(motion) => under_motion(case, motion),
@@ -84,6 +116,18 @@ impl PyCase {
             let all = faults::with_all(error, case, self.motion.is_none());
             self.problem(Failure::of_case(all, case))
         })
+    }
+
+    /// The same case under a motion of this name.
+    fn under(self, motion: &Motion, name: &str) -> Self {
+        let record = Accelerogram::clone(&motion.record).of_memory(name);
+        Self {
+            text: format!("{}\n{}", self.case.source.trim_end(), told(motion, name)).into(),
+            motion: Some(Arc::new(record)),
+            motion_name: name.to_owned(),
+            motion_file: motion.file.clone(),
+            ..self
+        }
     }
 
     /// The file of a case that was read from one.
@@ -113,47 +157,43 @@ impl PyCase {
     /// A case from the text of a case file; `file` names it and is the base of its paths.
     #[staticmethod]
     fn from_text(source: &str, file: PathBuf) -> Result<Self, Problem> {
-        Self::parsed(source, &here(file), false, false)
+        Self::of_file(source, file)
     }
 
     /// A case from its file.
     #[staticmethod]
     fn from_file(path: PathBuf) -> Result<Self, Problem> {
         let source = read_text(&path, "case").map_err(|e| Failure::case(e, ""))?;
-        Self::parsed(&source, &here(path), false, false)
+        Self::of_file(&source, path)
     }
 
     /// A case from a dict with the keys of the case file; paths in it begin in `folder`. With
     /// a motion the ground motion of the dict says at most how that is scaled.
     #[staticmethod]
-    #[pyo3(signature = (dict, folder, motion=None))]
+    #[pyo3(signature = (dict, folder, motion=None, name=""))]
     fn from_dict(
         dict: &Bound<'_, PyDict>,
         folder: PathBuf,
         motion: Option<&Motion>,
+        name: &str,
     ) -> PyResult<Self> {
         let text = text_of(dict)?;
         let made = Self::parsed(&text, &here(folder).join(MADE), true, motion.is_some())?;
-        Ok(Self {
-            motion: motion.map(|m| Arc::clone(&m.record)),
-            motion_file: motion.and_then(|m| m.file.clone()),
-            ..made
+        Ok(match motion {
+            Some(motion) => made.under(motion, name),
+            None => made,
         })
     }
 
     /// The same case under another motion, processed and scaled as the case says.
-    fn with_motion(&self, motion: &Motion) -> Self {
-        Self {
-            motion: Some(Arc::clone(&motion.record)),
-            motion_file: motion.file.clone(),
-            ..self.clone()
-        }
+    fn with_motion(&self, motion: &Motion, name: &str) -> Self {
+        self.clone().under(motion, name)
     }
 
-    /// The text of the case file.
+    /// The text of the case file; under a motion in memory with a comment that says so.
     #[getter]
     fn source(&self) -> &str {
-        &self.case.source
+        &self.text
     }
 
     /// Title, may be empty.
@@ -189,6 +229,20 @@ impl PyCase {
         })
         .map_err(PyErr::from)
     }
+}
+
+/// The comment at the end of a case on the motion in memory that it is under.
+fn told(motion: &Motion, name: &str) -> String {
+    let record = &motion.record;
+    let from = motion.file.as_ref();
+    let from = from.map_or(String::new(), |file| format!(", read from {file:?}"));
+    format!(
+        "\n# In the place of the record of [ground_motion] stands the motion {name:?} in memory{from}:\n\
+         # {} samples at {} s, of which time step and values have the SHA-256\n# {}\n",
+        record.samples().len(),
+        record.time_step(),
+        record.sha256()
+    )
 }
 
 /// The system of a case under a motion in memory, processed and scaled as the case says of records.

@@ -8,6 +8,9 @@ use pyo3::prelude::*;
 /// Errors of one case that are shown: more help nobody.
 const MOST_SHOWN: usize = 20;
 
+/// Where something is missing from a case that was made of a dict.
+const WHOLE: &str = "the case";
+
 /// A failure with the name of a text that nobody wrote: places in it are told by their keys.
 #[derive(Debug)]
 pub struct Problem {
@@ -46,6 +49,14 @@ impl Problem {
     pub fn of_record(failure: Failure) -> Self {
         Self {
             input: "RecordError",
+            ..failure.into()
+        }
+    }
+
+    /// The same of a value of a kind that cannot stand in its place.
+    pub fn of_type(failure: Failure) -> Self {
+        Self {
+            input: "CaseTypeError",
             ..failure.into()
         }
     }
@@ -123,9 +134,14 @@ fn fault(report: &Report, made: Option<&str>) -> Fault {
     let diagnostic: &dyn Diagnostic = report.as_ref();
     let mut fault = Fault {
         message: whole_message(report),
-        help: diagnostic.help().map(|h| h.to_string()),
+        help: diagnostic.help().map(|h| with_keywords(&h.to_string())),
         shown: String::new(),
     };
+    let rest = made.and_then(|name| behind_the_place(&fault.message, name));
+    let rest = rest.map(ToOwned::to_owned);
+    if let Some(rest) = &rest {
+        fault.message = format!("{WHOLE}: {rest}");
+    }
     let label = diagnostic.labels().and_then(|mut labels| labels.next());
     let (Some(label), Some(source)) = (label, diagnostic.source_code()) else {
         return fault;
@@ -134,14 +150,104 @@ fn fault(report: &Report, made: Option<&str>) -> Fault {
     let Ok(contents) = source.read_span(label.inner(), usize::MAX / 4, 1) else {
         return fault;
     };
+    // What is not there has no line, and no keys.
+    if rest.is_some() && label.offset() == 0 && label.is_empty() {
+        return fault;
+    }
     let text = String::from_utf8_lossy(contents.data());
     let before = text.get(..label.offset()).unwrap_or(&text);
     let line = text.lines().nth(before.matches('\n').count());
     fault.shown = line.unwrap_or_default().trim().to_owned();
-    if let Some(rest) = made.and_then(|name| behind_the_place(&fault.message, name)) {
+    if let Some(rest) = rest {
         fault.message = format!("{}: {rest}", key_path(&text, label.offset()));
     }
     fault
+}
+
+/// Options of the command line that are keywords here.
+const KEYWORDS: [&str; 33] = [
+    "approach-velocity",
+    "code",
+    "component",
+    "confidence",
+    "country",
+    "date",
+    "format",
+    "from",
+    "gap",
+    "gravity",
+    "keep-going",
+    "layout",
+    "lenient",
+    "output",
+    "points",
+    "prepend-zero",
+    "probability",
+    "provisions",
+    "quantity",
+    "records",
+    "response",
+    "restitution",
+    "resume",
+    "rules",
+    "sensitivity",
+    "set",
+    "shard",
+    "skip-columns",
+    "skip-lines",
+    "threads",
+    "time-step",
+    "to",
+    "unit",
+];
+
+/// A remedy with keywords and functions in the place of options and commands.
+fn with_keywords(remedy: &str) -> String {
+    let mut remedy = remedy.to_owned();
+    for option in ["-o", "--output"] {
+        let file = "name another file";
+        remedy = remedy.replace(&format!("{file} with {option}"), file);
+    }
+    let remedy = remedy.replace(" with -o", " with --output");
+    // Code stands between backticks.
+    let parts = remedy.split('`').enumerate().map(|(number, part)| {
+        let (is_code, keyword) = (number % 2 == 1, keyword(part));
+        match (is_code, part) {
+            (true, "pounding motion") => "read_motion".to_owned(),
+            (true, _) => keyword.unwrap_or_else(|| part.to_owned()),
+            (false, _) => in_words(part),
+        }
+    });
+    parts.collect::<Vec<_>>().join("`")
+}
+
+/// An option with its value, if it has one, as a keyword.
+fn keyword(option: &str) -> Option<String> {
+    let (name, value) = match option.split_once(' ') {
+        Some((name, value)) => (name, Some(value)),
+        None => (option, None),
+    };
+    let name = name.strip_prefix("--")?;
+    let name = match name {
+        "from" => "from_".to_owned(),
+        _ => KEYWORDS.contains(&name).then(|| name.replace('-', "_"))?,
+    };
+    Some(match value {
+        Some(value) => format!("{name}=\"{}\"", value.trim_matches('"')),
+        None => name,
+    })
+}
+
+/// A text with keywords, as code, in the place of the options in it.
+fn in_words(text: &str) -> String {
+    let word = |word: &str| {
+        let option = word.trim_end_matches([',', ';', '.', ':']);
+        match keyword(option) {
+            Some(name) => format!("`{name}`{}", &word[option.len()..]),
+            None => word.to_owned(),
+        }
+    };
+    text.split(' ').map(word).collect::<Vec<_>>().join(" ")
 }
 
 /// What follows `name:line:column: ` in a message.
@@ -184,7 +290,7 @@ fn key_path(text: &str, place: usize) -> String {
         }
     }
     match (table.is_empty(), key.is_empty()) {
-        (true, true) => "the case".to_owned(),
+        (true, true) => WHOLE.to_owned(),
         (true, false) => key.to_owned(),
         (false, true) => table,
         (false, false) => format!("{table}.{key}"),

@@ -1,16 +1,20 @@
 //! Impact models, and the collision of two bodies.
 
 use numpy::IntoPyArray;
+use pounding_assembly::parameter_dimension;
+use pounding_case::Dimension;
 use pounding_cli::Failure;
 use pounding_cli::answers::DescribedModel;
 use pounding_gap_element::{
-    Bodies, CollisionSample, ModelParameters, SeparationRule, collide as collision, registry,
+    Bodies, CollisionSample, ModelDescriptor, ModelParameters, SeparationRule,
+    collide as collision, registry,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::case::json;
 use crate::errors::Problem;
+use crate::values::{optional, quantity};
 
 /// Descriptors of all impact models, or of one, as JSON: what `pounding models --json` prints.
 #[pyfunction]
@@ -24,6 +28,29 @@ fn models_json(name: Option<&str>) -> Result<String, Problem> {
     json(&described)
 }
 
+/// Values (SI) of parameters of a model by their names; one that the model does not have is left to it.
+fn values<'p>(
+    descriptor: &ModelDescriptor,
+    parameters: &'p [(String, Bound<'_, PyAny>)],
+) -> PyResult<Vec<(&'p str, f64)>> {
+    let free = parameters.iter().find(|(name, _)| name == "exponent");
+    // The unit of the stiffness depends on it.
+    let exponent = optional(free.map(|(_, e)| e), "exponent", Dimension::NUMBER)?;
+    let value = |(name, value): &'p (String, Bound<'_, PyAny>)| {
+        let mut known = descriptor.parameters.iter();
+        let value = match known.find(|parameter| parameter.name == name) {
+            Some(parameter) => {
+                let wanted = parameter_dimension(descriptor, parameter, exponent);
+                quantity(value, name, wanted)?
+            }
+            // Told below, whatever its unit.
+            None => f64::NAN,
+        };
+        Ok((name.as_str(), value))
+    };
+    parameters.iter().map(value).collect()
+}
+
 /// Two bodies collide: numbers and arrays by name. Without the mass of the right one it is a
 /// wall.
 #[pyfunction]
@@ -32,17 +59,24 @@ fn models_json(name: Option<&str>) -> Result<String, Problem> {
 fn collide<'py>(
     py: Python<'py>,
     model: &str,
-    parameters: Vec<(String, f64)>,
-    mass_left: f64,
-    mass_right: Option<f64>,
-    velocity_left: f64,
-    velocity_right: f64,
+    parameters: Vec<(String, Bound<'py, PyAny>)>,
+    mass_left: &Bound<'py, PyAny>,
+    mass_right: Option<&Bound<'py, PyAny>>,
+    velocity_left: &Bound<'py, PyAny>,
+    velocity_right: &Bound<'py, PyAny>,
     separation: Option<&str>,
-    spring: Option<Vec<(f64, f64)>>,
+    spring: Option<Vec<(Bound<'py, PyAny>, Bound<'py, PyAny>)>>,
 ) -> PyResult<Bound<'py, PyDict>> {
     let refused = |e| Problem::from(Failure::from(e));
     let descriptor = registry::find(model).map_err(refused)?;
-    let pairs: Vec<_> = parameters.iter().map(|(n, v)| (n.as_str(), *v)).collect();
+    let bodies = Bodies {
+        mass_left: quantity(mass_left, "mass_left", Dimension::MASS)?,
+        mass_right: optional(mass_right, "mass_right", Dimension::MASS)?,
+        velocity_left: quantity(velocity_left, "velocity_left", Dimension::VELOCITY)?,
+        velocity_right: quantity(velocity_right, "velocity_right", Dimension::VELOCITY)?,
+    };
+    let values = values(descriptor, &parameters)?;
+    let pairs: Vec<_> = values.iter().map(|(n, v)| (*n, *v)).collect();
     let mut given = ModelParameters::from_pairs(&pairs);
     if let Some(name) = separation {
         let rule = SeparationRule::ALL.into_iter().find(|r| r.name() == name);
@@ -55,14 +89,14 @@ fn collide<'py>(
         };
         given = given.with_separation(rule);
     }
-    given.spring = spring;
-    let model = registry::build(descriptor.name, &given).map_err(refused)?;
-    let bodies = Bodies {
-        mass_left,
-        mass_right,
-        velocity_left,
-        velocity_right,
+    let point = |(d, f): &(Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let d = quantity(d, "a penetration of spring", Dimension::LENGTH)?;
+        Ok::<_, PyErr>((d, quantity(f, "a force of spring", Dimension::FORCE)?))
     };
+    given.spring = spring
+        .map(|points| points.iter().map(point).collect::<PyResult<_>>())
+        .transpose()?;
+    let model = registry::build(descriptor.name, &given).map_err(refused)?;
     let outcome = collision(model.as_ref(), &bodies).map_err(refused)?;
     let answer = PyDict::new(py);
     for (name, value) in [

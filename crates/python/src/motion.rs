@@ -4,11 +4,12 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
+use pounding_case::Dimension;
 use pounding_cli::Failure;
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 use pounding_ground_motion::{
-    AccelerationUnit, Accelerogram, Format, GroundMotionError, Quantity, ReadOptions, read,
+    AccelerationUnit, Accelerogram, Format, GroundMotionError, Offset, Quantity, ReadOptions, read,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -16,6 +17,7 @@ use pyo3::types::PyDict;
 
 use crate::case::{here, json};
 use crate::errors::Problem;
+use crate::values::{optional, quantity};
 
 /// An accelerogram: accelerations (m/s2) at even steps, linear in between.
 #[pyclass(frozen, name = "Motion", module = "pounding._native")]
@@ -39,24 +41,39 @@ fn refused(error: GroundMotionError) -> Problem {
     Problem::of_record(error.into())
 }
 
+/// A motion of samples in a unit at even steps (s).
+fn of_samples(
+    acceleration: &PyReadonlyArray1<'_, f64>,
+    time_step: f64,
+    unit: &str,
+) -> Result<Accelerogram, Problem> {
+    let unit = unit.parse::<AccelerationUnit>().map_err(refused)?;
+    let samples = acceleration.as_array().to_vec();
+    Accelerogram::new(samples, unit, time_step).map_err(refused)
+}
+
+/// One of the words that an option takes.
+fn word<T>(name: &str, given: Option<T>, what: &str, known: &str) -> Result<T, Problem> {
+    let wrong = || Failure::input(format!("\"{name}\" is {what}"), Some(known.to_owned()));
+    given.ok_or_else(|| Problem::of_record(wrong()))
+}
+
 #[pymethods]
 impl Motion {
     /// Accelerations in a unit at even steps (s).
     #[new]
     fn new(
         acceleration: PyReadonlyArray1<'_, f64>,
-        time_step: f64,
+        time_step: &Bound<'_, PyAny>,
         unit: &str,
-    ) -> Result<Self, Problem> {
-        let unit = unit.parse::<AccelerationUnit>().map_err(refused)?;
-        let samples = acceleration.as_array().to_vec();
-        let record = Accelerogram::new(samples, unit, time_step).map_err(refused)?;
-        Ok(Self::of(record, None))
+    ) -> PyResult<Self> {
+        let time_step = quantity(time_step, "time_step", Dimension::TIME)?;
+        Ok(Self::of(of_samples(&acceleration, time_step, unit)?, None))
     }
 
     /// A record of a file, with what its headers do not say.
     #[staticmethod]
-    #[pyo3(signature = (path, format=None, component=None, unit=None, time_step=None, quantity=None, skip_lines=0, skip_columns=0, layout=None, sensitivity=None, lenient=false, response=None))]
+    #[pyo3(signature = (path, *, format, component, unit, time_step, quantity, skip_lines, skip_columns, prepend_zero, layout, sensitivity, lenient, response, gravity, offset))]
     #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
     fn read(
         py: Python<'_>,
@@ -64,38 +81,52 @@ impl Motion {
         format: Option<&str>,
         component: Option<String>,
         unit: Option<&str>,
-        time_step: Option<f64>,
+        time_step: Option<&Bound<'_, PyAny>>,
         quantity: Option<&str>,
         skip_lines: usize,
         skip_columns: usize,
+        prepend_zero: bool,
         layout: Option<String>,
         sensitivity: Option<f64>,
         lenient: bool,
         response: Option<PathBuf>,
-    ) -> Result<Self, Problem> {
-        let unknown = |name: &str| {
-            let help = "acceleration, velocity or displacement".to_owned();
-            Problem::of_record(Failure::input(
-                format!("\"{name}\" is no quantity of a record"),
-                Some(help),
-            ))
+        gravity: Option<&Bound<'_, PyAny>>,
+        offset: Option<&str>,
+    ) -> PyResult<Self> {
+        let of_name = |name: &str| {
+            let known = "acceleration, velocity or displacement";
+            word(
+                name,
+                Quantity::from_name(name),
+                "no quantity of a record",
+                known,
+            )
         };
-        let quantity = quantity
-            .map(|name| Quantity::from_name(name).ok_or_else(|| unknown(name)))
-            .transpose()?;
+        let of_mean = |name: &str| {
+            let offset = match name {
+                "automatic" => Some(Offset::Automatic),
+                "keep" => Some(Offset::Keep),
+                "remove" => Some(Offset::Remove),
+                _ => None,
+            };
+            let what = "nothing that becomes of the mean";
+            word(name, offset, what, "automatic, keep or remove")
+        };
         let options = ReadOptions {
             format: format.map(Format::find).transpose().map_err(refused)?,
             component,
             unit: unit.map(str::parse).transpose().map_err(refused)?,
-            time_step,
-            quantity,
+            time_step: optional(time_step, "time_step", Dimension::TIME)?,
+            quantity: quantity.map(of_name).transpose()?,
             skip_lines,
             skip_columns,
+            prepend_zero,
             layout,
             sensitivity,
             lenient,
             response,
-            ..ReadOptions::default()
+            gravity: optional(gravity, "gravity", Dimension::ACCELERATION)?,
+            offset: offset.map(of_mean).transpose()?.unwrap_or_default(),
         };
         let record = py.detach(|| read(&path, &options)).map_err(refused)?;
         Ok(Self::of(record, Some(here(path))))
@@ -111,9 +142,8 @@ impl Motion {
     ) -> PyResult<Self> {
         let history = serde_json::from_str(history)
             .map_err(|e| PyValueError::new_err(format!("a motion is damaged: {e}")))?;
-        let made = Self::new(acceleration, time_step, "m/s2")?;
-        let record = Arc::unwrap_or_clone(made.record).with_history(history);
-        Ok(Self::of(record, file))
+        let record = of_samples(&acceleration, time_step, "m/s2")?;
+        Ok(Self::of(record.with_history(history), file))
     }
 
     /// What it tells of itself besides its samples, as JSON.
@@ -175,13 +205,15 @@ impl Motion {
     }
 
     /// Multiplied by a factor.
-    fn scaled_by(&self, factor: f64) -> Result<Self, Problem> {
+    fn scaled_by(&self, factor: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let factor = quantity(factor, "factor", Dimension::NUMBER)?;
         let record = self.record.scaled_by(factor).map_err(refused)?;
         Ok(Self::of(record, self.file.clone()))
     }
 
     /// Scaled to a peak ground acceleration (m/s2).
-    fn scaled_to_peak(&self, peak: f64) -> Result<Self, Problem> {
+    fn scaled_to_peak(&self, peak: &Bound<'_, PyAny>) -> PyResult<Self> {
+        let peak = quantity(peak, "peak", Dimension::ACCELERATION)?;
         let record = self.record.scaled_to_peak(peak).map_err(refused)?;
         Ok(Self::of(record, self.file.clone()))
     }
@@ -191,8 +223,9 @@ impl Motion {
         &self,
         py: Python<'py>,
         periods: PyReadonlyArray1<'py, f64>,
-        damping: f64,
+        damping: &Bound<'py, PyAny>,
     ) -> PyResult<Bound<'py, PyDict>> {
+        let damping = quantity(damping, "damping", Dimension::NUMBER)?;
         let periods = periods.as_array().to_vec();
         let spectrum = py
             .detach(|| response_spectrum(&self.record, &periods, damping, Evaluation::default()))
@@ -211,15 +244,15 @@ impl Motion {
     }
 
     /// Intensity measures, as JSON: what `pounding motion info --json` prints of them.
-    fn measures_json(&self, py: Python<'_>, damping: f64) -> Result<String, Problem> {
+    fn measures_json(&self, py: Python<'_>, damping: &Bound<'_, PyAny>) -> PyResult<String> {
         let options = MeasureOptions {
-            damping,
+            damping: quantity(damping, "damping", Dimension::NUMBER)?,
             ..MeasureOptions::default()
         };
         let measures = py
             .detach(|| IntensityMeasures::of(&self.record, options))
             .map_err(refused)?;
-        json(&measures)
+        Ok(json(&measures)?)
     }
 }
 

@@ -122,7 +122,7 @@ impl Run {
     fn head(&self) -> RunHead<'_> {
         RunHead {
             title: &self.case.case.title,
-            case: &self.case.case.source,
+            case: &self.case.text,
             version: env!("CARGO_PKG_VERSION"),
             build: pounding_study::BUILD,
             system: &self.assembly.system,

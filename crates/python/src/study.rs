@@ -5,6 +5,7 @@ use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
+use pounding_case::{Dimension, Separation};
 use pounding_cli::Failure;
 use pounding_cli::answers::{
     Analysis, AskedOfGaps, Check, Compared, Finished, Replaced, answered_by_child,
@@ -23,10 +24,12 @@ use pounding_study::{
     ResultReader, Shard, Study, StudyError, SweepOptions, evaluate, parts_folder, sweep, writable,
 };
 use pyo3::prelude::*;
+use pyo3::types::PyDict;
 
 use crate::case::{PyCase, json, under_motion};
 use crate::errors::{Problem, warn};
 use crate::motion::Motion;
+use crate::values::{optional, quantity, text_of};
 use crate::watch::{Watch, watched};
 
 /// How long a finished run waits at most until it is stored.
@@ -169,7 +172,7 @@ fn under(case: &PyCase, motions: &[(String, Record)]) -> Result<Vec<CaseUnderRec
             return under_records(&case.case, &[]).map_err(of);
         }
         return Ok(vec![CaseUnderRecord {
-            name: "motion".to_owned(),
+            name: case.motion_name.clone(),
             file: PathBuf::new(),
             assembly: case.assembly()?,
         }]);
@@ -220,9 +223,17 @@ fn records(given: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Vec<(String, Reco
     given.into_iter().map(record).collect()
 }
 
+/// Entries of the table `separation` of a case.
+fn entries_of(case: &PyCase, entries: &Bound<'_, PyDict>) -> PyResult<Separation> {
+    let text = text_of(entries)?;
+    let read = Separation::parse(&text, case.case.buildings.len());
+    let named = Some("--set".to_owned());
+    read.map_err(|e| Problem::from(Failure::case(e, &text)).by_keys(named).into())
+}
+
 /// Checks the gaps of a case: what `pounding gap --json` prints.
 #[pyfunction]
-#[pyo3(signature = (case, motions, code, country, date, rules, probability, confidence, points, threads, progress=None))]
+#[pyo3(signature = (case, motions, code, country, date, rules, provisions, entries, probability, confidence, points, widths, gap, threads, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 fn gap_check_json(
     py: Python<'_>,
@@ -232,9 +243,13 @@ fn gap_check_json(
     country: Option<&str>,
     date: Option<&str>,
     rules: Option<PathBuf>,
-    probability: f64,
-    confidence: f64,
+    provisions: Vec<String>,
+    entries: Option<&Bound<'_, PyDict>>,
+    probability: &Bound<'_, PyAny>,
+    confidence: &Bound<'_, PyAny>,
     points: usize,
+    widths: [Option<Bound<'_, PyAny>>; 2],
+    gap: Option<String>,
     threads: usize,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
@@ -243,19 +258,35 @@ fn gap_check_json(
         code,
         country,
         date,
-        provisions: &[],
+        provisions: &provisions,
         rules: rules.as_deref(),
     };
-    let separation = overridden(case.case.separation.clone(), &asked).map_err(Problem::from)?;
+    let mut separation = case.case.separation.clone();
+    if let Some(entries) = entries {
+        separation = separation.overridden_by(entries_of(case, entries)?);
+    }
+    let separation = overridden(separation, &asked).map_err(Problem::from)?;
+    let [from, to] = &widths;
+    let (from, to) = (
+        optional(from.as_ref(), "from_", Dimension::LENGTH)?,
+        optional(to.as_ref(), "to", Dimension::LENGTH)?,
+    );
+    let sweep = WidthOptions {
+        gap,
+        from,
+        to,
+        points,
+    };
+    let of_sweep = sweep.gap.is_some() || from.is_some() || to.is_some();
+    if of_sweep && points == 0 {
+        let message = "without a sweep there is nothing that `from_`, `to` and `gap` could say";
+        let help = "give `points`, how many widths it has".to_owned();
+        return Err(Problem::from(Failure::input(message, Some(help))).into());
+    }
     let options = GapCheckOptions {
-        target_probability: probability,
-        confidence,
-        sweep: (points > 0).then_some(WidthOptions {
-            gap: None,
-            from: None,
-            to: None,
-            points,
-        }),
+        target_probability: quantity(probability, "probability", Dimension::NUMBER)?,
+        confidence: quantity(confidence, "confidence", Dimension::NUMBER)?,
+        sweep: (points > 0).then_some(sweep),
         threads: threads.max(1),
     };
     let made = watched(py, progress, |watch| {
@@ -270,20 +301,27 @@ fn gap_check_json(
 
 /// Compares impact models: what `pounding compare --json` prints.
 #[pyfunction]
-#[pyo3(signature = (case, models, motions, restitution, same_duration, exact, threads, progress=None))]
+#[pyo3(signature = (case, models, motions, restitution, approach_velocity, same_duration, exact, threads, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "keywords of Python")]
 fn compare_json(
     py: Python<'_>,
     case: &Bound<'_, PyCase>,
     models: Vec<String>,
     motions: Vec<(String, Bound<'_, PyAny>)>,
-    restitution: Option<f64>,
+    restitution: Option<&Bound<'_, PyAny>>,
+    approach_velocity: Option<&Bound<'_, PyAny>>,
     same_duration: bool,
     exact: bool,
     threads: usize,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
     let (case, motions) = (case.get(), records(motions)?);
+    let velocity = optional(approach_velocity, "approach_velocity", Dimension::VELOCITY)?;
+    if velocity.is_some_and(|velocity| velocity.is_nan() || velocity <= 0.0) {
+        let help = "bodies that do not approach each other do not touch".to_owned();
+        let message = "approach_velocity must be greater than zero";
+        return Err(Problem::from(Failure::input(message, Some(help))).into());
+    }
     let options = ComparisonOptions {
         models,
         stiffness_rule: match same_duration {
@@ -294,8 +332,8 @@ fn compare_json(
             true => RestitutionRule::Exact,
             false => RestitutionRule::AsPublished,
         },
-        restitution,
-        approach_velocity: None,
+        restitution: optional(restitution, "restitution", Dimension::NUMBER)?,
+        approach_velocity: velocity,
         threads: threads.max(1),
     };
     let made = watched(py, progress, |watch: &Watch| {

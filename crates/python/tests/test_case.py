@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 import collections
+import copy
+import datetime
+import decimal
+import hashlib
+import json
 import pickle
 import shutil
 import tomllib
 import types
 from pathlib import Path
 
+import h5py
 import numpy as np
+import pandas as pd
 import pytest
 from conftest import EXAMPLES, PAIR, RECORD, ROOT
 from hypothesis import HealthCheck, given, settings
@@ -201,8 +208,6 @@ places = st.sampled_from(
 @settings(max_examples=300, deadline=None, suppress_health_check=list(HealthCheck))
 @given(changes=st.lists(st.tuples(places, values), min_size=1, max_size=3))
 def test_no_dict_ends_the_interpreter(changes: list, pair_dict: dict) -> None:
-    import copy
-
     tables = copy.deepcopy(pair_dict)
     for keys, value in changes:
         table = tables
@@ -279,3 +284,111 @@ def test_a_record_of_a_dict_has_its_name(pair_dict: dict) -> None:
     kobe = ROOT / "ground_motions" / "kobe_1995_jma_ns.csv"
     assert list(pounding.gap_check(case, {"my kobe": kobe}).demand.index) == ["my kobe"]
     assert list(pounding.gap_check(case, [kobe]).demand.index) == ["kobe_1995_jma_ns"]
+
+
+def test_what_can_be_read_once_stays(pair_dict: dict) -> None:
+    heights = {"first": 3.0, "second": 3.0, "third": 3.0}
+    pair_dict["building"][0].update(
+        mass=map(float, ["25e3"] * 3),
+        height=heights.values(),
+        stiffness=(3.46e6 for _ in range(3)),
+    )
+    once = {**pair_dict, "building": iter(pair_dict["building"]), "gap": iter(pair_dict["gap"])}
+    case = pounding.Case.from_dict(once)
+    expected = pounding.run(case).impacts
+    assert len(expected)
+    for copied in (copy.deepcopy(case), pickle.loads(pickle.dumps(case))):
+        assert copied.source == case.source
+        assert pounding.run(copied).impacts.equals(expected)
+    # A building is in as many cases as one likes.
+    keys = dict(stiffness=3.46e6, height=3.0, damping={"stiffness_proportional": 0.05})
+    light = pounding.Building("light", mass=map(float, ["25e3"] * 3), **keys)
+    made = [pounding.Case([light], ground_motion=RECORD).check()["buildings"] for _ in range(2)]
+    assert made[0] == made[1]
+
+
+@pytest.mark.parametrize("text", [b"25 t", bytearray(b"25 t"), memoryview(b"25 t"), np.bytes_(b"25 t")])
+def test_bytes_are_no_list_of_numbers(text: object, pair_dict: dict) -> None:
+    pair_dict["building"][0].update(storeys=4, mass=text)
+    with pytest.raises(pounding.CaseError, match=r"building\[0\].mass: a \w+ cannot stand") as told:
+        pounding.Case.from_dict(pair_dict)
+    assert isinstance(told.value, TypeError) and told.value.help
+
+
+@pytest.mark.parametrize("value", [10**30, pd.NA, "\ud800", decimal.Decimal("sNaN"), 1j])
+def test_values_beyond_any_case_have_their_place(value: object, pair_dict: dict) -> None:
+    pair_dict["building"][0]["mass"] = value
+    with pytest.raises(pounding.CaseError, match=r"^building\[0\].mass: ") as told:
+        pounding.Case.from_dict(pair_dict)
+    assert told.value.help
+
+
+def test_a_day_is_the_text_of_one(pair_dict: dict) -> None:
+    pair_dict["separation"] = {"date": datetime.date(2018, 3, 22)}
+    assert 'date = "2018-03-22"' in pounding.Case.from_dict(pair_dict).source
+    check = pounding.gap_check(PAIR, code="ntc", date=datetime.date(2019, 1, 1))
+    assert "ntc_2018" in json.dumps(check.answer["gaps"][0]["code"])
+
+
+def test_a_case_says_which_motion_it_is_under(tmp_path: Path, pair_dict: dict) -> None:
+    samples = np.sin(0.3 * np.arange(500))
+    of_file = pounding.Case.from_file(PAIR)
+    in_dict = pounding.Case.from_dict(pair_dict)
+    read = pounding.read_motion(RECORD)
+    hashes = set()
+    for case in (of_file, in_dict, pair(RECORD)):
+        for motion in (
+            pounding.Motion(samples, 0.02, name="sine"),
+            pounding.Motion(2.0 * samples, 0.02, name="sine"),
+            pounding.Motion(samples, 0.01, name="sine"),
+            read.scaled_by(2.0),
+        ):
+            under = case.with_motion(motion)
+            path = tmp_path / "under.h5"
+            pounding.run(under, isolated=False).to_hdf5(path)
+            with h5py.File(path) as file:
+                told = dict(file.attrs)
+                record = file["ground"].attrs["record"]
+            assert told["case"] == under.source != case.source
+            assert repr(motion.name).strip("'") in under.source.splitlines()[-3]
+            hashed = hashlib.sha256(np.array(motion.time_step, "<f8").tobytes())
+            hashed.update(motion.acceleration.astype("<f8").tobytes())
+            assert told["record_sha256"] == hashed.hexdigest() and hashed.hexdigest() in told["case"]
+            hashes.add((told["case_sha256"], told["record_sha256"]))
+            # What stands there is a case still, and so are its copies.
+            tomllib.loads(told["case"])
+            assert pickle.loads(pickle.dumps(under)).source == under.source
+            if motion.origin is None:
+                assert record.startswith("sine (array in memory)")
+    assert len(hashes) == 12
+    # A file as it is has its own.
+    pounding.run(of_file.with_motion(read), isolated=False).to_hdf5(path)
+    with h5py.File(path) as file:
+        assert file.attrs["record_sha256"] == hashlib.sha256(RECORD.read_bytes()).hexdigest()
+    made = pair(pounding.Motion(samples, 0.02, name="sine"))
+    page = pounding.run(made).report()
+    assert "sine (array in memory)" in page
+    demand = pounding.gap_check(of_file.with_motion(pounding.Motion(samples, 0.02, name="sine"))).demand
+    assert list(demand.index) == ["sine"]
+
+
+def test_what_is_missing_has_no_place_of_another(pair_dict: dict) -> None:
+    del pair_dict["ground_motion"]
+    for tables in (pair_dict, {"title": "a pair", **pair_dict}, {}):
+        with pytest.raises(pounding.CaseError) as told:
+            pounding.Case.from_dict(tables)
+        assert told.value.faults[0][0] == "the case: the case has no `ground_motion`", str(told.value)
+        assert "<dict>" not in str(told.value) and "title = " not in str(told.value)
+
+
+def test_what_is_no_motion_is_told(pair_dict: dict) -> None:
+    array = np.sin(np.arange(10.0))
+    for call in (
+        lambda: pounding.Case.from_dict(pair_dict, motion=array),
+        lambda: pounding.Case.from_file(PAIR).with_motion(array),
+        lambda: pair(array),
+    ):
+        with pytest.raises(pounding.CaseError, match=r"a ndarray is given as a motion\n.*Motion\(array"):
+            call()
+    with pytest.raises(pounding.CaseError, match="a ndarray is given as a record"):
+        pounding.gap_check(PAIR, [array])

@@ -89,6 +89,24 @@ def test_every_example_is_the_same_file(path: Path, tmp_path: Path) -> None:
             assert np.array_equal(result.energy[column], first[f"energy/{column}"]), column
 
 
+def test_records_are_called_as_the_command_calls_them(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for name in ("blast_beside_a_tower", "three_storey_pair"):
+        path = EXAMPLES / name / "case.toml"
+        monkeypatch.chdir(path.parent.parent)
+        relative = path.relative_to(path.parent.parent)
+        by_command, by_python = tmp_path / "command.h5", tmp_path / "python.h5"
+        summary = json.loads(command("run", relative, "-o", by_command, "--json"))
+        result = pounding.run(relative)
+        assert result.summary == summary
+        result.to_hdf5(by_python)
+        with h5py.File(by_command) as a, h5py.File(by_python) as b:
+            assert a["ground"].attrs["record"] == b["ground"].attrs["record"]
+        understood = json.loads(command("check", relative, "--json"))
+        assert pounding.Case.from_file(relative).check() == understood
+
+
 def test_the_file_is_one_that_the_command_line_reads(tmp_path: Path) -> None:
     path = tmp_path / "pair.h5"
     result = pounding.run(PAIR)

@@ -6,6 +6,7 @@ import pickle
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 from conftest import RECORD
 
@@ -109,3 +110,74 @@ def test_models_are_described() -> None:
     assert described["parameters"]
     with pytest.raises(pounding.CaseError, match="jankowski_2005"):
         pounding.model("jankovski_2005")
+
+
+def test_texts_carry_units() -> None:
+    plain = pounding.collide(
+        "jankowski_2005", mass_left=25e3, velocity_left=0.5, stiffness=2.75e9, restitution=0.65
+    )
+    texts = pounding.collide(
+        "jankowski_2005",
+        mass_left="25 t",
+        velocity_left="50 cm/s",
+        stiffness="2.75e9 N/m^1.5",
+        restitution="65 %",
+    )
+    assert texts == plain and hash(texts) == hash(plain) and len({texts, plain}) == 1
+    assert plain != pounding.collide("linear_elastic", mass_left=1.0, velocity_left=1.0, stiffness=1.0)
+    assert plain != "a collision" and len(repr(plain)) < 200
+    with pytest.raises(pounding.CaseError, match="stiffness must be .* but .* is a force") as told:
+        pounding.collide("jankowski_2005", mass_left=1.0, velocity_left=1.0, stiffness="1 N")
+    assert told.value.help
+    for wrong in (None, b"1", [1.0], True):
+        with pytest.raises(pounding.CaseError, match="^stiffness must be"):
+            pounding.collide("jankowski_2005", mass_left=1.0, velocity_left=1.0, stiffness=wrong)
+    with pytest.raises(pounding.CaseError, match="list of pairs"):
+        pounding.collide("borovin_2014", mass_left=1.0, velocity_left=1.0, spring=[1.0, 2.0])
+    motion = pounding.Motion([0.0, 1.0, 0.0], "20 ms", unit="g")
+    assert motion.time_step == 0.02
+    assert motion.scaled_to_peak("0.3 g").peak == pytest.approx(0.3 * 9.80665, rel=1e-15)
+    assert motion.scaled_by("50 %").peak == pytest.approx(0.5 * 9.80665, rel=1e-15)
+    assert motion.measures("5 %") == motion.measures(0.05)
+
+
+@pytest.mark.parametrize(
+    "periods",
+    [np.ma.array([0.1, 0.2], mask=[1, 0]), [0.1 + 1j], [[0.1, 0.2]], ["0.1 s"], [True], [None, pd.NA]],
+)
+def test_periods_are_real_numbers(periods: object) -> None:
+    motion = pounding.Motion([0.0, 1.0, 0.0], 0.02)
+    with pytest.raises(pounding.CaseError, match="periods") as told:
+        motion.spectrum(periods)
+    assert told.value.help
+    with pytest.raises(pounding.CaseError, match="acceleration"):
+        pounding.Motion(periods, 0.02)
+
+
+@pytest.mark.parametrize("name", [None, 5, ""])
+def test_a_name_is_a_text(name: object) -> None:
+    with pytest.raises(pounding.CaseError, match="^name is"):
+        pounding.Motion([0.0, 1.0], 0.02, name=name)
+    if name is not None:
+        with pytest.raises(pounding.CaseError, match="^name is"):
+            pounding.read_motion(RECORD, name=name)
+
+
+def test_records_are_read_as_a_case_reads_them(tmp_path: Path) -> None:
+    path = tmp_path / "record.txt"
+    path.write_text("0.1\n0.2\n-0.1\n")
+    keys = {"unit": "g", "time_step": "20 ms", "layout": "a", "gravity": "9.81 m/s2"}
+    motion = pounding.read_motion(path, format="plain_columns", prepend_zero=True, offset="keep", **keys)
+    assert motion.time_step == 0.02
+    assert np.allclose(motion.acceleration, 9.81 * np.array([0.0, 0.1, 0.2, -0.1]), rtol=1e-15)
+    with pytest.raises(pounding.CaseError, match="skip_lines is -1"):
+        pounding.read_motion(path, skip_lines=-1)
+    with pytest.raises(pounding.CaseError, match="time_step must be"):
+        pounding.read_motion(path, time_step="20 m")
+    with pytest.raises(pounding.RecordError, match="automatic, keep or remove"):
+        pounding.read_motion(path, offset="half")
+    with pytest.raises(TypeError, match=r"^read_motion\(\)"):
+        pounding.read_motion(path, tiem_step=0.02)
+    # A remedy says what is to be written here.
+    with pytest.raises(pounding.RecordError, match=r'`unit="g"` with `read_motion`'):
+        pounding.read_motion(path)

@@ -56,6 +56,32 @@ def test_types_are_right() -> None:
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
+#: What users write, with what a checker says of it.
+TYPED = """
+import pounding
+for result in pounding.run_many(["a.toml"]):
+    result.peaks
+for either in pounding.run_many("a.toml", errors="return"):
+    either.peaks  # type: ignore[union-attr]
+pounding.run_mny  # type: ignore[attr-defined]
+pounding.plot.enrgy  # type: ignore[attr-defined]
+pounding.plot.energy(pounding.run("a.toml"))
+pounding.read_motion("a.csv", tiem_step=1.0)  # type: ignore[call-arg]
+pounding.collide("hertz_1882", mass_left="25 t", velocity_left=1.0, stiffness="1 N/m^1.5")
+"""
+
+
+def test_types_are_those_of_what_users_write(tmp_path: Path) -> None:
+    pytest.importorskip("mypy")
+    import pounding
+
+    (tmp_path / "used.py").write_text(TYPED)
+    (tmp_path / "pounding").symlink_to(Path(pounding.__file__).parent)
+    call = [sys.executable, "-m", "mypy", "--strict", "--follow-imports", "silent", "used.py"]
+    ended = subprocess.run(call, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 def test_everything_public_is_documented() -> None:
     import pounding
 
@@ -112,6 +138,9 @@ def test_pictures_are_drawn() -> None:
     with pytest.raises(ValueError, match="have no force"):
         pounding.plot.forces(rigid)
     assert plot.spectra([motion, motion.scaled_by(0.5)]).get_legend() is not None
+    assert plot.spectra(motion).lines[0].get_label() == motion.name
+    with pytest.raises(pounding.CaseError, match="no motions are given"):
+        plot.spectra([])
     with pytest.raises(ValueError, match="no gap"):
         plot.opening(result, "nowhere")
 
@@ -123,5 +152,5 @@ def test_the_page_of_the_reference_is_that_of_the_docstrings() -> None:
     finally:
         sys.path.pop(0)
     assert documentation.PAGE.read_text(encoding="utf-8") == documentation.page()
-    for name in ("collide", "run_many", "Result.to_xarray", "CaseError"):
+    for name in ("collide", "plot.spectra", "run_many", "Result.to_xarray", "CaseError"):
         assert f" {name}\n" in documentation.page(), name

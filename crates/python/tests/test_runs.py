@@ -7,10 +7,12 @@ import gc
 import threading
 import time
 import tomllib
+from pathlib import Path
 
 import numpy as np
 import pytest
-from conftest import EXAMPLES, PAIR, ROOT
+import xarray as xr
+from conftest import EXAMPLES, PAIR, RECORD, ROOT
 
 import pounding
 
@@ -155,3 +157,68 @@ def test_levels_and_peaks_are_tables() -> None:
     assert levels["energy_dissipated"].sum() == pytest.approx(
         result.summary["energy"]["impact"], rel=1e-9
     )
+
+
+def test_columns_are_of_one_type_with_and_without_impacts(pair_dict: dict) -> None:
+    with_impacts = pounding.run(PAIR)
+    pair_dict["gap"][0]["width"] = "10 m"
+    without_impacts = pounding.run(pounding.Case.from_dict(pair_dict))
+    del pair_dict["gap"]
+    without_gaps = pounding.run(pounding.Case.from_dict(pair_dict))
+    assert len(with_impacts.impacts) and not len(without_impacts.impacts)
+    for other in (without_impacts, without_gaps):
+        assert other.impacts.dtypes.equals(with_impacts.impacts.dtypes)
+        assert other.levels.dtypes.equals(with_impacts.levels.dtypes)
+        assert other.levels.index.dtypes.equals(with_impacts.levels.index.dtypes)
+
+
+def test_a_tree_is_saved_with_all_it_has(tmp_path: Path, pair_dict: dict) -> None:
+    result = pounding.run(PAIR)
+    tree = result.to_xarray()
+    impacts = tree["gap/light-heavy/impacts"]
+    rows = result.impacts
+    for name in rows.columns.drop(["gap", "level"]):
+        assert np.array_equal(impacts[name], rows[name], equal_nan=True), name
+        assert impacts[name].dims == ("impact",) and impacts[name].attrs["units"], name
+    assert np.array_equal(impacts["level_number"], rows["level"])
+    assert list(impacts["constant"].values) == ["stiffness", "class_damping_ratio"]
+    pair_dict["gap"][0]["width"] = "10 m"
+    quiet = pounding.run(pounding.Case.from_dict(pair_dict)).to_xarray()
+    assert quiet["gap/light-heavy/impacts"].sizes["impact"] == 0
+    del pair_dict["gap"]
+    alone = pounding.run(pounding.Case.from_dict(pair_dict)).to_xarray()
+    for number, saved in enumerate((tree, quiet, alone)):
+        path = tmp_path / f"{number}.nc"
+        saved.to_netcdf(path, engine="h5netcdf")
+        with xr.open_datatree(path, engine="h5netcdf", decode_timedelta=False) as read:
+            xr.testing.assert_identical(read.load(), saved)
+
+
+def test_a_summary_is_a_copy() -> None:
+    result = pounding.run(PAIR)
+    before = result.summary
+    result.summary["buildings"].clear()
+    result.warnings.append("nothing")
+    assert result.summary == before and result.peaks.shape[0] == 6
+
+
+@pytest.mark.parametrize("threads", [True, 2.7, "2", 0, -1, 10**30])
+def test_threads_are_a_count(threads: object) -> None:
+    with pytest.raises(pounding.CaseError, match="^threads is"):
+        pounding.run_many([PAIR], threads=threads)
+    assert len(pounding.run_many([PAIR], threads=np.int64(2))) == 1
+
+
+def test_one_case_may_stand_for_a_list(pair_dict: dict) -> None:
+    case = pounding.Case.from_file(PAIR)
+    expected = pounding.run(case, isolated=False).summary
+    for one in (PAIR, str(PAIR), case):
+        (made,) = pounding.run_many(one)
+        assert made.summary == expected
+    light = pounding.Building(**pair_dict["building"][0])
+    assert pounding.Case(light, ground_motion=RECORD).buildings == ["light"]
+    for wrong in (light, 5, None):
+        with pytest.raises(pounding.CaseError, match="is given as a case"):
+            pounding.run(wrong)
+        with pytest.raises(pounding.CaseError, match="is given as a case"):
+            pounding.run_many([wrong])

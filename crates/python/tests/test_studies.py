@@ -244,3 +244,65 @@ def test_a_gap_check_by_one_code_is_that_of_the_command() -> None:
         pounding.gap_check(case, code="eurocode_8_204")
     with pytest.raises(ValueError, match="no records"):
         pounding.gap_check(case, [])
+
+
+def test_options_of_the_commands_are_keywords() -> None:
+    case = EXAMPLES / "three_storey_pair" / "case.toml"
+    models = ["jankowski_2005", "anagnostopoulos_2004"]
+    words = ["--approach-velocity", "0.5 m/s", "--restitution", "0.6"]
+    said = json.loads(command("compare", case, "--models", *models, *words, "--json"))
+    for velocity, restitution in (("50 cm/s", "60 %"), (0.5, 0.6)):
+        options = {"approach_velocity": velocity, "restitution": restitution}
+        assert pounding.compare(case, models, **options).answer == said
+    assert list(pounding.compare(case, models[0]).models.index) == models[:1]
+    with pytest.raises(pounding.CaseError, match="unknown impact model \"jankovski_2005\""):
+        pounding.compare(case, "jankovski_2005")
+    for velocity in (0, "-1 m/s", math.nan):
+        with pytest.raises(pounding.CaseError, match="approach_velocity must be greater than zero"):
+            pounding.compare(case, models, approach_velocity=velocity)
+    provision = "en_1998_1_2004_between"
+    words = ["--provisions", provision, "--set", "importance=1.4", "--points", 4, "--from", "5 mm"]
+    words += ["--to", "80 mm", "--gap", "light-heavy", "--probability", "10 %", "--confidence", "0.8"]
+    said = json.loads(command("gap", case, *words, "--json", expect=1))
+    check = pounding.gap_check(
+        case,
+        provisions=provision,
+        set={"importance": 1.4},
+        points=4,
+        from_="5 mm",
+        to=0.08,
+        gap="light-heavy",
+        probability="10 %",
+        confidence=0.8,
+    )
+    assert check.answer == said
+    assert len(check.answer["gaps"][0]["provisions"]) == 1
+    with pytest.raises(pounding.CaseError, match="points is -1"):
+        pounding.gap_check(case, points=-1)
+    with pytest.raises(pounding.CaseError, match="without a sweep"):
+        pounding.gap_check(case, to="80 mm")
+    with pytest.raises(pounding.CaseError, match="^importence: unknown key"):
+        pounding.gap_check(case, set={"importence": 1.4})
+
+
+def test_remedies_name_what_is_written_here(tmp_path: Path) -> None:
+    path = tmp_path / "wide.toml"
+    case = EXAMPLES / "three_storey_pair" / "case.toml"
+    text = case.read_text().replace("../../ground_motions", str(ROOT / "ground_motions"))
+    path.write_text(text.replace('width = "20 mm"', 'width = "20 m"'))
+    with pytest.raises(pounding.CaseError, match="help: give `approach_velocity`, or a narrower gap"):
+        pounding.compare(path, ["jankowski_2005"])
+    with pytest.raises(pounding.CaseError, match="give `to` a value"):
+        pounding.gap_check(case, points=3, from_="5 mm", to="1 mm")
+    with pytest.raises(pounding.OutputError, match="or name another file$"):
+        pounding.run(case).to_hdf5(tmp_path / "no" / "folder.h5")
+
+
+def test_answers_are_shown_in_short() -> None:
+    case = EXAMPLES / "three_storey_pair" / "case.toml"
+    check, comparison = pounding.gap_check(case), pounding.compare(case)
+    for answer in (check, comparison):
+        assert len(repr(answer)) < 1000 and repr(answer).startswith("<pounding.")
+        assert answer._repr_html_().startswith("<p><strong>")
+    assert "not adequate; gap light-heavy: 20 mm" in repr(check)
+    assert f"{len(comparison.models)} models under 1 record" in repr(comparison)

@@ -12,7 +12,7 @@ gap is wide enough, and how sensitive the answer is to the impact model.
 Numbers are SI; texts may carry units. Errors say what is wrong, where, and what to do.
 """
 
-from typing import Any
+from typing import TYPE_CHECKING
 
 from . import _native
 from ._case import Analysis, Building, Case, Gap, GroundMotion, Link, Separation
@@ -61,10 +61,15 @@ __all__ = [
 ]
 
 
-def __getattr__(name: str) -> Any:
-    # Matplotlib is needed for `plot` alone.
-    if name == "plot":
-        import importlib
+if TYPE_CHECKING:
+    # Not as a function, which would give a type to names that are misspelt.
+    from . import plot as plot
+else:
 
-        return importlib.import_module(".plot", __name__)
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    def __getattr__(name):
+        # Matplotlib is needed for `plot` alone.
+        if name == "plot":
+            import importlib
+
+            return importlib.import_module(".plot", __name__)
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -9,9 +9,10 @@ from __future__ import annotations
 import copy
 import json
 import os
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from ._errors import CaseTypeError, refused
 from ._motion import Motion
 from ._native import Case as _NativeCase
 
@@ -20,6 +21,9 @@ __all__ = ["Analysis", "Building", "Case", "Gap", "GroundMotion", "Link", "Separ
 
 class _Table(dict[str, Any]):
     """A table of the case file: a dict, whose keys are given as keywords."""
+
+    def __init__(self, **keys: Any) -> None:
+        super().__init__({key: _kept(value) for key, value in keys.items()})
 
     def _shown(self) -> str:
         return ", ".join(f"{key}={value!r}" for key, value in self.items())
@@ -106,7 +110,7 @@ class Case:
     Parameters
     ----------
     buildings : list of Building
-        From the left.
+        From the left; also a single one.
     gaps : list of Gap, optional
     ground_motion : GroundMotion, Motion or path
         A file, or a motion in memory.
@@ -131,11 +135,11 @@ class Case:
 
     def __init__(
         self,
-        buildings: Iterable[Mapping[str, Any]],
-        gaps: Iterable[Mapping[str, Any]] = (),
+        buildings: Iterable[Mapping[str, Any]] | Mapping[str, Any],
+        gaps: Iterable[Mapping[str, Any]] | Mapping[str, Any] = (),
         *,
         ground_motion: Motion | Mapping[str, Any] | str | os.PathLike[str],
-        links: Iterable[Mapping[str, Any]] = (),
+        links: Iterable[Mapping[str, Any]] | Mapping[str, Any] = (),
         analysis: Mapping[str, Any] | None = None,
         separation: Mapping[str, Any] | None = None,
         title: str = "",
@@ -143,9 +147,9 @@ class Case:
         scale: Any = None,
     ) -> None:
         tables: dict[str, Any] = {
-            "building": list(buildings),
-            "gap": list(gaps),
-            "link": list(links),
+            "building": _tables(buildings),
+            "gap": _tables(gaps),
+            "link": _tables(links),
         }
         tables = {key: value for key, value in tables.items() if value}
         tables.update(title=title or None, analysis=analysis, separation=separation)
@@ -157,8 +161,10 @@ class Case:
             tables["ground_motion"] = {**ground_motion}
             if scale is not None:
                 tables["ground_motion"]["scale"] = scale
-        else:
+        elif isinstance(ground_motion, (str, os.PathLike)):
             tables["ground_motion"] = {"file": os.fspath(ground_motion), "scale": scale}
+        else:
+            motion = _as_motion(ground_motion)
         self.__setstate__(Case.from_dict(tables, folder=folder, motion=motion).__dict__)
 
     @classmethod
@@ -202,7 +208,7 @@ class Case:
         tables : dict
             ``building``, ``gap`` and ``link`` are lists. Values are numbers in SI units,
             texts with a unit, lists, arrays and dicts; ``None`` stands for a key that is
-            not given.
+            not given. Iterators are read once, here.
         folder : path, optional
             Where relative paths begin.
         motion : Motion, optional
@@ -210,24 +216,32 @@ class Case:
         """
         given = _plain(tables)
         if motion is not None:
+            motion = _as_motion(motion)
             ground = dict(given.get("ground_motion") or {})
             known = {"scale"}
             beyond = sorted(set(ground) - known - {"file"})
             if beyond:
-                raise ValueError(
-                    f"ground_motion.{beyond[0]}: a motion in memory takes `scale` alone; "
-                    "the other keys say how a file is read"
+                raise refused(
+                    f"ground_motion.{beyond[0]}: a motion in memory takes `scale` alone",
+                    "leave it out: the other keys say how a file is read",
                 )
             ground["file"] = motion.name
             given["ground_motion"] = ground
-        native_motion = None if motion is None else motion._native
-        native = _NativeCase.from_dict(given, os.fspath(folder), native_motion)
+        if motion is None:
+            native = _NativeCase.from_dict(given, os.fspath(folder))
+        else:
+            native = _NativeCase.from_dict(given, os.fspath(folder), motion._native, motion.name)
         kind = "dict" if motion is None else "dict with motion"
         return cls._of(native, (kind, given, os.path.abspath(folder)), motion)
 
     def with_motion(self, motion: Motion) -> Case:
-        """The same case under another motion, processed and scaled as the case says."""
-        return Case._of(self._native.with_motion(motion._native), self._made, motion)
+        """The same case under another motion, processed and scaled as the case says.
+
+        ``source``, and with it result files and pages, say which motion that is: its name, and
+        a hash of its samples.
+        """
+        native = self._native.with_motion(_as_motion(motion)._native, motion.name)
+        return Case._of(native, self._made, motion)
 
     @property
     def title(self) -> str:
@@ -236,7 +250,7 @@ class Case:
 
     @property
     def source(self) -> str:
-        """The text of the case file."""
+        """The text of the case file; under a motion in memory a comment at its end says so."""
         return self._native.source
 
     @property
@@ -266,12 +280,53 @@ class Case:
         return f"<pounding.Case{title}: {', '.join(self.buildings)}>"
 
 
+def as_case(case: Case | str | os.PathLike[str]) -> Case:
+    """A case, or that of a file."""
+    if isinstance(case, Case):
+        return case
+    if isinstance(case, (str, os.PathLike)):
+        return Case.from_file(case)
+    what = f"a {type(case).__name__} is given as a case"
+    raise refused(what, "give a Case, such as Case.from_dict makes, or a path", CaseTypeError)
+
+
+def _as_motion(motion: Any) -> Motion:
+    if isinstance(motion, Motion):
+        return motion
+    what = f"a {type(motion).__name__} is given as a motion"
+    remedy = "give a Motion: Motion(array, time_step), or read_motion(path)"
+    raise refused(what, remedy, CaseTypeError)
+
+
+def _tables(given: Iterable[Mapping[str, Any]] | Mapping[str, Any]) -> list[Mapping[str, Any]]:
+    """Tables of one kind, also a single one."""
+    return [given] if isinstance(given, Mapping) else list(given)
+
+
+def _kept(value: Any) -> Any:
+    """The same, where it can be read once only as a list."""
+    return [_kept(entry) for entry in value] if isinstance(value, Iterator) else value
+
+
+#: What is no list although it has entries: texts, and what is refused with its keys.
+_NO_LISTS = (str, bytes, bytearray, memoryview, set, frozenset)
+
+
 def _plain(value: Any) -> Any:
-    """A copy with plain dicts and lists in the place of other mappings and sequences of them."""
+    """A copy with plain dicts and lists in the place of other mappings and of all that has entries:
+    what can be read once only is read here, and the same whenever the case is made again."""
     if isinstance(value, Mapping):
         return {key: _plain(entry) for key, entry in value.items()}
-    if isinstance(value, (list, tuple)):
-        return [_plain(entry) for entry in value]
+    if isinstance(value, _NO_LISTS):
+        return value
+    # Arrays have one themselves, and without a dimension no entries.
+    if not hasattr(value, "tolist"):
+        try:
+            entries = iter(value)
+        except TypeError:
+            pass
+        else:
+            return [_plain(entry) for entry in entries]
     return copy.deepcopy(value)
 
 

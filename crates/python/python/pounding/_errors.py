@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import operator
 from collections.abc import Sequence
 
 
@@ -25,7 +26,12 @@ class PoundingError(Exception):
 
 
 class CaseError(PoundingError, ValueError):
-    """A case, a study or an argument that cannot be used."""
+    """A case, a study or an argument that cannot be used; a ``TypeError`` too where a value is of a
+    kind that has no place in a case."""
+
+
+class CaseTypeError(CaseError, TypeError):
+    """A value of a kind that has no place in a case."""
 
 
 class RecordError(CaseError):
@@ -42,3 +48,30 @@ class OutputError(PoundingError, OSError):
 
     def __str__(self) -> str:
         return str(self.args[0]) if self.args else ""
+
+
+def refused(
+    message: str, remedy: str, kind: type[CaseError] = CaseError
+) -> CaseError:
+    """An exception for an argument that cannot be used."""
+    return kind(f"{message}\n  help: {remedy}", [(message, remedy)])
+
+
+def whole(value: object, name: str, least: int, most: int = 2**31 - 1) -> int:
+    """The value of an argument that is a count."""
+    if isinstance(value, bool) or not hasattr(value, "__index__"):
+        what = f"{name} is {value!r}, which is no whole number"
+        raise refused(what, f"give one from {least} on", CaseTypeError)
+    count = operator.index(value)
+    if not least <= count <= most:
+        raise refused(f"{name} is {count}", f"give a whole number from {least} to {most}")
+    return count
+
+
+def text(value: object, name: str) -> str:
+    """The value of an argument that is a text, not an empty one."""
+    if not isinstance(value, str):
+        raise refused(f"{name} is {value!r}, which is no text", "give a text", CaseTypeError)
+    if not value:
+        raise refused(f"{name} is empty", "give a text, or leave it out")
+    return value

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from . import _native
+from ._errors import refused
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    import numpy as np
     import numpy.typing as npt
     import pandas
 
@@ -33,7 +35,7 @@ def model(name: str) -> dict[str, Any]:
     return described[0]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False, repr=False)
 class Collision:
     """A collision of two bodies (SI units), with its history from closure on."""
 
@@ -52,17 +54,32 @@ class Collision:
     velocity: Array
     force: Array
 
+    def _numbers(self) -> tuple[bytes, ...]:
+        return tuple(np.asarray(getattr(self, field.name)).tobytes() for field in fields(self))
+
+    def __eq__(self, other: object) -> bool:
+        return self._numbers() == other._numbers() if isinstance(other, Collision) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._numbers())
+
+    def __repr__(self) -> str:
+        return (
+            f"<pounding.Collision: restitution {self.restitution:.4g}, "
+            f"peak force {self.peak_force / 1e3:.4g} kN, duration {1e3 * self.duration:.4g} ms>"
+        )
+
 
 def collide(
     model: str,
     *,
-    mass_left: float,
-    mass_right: float | None = None,
-    velocity_left: float,
-    velocity_right: float = 0.0,
+    mass_left: float | str,
+    mass_right: float | str | None = None,
+    velocity_left: float | str,
+    velocity_right: float | str = 0.0,
     separation: str | None = None,
-    spring: Iterable[Sequence[float]] | None = None,
-    **parameters: float,
+    spring: Iterable[Sequence[float | str]] | None = None,
+    **parameters: float | str,
 ) -> Collision:
     """Two bodies collide under an impact model, without anything else that acts on them.
 
@@ -80,11 +97,16 @@ def collide(
         Penetrations (m) and forces (N), both increasing: a spring of your own in the place of
         ``stiffness`` and ``exponent``, for ``borovin_2014``.
     **parameters
-        Parameters of the model (SI), such as ``stiffness`` and ``restitution``.
+        Parameters of the model, such as ``stiffness`` and ``restitution``.
+
+    All are SI; texts carry a unit, such as ``"2.75e9 N/m^1.5"``.
     """
-    table = None if spring is None else [(float(d), float(f)) for d, f in spring]
-    pairs = [(name, float(value)) for name, value in parameters.items()]
+    try:
+        table = None if spring is None else [(d, f) for d, f in spring]
+    except (TypeError, ValueError):
+        what = "spring is no list of pairs"
+        raise refused(what, "give a penetration (m) and a force (N) for each point") from None
     answer = _native.collide(
-        model, pairs, mass_left, mass_right, velocity_left, velocity_right, separation, table
+        model, list(parameters.items()), mass_left, mass_right, velocity_left, velocity_right, separation, table
     )
     return Collision(**answer)

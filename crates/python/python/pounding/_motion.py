@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
+from ._errors import CaseError, refused, text, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -18,6 +19,24 @@ if TYPE_CHECKING:
 __all__ = ["Motion", "formats", "measures", "read_motion", "spectrum"]
 
 
+def _real(values: npt.ArrayLike, name: str, of: str) -> npt.NDArray[np.float64]:
+    """Real numbers along one dimension."""
+    if np.ma.is_masked(values) or np.iscomplexobj(values):
+        raise refused(f"{name} has masked or complex values", "give real numbers, all of them")
+    try:
+        kind = np.asarray(values).dtype
+        if kind.kind not in "iufO":
+            raise refused(f"{name} has values of type {kind}", "give real numbers")
+        array = np.ascontiguousarray(values, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        if isinstance(error, CaseError):
+            raise
+        raise refused(f"{name} is no list of numbers: {error}", "give real numbers") from None
+    if np.ndim(values) > 1:
+        raise refused(f"{name} has {array.ndim} dimensions", f"give one of {of}")
+    return array
+
+
 class Motion:
     """A ground acceleration at even steps, linear in between.
 
@@ -25,8 +44,8 @@ class Motion:
     ----------
     acceleration : array_like, shape (samples,)
         Accelerations in ``unit``.
-    time_step : float
-        Time between them (s).
+    time_step : float or str
+        Time between them (s), or a text with its unit.
     unit : str, optional
         ``"m/s2"`` (default), ``"g"``, ``"cm/s2"``, ``"gal"``, ``"mm/s2"``, ``"in/s2"`` or
         ``"ft/s2"``.
@@ -37,20 +56,13 @@ class Motion:
     def __init__(
         self,
         acceleration: npt.ArrayLike,
-        time_step: float,
+        time_step: float | str,
         unit: str = "m/s2",
         name: str = "motion",
     ) -> None:
-        if np.ma.is_masked(acceleration) or np.iscomplexobj(acceleration):
-            raise ValueError("acceleration has masked or complex values; give real numbers, all of them")
-        kind = np.asarray(acceleration).dtype
-        if kind.kind not in "iufO":
-            raise ValueError(f"acceleration has values of type {kind}; give real numbers")
-        samples = np.ascontiguousarray(acceleration, dtype=np.float64)
-        if samples.ndim != 1:
-            raise ValueError(f"acceleration has {samples.ndim} dimensions; give one of samples")
-        self._native = _native.Motion(samples, float(time_step), unit)
-        self.name = name
+        samples = _real(acceleration, "acceleration", "samples")
+        self._native = _native.Motion(samples, time_step, text(unit, "unit"))
+        self.name = text(name, "name")
 
     @classmethod
     def _of(cls, native: _native.Motion, name: str) -> Motion:
@@ -90,21 +102,21 @@ class Motion:
         origin: dict[str, Any] | None = json.loads(self._native.origin_json())
         return origin
 
-    def scaled_by(self, factor: float) -> Motion:
+    def scaled_by(self, factor: float | str) -> Motion:
         """The same multiplied by a factor."""
         return Motion._of(self._native.scaled_by(factor), self.name)
 
-    def scaled_to_peak(self, peak: float) -> Motion:
-        """The same scaled to a peak ground acceleration (m/s2)."""
+    def scaled_to_peak(self, peak: float | str) -> Motion:
+        """The same scaled to a peak ground acceleration (m/s2), or a text such as ``"0.3 g"``."""
         return Motion._of(self._native.scaled_to_peak(peak), self.name)
 
     def spectrum(
-        self, periods: npt.ArrayLike | None = None, damping: float = 0.05
+        self, periods: npt.ArrayLike | None = None, damping: float | str = 0.05
     ) -> xarray.Dataset:
         """The response spectrum: see :func:`spectrum`."""
         return spectrum(self, periods=periods, damping=damping)
 
-    def measures(self, damping: float = 0.05) -> dict[str, Any]:
+    def measures(self, damping: float | str = 0.05) -> dict[str, Any]:
         """Intensity measures: see :func:`measures`."""
         return measures(self, damping=damping)
 
@@ -158,7 +170,25 @@ def _restored(state: tuple[Any, ...], name: str) -> Motion:
     return Motion._of(_native.Motion.restored(*state), name)
 
 
-def read_motion(path: str | os.PathLike[str], *, name: str | None = None, **options: Any) -> Motion:
+def read_motion(
+    path: str | os.PathLike[str],
+    *,
+    name: str | None = None,
+    format: str | None = None,
+    component: str | None = None,
+    unit: str | None = None,
+    time_step: float | str | None = None,
+    quantity: str | None = None,
+    skip_lines: int = 0,
+    skip_columns: int = 0,
+    prepend_zero: bool = False,
+    layout: str | None = None,
+    sensitivity: float | None = None,
+    lenient: bool = False,
+    response: str | os.PathLike[str] | None = None,
+    gravity: float | str | None = None,
+    offset: str | None = None,
+) -> Motion:
     """Reads a record in one of the formats that agencies publish, found from its content.
 
     Parameters
@@ -167,19 +197,34 @@ def read_motion(path: str | os.PathLike[str], *, name: str | None = None, **opti
         The file.
     name : str, optional
         What tables and datasets call it; the name of the file without ending by default.
-    **options
-        What the file does not say: ``format``, ``component``, ``unit``, ``time_step`` (s),
-        ``quantity``, ``skip_lines``, ``skip_columns``, ``layout``, ``sensitivity``,
-        ``lenient``, ``response``, as the keys of ``[ground_motion]`` in a case file.
+    format, component, unit, time_step, quantity, skip_lines, skip_columns, prepend_zero, layout, sensitivity, lenient, response, gravity, offset : optional
+        What the file does not say, as the keys of ``[ground_motion]`` in a case file:
+        ``time_step`` (s) and ``gravity`` (m/s2) are numbers or texts with a unit.
 
     Raises
     ------
     RecordError
         A file that cannot be read, with its line and what to do.
     """
-    native = _native.Motion.read(os.fspath(path), **options)
+    native = _native.Motion.read(
+        os.fspath(path),
+        format=format,
+        component=component,
+        unit=unit,
+        time_step=time_step,
+        quantity=quantity,
+        skip_lines=whole(skip_lines, "skip_lines", 0),
+        skip_columns=whole(skip_columns, "skip_columns", 0),
+        prepend_zero=bool(prepend_zero),
+        layout=layout,
+        sensitivity=sensitivity,
+        lenient=bool(lenient),
+        response=None if response is None else os.fspath(response),
+        gravity=gravity,
+        offset=offset,
+    )
     stem = os.path.splitext(os.path.basename(os.fspath(path)))[0]
-    return Motion._of(native, name if name is not None else stem)
+    return Motion._of(native, text(name, "name") if name is not None else stem)
 
 
 def _as_motion(motion: Motion | str | os.PathLike[str]) -> Motion:
@@ -189,7 +234,7 @@ def _as_motion(motion: Motion | str | os.PathLike[str]) -> Motion:
 def spectrum(
     motion: Motion | str | os.PathLike[str],
     periods: npt.ArrayLike | None = None,
-    damping: float = 0.05,
+    damping: float | str = 0.05,
 ) -> xarray.Dataset:
     """Elastic response spectrum, exact for an acceleration that is linear between samples.
 
@@ -211,7 +256,7 @@ def spectrum(
     import xarray as xr
 
     given = _native.periods(0.02, 10.0, 200) if periods is None else periods
-    at = np.atleast_1d(np.ascontiguousarray(given, dtype=np.float64))
+    at = _real(given, "periods", "periods (s)")
     arrays = _as_motion(motion)._native.spectrum(at, damping)
     units = {
         "displacement": "m",
@@ -228,7 +273,7 @@ def spectrum(
     return xr.Dataset(variables, coordinates, {"damping_ratio": damping})
 
 
-def measures(motion: Motion | str | os.PathLike[str], damping: float = 0.05) -> dict[str, Any]:
+def measures(motion: Motion | str | os.PathLike[str], damping: float | str = 0.05) -> dict[str, Any]:
     """Intensity measures: peaks, durations, Arias intensity, CAV, spectral intensities.
 
     Values are SI; names are those that ``pounding motion info --json`` prints.

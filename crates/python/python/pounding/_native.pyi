@@ -8,6 +8,8 @@ import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
 Progress = Callable[[int, int], object]
+#: A number (SI), or a text with a unit.
+Quantity = float | str
 
 __version__: str
 BUILD: str
@@ -18,8 +20,10 @@ class Case:
     @staticmethod
     def from_file(path: str) -> Case: ...
     @staticmethod
-    def from_dict(dict: dict[str, Any], folder: str, motion: Motion | None = None) -> Case: ...
-    def with_motion(self, motion: Motion) -> Case: ...
+    def from_dict(
+        dict: dict[str, Any], folder: str, motion: Motion | None = None, name: str = ""
+    ) -> Case: ...
+    def with_motion(self, motion: Motion, name: str) -> Case: ...
     @property
     def source(self) -> str: ...
     @property
@@ -33,9 +37,26 @@ class Case:
     def check_json(self) -> str: ...
 
 class Motion:
-    def __init__(self, acceleration: Array, time_step: float, unit: str) -> None: ...
+    def __init__(self, acceleration: Array, time_step: Quantity, unit: str) -> None: ...
     @staticmethod
-    def read(path: str, **options: Any) -> Motion: ...
+    def read(
+        path: str,
+        *,
+        format: str | None,
+        component: str | None,
+        unit: str | None,
+        time_step: Quantity | None,
+        quantity: str | None,
+        skip_lines: int,
+        skip_columns: int,
+        prepend_zero: bool,
+        layout: str | None,
+        sensitivity: float | None,
+        lenient: bool,
+        response: str | None,
+        gravity: Quantity | None,
+        offset: str | None,
+    ) -> Motion: ...
     @staticmethod
     def restored(
         acceleration: Array, time_step: float, history: str, file: str | None
@@ -54,10 +75,10 @@ class Motion:
     @property
     def description(self) -> list[str]: ...
     def origin_json(self) -> str: ...
-    def scaled_by(self, factor: float) -> Motion: ...
-    def scaled_to_peak(self, peak: float) -> Motion: ...
-    def spectrum(self, periods: Array, damping: float) -> dict[str, Array]: ...
-    def measures_json(self, damping: float) -> str: ...
+    def scaled_by(self, factor: Quantity) -> Motion: ...
+    def scaled_to_peak(self, peak: Quantity) -> Motion: ...
+    def spectrum(self, periods: Array, damping: Quantity) -> dict[str, Array]: ...
+    def measures_json(self, damping: Quantity) -> str: ...
 
 class Run:
     def summary_json(self) -> str: ...
@@ -86,24 +107,26 @@ class Run:
 def command_line(arguments: list[str]) -> int: ...
 def periods(first: float, last: float, count: int) -> Array: ...
 def formats() -> list[tuple[str, str]]: ...
-def run(case: Case, histories: bool, isolated: bool, progress: Progress | None) -> Run: ...
+def run(
+    case: Case, histories: bool = True, isolated: bool = True, progress: Progress | None = None
+) -> Run: ...
 def run_many(
     cases: list[Case],
     threads: int,
-    histories: bool,
-    isolated: bool,
-    progress: Progress | None,
+    histories: bool = False,
+    isolated: bool = False,
+    progress: Progress | None = None,
 ) -> list[Run | BaseException]: ...
 def models_json(name: str | None = None) -> str: ...
 def collide(
     model: str,
-    parameters: list[tuple[str, float]],
-    mass_left: float,
-    mass_right: float | None,
-    velocity_left: float,
-    velocity_right: float,
-    separation: str | None,
-    spring: list[tuple[float, float]] | None,
+    parameters: list[tuple[str, Quantity]],
+    mass_left: Quantity,
+    mass_right: Quantity | None,
+    velocity_left: Quantity,
+    velocity_right: Quantity,
+    separation: str | None = None,
+    spring: list[tuple[Quantity, Quantity]] | None = None,
 ) -> dict[str, Any]: ...
 def has_ida(study: str) -> bool: ...
 def run_study(
@@ -124,19 +147,24 @@ def gap_check_json(
     country: str | None,
     date: str | None,
     rules: str | None,
-    probability: float,
-    confidence: float,
+    provisions: list[str],
+    entries: dict[str, Any] | None,
+    probability: Quantity,
+    confidence: Quantity,
     points: int,
+    widths: tuple[Quantity | None, Quantity | None],
+    gap: str | None,
     threads: int,
-    progress: Progress | None,
+    progress: Progress | None = None,
 ) -> str: ...
 def compare_json(
     case: Case,
     models: list[str],
     motions: list[tuple[str, Any]],
-    restitution: float | None,
+    restitution: Quantity | None,
+    approach_velocity: Quantity | None,
     same_duration: bool,
     exact: bool,
     threads: int,
-    progress: Progress | None,
+    progress: Progress | None = None,
 ) -> str: ...

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import copy
 import html
 import io
 import json
 import os
 from collections.abc import Callable, Iterable
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 
 from . import _native
-from ._case import Case
-from ._errors import PoundingError
+from ._case import Case, as_case
+from ._errors import PoundingError, refused, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -91,7 +92,12 @@ class Result:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """Peaks, impacts, energies and statistics: what ``pounding run --json`` prints."""
+        """Peaks, impacts, energies and statistics: what ``pounding run --json`` prints. A copy,
+        which may be changed."""
+        return copy.deepcopy(self._said)
+
+    @property
+    def _said(self) -> dict[str, Any]:
         if self._summary is None:
             self._summary = json.loads(self._native.summary_json())
         return self._summary
@@ -99,8 +105,7 @@ class Result:
     @property
     def warnings(self) -> list[str]:
         """What the user should know of the record and of the run."""
-        warnings: list[str] = self.summary["warnings"]
-        return warnings
+        return list(self._said["warnings"])
 
     @property
     def time(self) -> Array:
@@ -133,7 +138,8 @@ class Result:
         ``energy_dissipated`` (J)."""
         import pandas as pd
 
-        return pd.DataFrame(self._native.impacts())
+        columns = self._native.impacts()
+        return pd.DataFrame({**columns, "gap": pd.Series(columns["gap"], dtype=_of_texts())})
 
     @property
     def peaks(self) -> pandas.DataFrame:
@@ -144,7 +150,7 @@ class Result:
         import pandas as pd
 
         rows = []
-        for building in self.summary["buildings"]:
+        for building in self._said["buildings"]:
             pairs = zip(building["storeys"], building["isolated"], strict=True)
             for number, (storey, isolated) in enumerate(pairs, start=1):
                 row: dict[str, Any] = {"building": building["name"], "storey": number}
@@ -166,7 +172,7 @@ class Result:
 
         names = ["impacts", "first_contact", "approach_velocity_max", "impulse", "energy_dissipated"]
         rows = []
-        for gap in self.summary["gaps"]:
+        for gap in self._said["gaps"]:
             for number, level in enumerate(gap["levels"], start=1):
                 row: dict[str, Any] = {"gap": gap["name"], "level": number}
                 row.update({name: level[name] for name in names})
@@ -174,8 +180,10 @@ class Result:
                     row[name] = level[name]["peak"]
                 rows.append(row)
         columns = ["gap", "level", *names, "peak_force", "peak_penetration"]
-        frame = pd.DataFrame(rows, columns=columns).set_index(["gap", "level"])
-        return frame.astype({name: float for name in frame.columns if name != "impacts"})
+        kinds: dict[str, Any] = dict.fromkeys(columns, float)
+        kinds.update(gap=_of_texts(), level=int, impacts=int)
+        frame = pd.DataFrame(rows, columns=columns).astype(kinds)
+        return frame.set_index(["gap", "level"])
 
     @property
     def energy(self) -> pandas.DataFrame:
@@ -188,13 +196,23 @@ class Result:
 
     def to_xarray(self) -> xarray.DataTree:
         """The whole result as a tree of labelled arrays with units: the groups of the result file
-        (``docs/reference/result-file.md``), from memory."""
+        (``docs/reference/result-file.md``), from memory.
+
+        The table ``impacts`` of a gap is a group of its own, with an array for each column, such
+        as ``tree["gap/light-heavy/impacts/t_close"]``; the column ``level`` is ``level_number``
+        there. ``to_netcdf`` writes the tree.
+        """
         import xarray as xr
 
         # Decoded from a copy of the file in memory: no file is written.
         file = io.BytesIO(self._native.image())
         with xr.open_datatree(file, engine="h5netcdf", phony_dims="sort", decode_timedelta=False) as tree:
-            return tree.load()
+            loaded = tree.load()
+        for gap in loaded["gap"].children.values() if "gap" in loaded.children else ():
+            columns = _columns(gap.dataset["impacts"])
+            gap.dataset = gap.to_dataset(inherit=False).drop_vars("impacts")
+            gap["impacts"] = xr.DataTree(columns)
+        return loaded
 
     def to_hdf5(self, path: str | os.PathLike[str]) -> None:
         """Writes the result file, the same that ``pounding run`` writes.
@@ -219,7 +237,7 @@ class Result:
 
     def _lines(self) -> list[str]:
         lines = []
-        for gap in self.summary["gaps"]:
+        for gap in self._said["gaps"]:
             count = sum(level["impacts"] for level in gap["levels"])
             forces = [level["peak_force"]["peak"] for level in gap["levels"]]
             force = max((f for f in forces if f is not None), default=None)
@@ -244,11 +262,52 @@ class Result:
         return f"<p><strong>{title}</strong></p><ul>{lines}</ul>{table}"
 
 
+#: Units of the columns of impacts, which a table of them has not.
+_UNITS = {
+    "t_close": "s",
+    "t_open": "s",
+    "approach_velocity": "m s-1",
+    "separation_velocity": "m s-1",
+    "achieved_restitution": "1",
+    "peak_force": "N",
+    "peak_force_time": "s",
+    "peak_penetration": "m",
+    "impulse": "N s",
+    "energy_dissipated": "J",
+}
+
+
+def _columns(table: xarray.DataArray) -> xarray.Dataset:
+    """The columns of the table of impacts of a gap, as arrays."""
+    import xarray as xr
+
+    rows = table.values
+    level = rows["level"].astype(np.int64)
+    about = {"units": "1", "long_name": "place in the dimension level, from 1"}
+    variables: dict[str, Any] = {"level_number": ("impact", level, about)}
+    for name, units in _UNITS.items():
+        about = {"units": units, "long_name": name.replace("_", " ")}
+        variables[name] = ("impact", np.ascontiguousarray(rows[name]), about)
+    coordinates: dict[str, Any] = {"impact": table["impact"].variable}
+    names = [name for name in table.attrs.get("constants", "").split(", ") if name]
+    if names:
+        about = {"long_name": "constants that the model fixed at closure"}
+        constants = np.ascontiguousarray(rows["constants"][:, : len(names)])
+        variables["constants"] = (("impact", "constant"), constants, about)
+        coordinates["constant"] = ("constant", names)
+    return xr.Dataset(variables, coordinates, {"long_name": "impacts in order of closure"})
+
+
+def _of_texts() -> Any:
+    """The type of a column of texts, also of an empty one."""
+    import pandas as pd
+
+    return pd.Series([""]).dtype
+
+
 def _threads(threads: int | None) -> int:
-    count = (os.cpu_count() or 1) if threads is None else int(threads)
-    if count < 1:
-        raise ValueError(f"threads is {count}; give at least one")
-    return count
+    """As many as the command line takes."""
+    return (os.cpu_count() or 1) if threads is None else whole(threads, "threads", 1, 4096)
 
 
 def _progress(progress: Progress | bool | None, what: str) -> tuple[Progress | None, Any]:
@@ -298,7 +357,7 @@ def run(
     ComputationError
         A run without an end, located.
     """
-    given = case if isinstance(case, Case) else Case.from_file(case)
+    given = as_case(case)
     told, bar = _progress(progress, "run")
     try:
         native = _native.run(given._native, histories, isolated, told)
@@ -308,20 +367,47 @@ def run(
     return Result(native, given)
 
 
+Cases = Iterable[Case | str | os.PathLike[str]] | Case | str | os.PathLike[str]
+
+
+@overload
 def run_many(
-    cases: Iterable[Case | str | os.PathLike[str]],
+    cases: Cases,
+    *,
+    threads: int | None = None,
+    histories: bool = False,
+    isolated: bool = False,
+    errors: Literal["raise"] = "raise",
+    progress: Progress | bool | None = None,
+) -> list[Result]: ...
+
+
+@overload
+def run_many(
+    cases: Cases,
+    *,
+    threads: int | None = None,
+    histories: bool = False,
+    isolated: bool = False,
+    errors: Literal["return"],
+    progress: Progress | bool | None = None,
+) -> list[Result | PoundingError]: ...
+
+
+def run_many(
+    cases: Cases,
     *,
     threads: int | None = None,
     histories: bool = False,
     isolated: bool = False,
     errors: Literal["raise", "return"] = "raise",
     progress: Progress | bool | None = None,
-) -> list[Result | PoundingError]:
+) -> list[Result] | list[Result | PoundingError]:
     """Runs many cases on all cores, without Python's lock.
 
     Parameters
     ----------
-    cases : iterable of Case or path
+    cases : iterable of Case or path, or one of them
     threads : int, optional
         How many; all cores by default. Results do not depend on it, to the last bit.
     histories, isolated : bool
@@ -335,14 +421,14 @@ def run_many(
     Returns
     -------
     list of Result
-        In the order of the cases.
+        In the order of the cases, with exceptions among them where ``errors`` is ``"return"``.
     """
     if errors not in ("raise", "return"):
-        raise ValueError(f'errors is "raise" or "return", not {errors!r}')
+        raise refused(f"errors is {errors!r}", 'it is "raise" or "return"')
     given: list[Case | PoundingError] = []
-    for case in cases:
+    for case in [cases] if isinstance(cases, (Case, str, os.PathLike)) else cases:
         try:
-            given.append(case if isinstance(case, Case) else Case.from_file(case))
+            given.append(as_case(case))
         except PoundingError as error:
             if errors == "raise":
                 raise

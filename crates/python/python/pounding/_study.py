@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import datetime
+import html
 import json
 import math
 import os
@@ -10,7 +12,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from . import _native
-from ._case import Case
+from ._case import Case, as_case
+from ._errors import CaseTypeError, refused, text, whole
 from ._motion import Motion
 from ._result import Progress, _progress, _threads
 
@@ -37,12 +40,22 @@ def _records(records: Records) -> list[tuple[str, Any]]:
             each = records
         named = [(r.name if isinstance(r, Motion) else "", r) for r in each]
     if not named:
-        raise ValueError("no records are given; leave `records` away for that of the case")
-    return [(n, r._native if isinstance(r, Motion) else os.fspath(r)) for n, r in named]
+        raise refused("no records are given", "leave `records` out for that of the case")
+    return [(name, _record(record)) for name, record in named]
 
 
-def _as_case(case: Case | Path) -> Case:
-    return case if isinstance(case, Case) else Case.from_file(case)
+def _record(record: Any) -> Any:
+    if isinstance(record, Motion):
+        return record._native
+    if isinstance(record, (str, os.PathLike)):
+        return os.fspath(record)
+    what = f"a {type(record).__name__} is given as a record"
+    raise refused(what, "give a Motion, or the path of a file or folder", CaseTypeError)
+
+
+def _names(names: Iterable[str] | str, what: str) -> list[str]:
+    """Names, also a single one."""
+    return [text(n, what) for n in ([names] if isinstance(names, str) else names)]
 
 
 def _output(study: Path, output: Path | None) -> str:
@@ -124,8 +137,22 @@ def sweep(
     return dataset
 
 
-@dataclass(frozen=True)
-class Ida:
+class _Answered:
+    """What is shown of an answer, whose numbers are many."""
+
+    def _lines(self) -> list[str]:
+        raise NotImplementedError
+
+    def __repr__(self) -> str:
+        return f"<pounding.{type(self).__name__}: {'; '.join(self._lines())}>"
+
+    def _repr_html_(self) -> str:
+        lines = "".join(f"<li>{html.escape(line)}</li>" for line in self._lines())
+        return f"<p><strong>{type(self).__name__}</strong></p><ul>{lines}</ul>"
+
+
+@dataclass(frozen=True, repr=False)
+class Ida(_Answered):
     """What an incremental dynamic analysis says.
 
     Attributes
@@ -138,6 +165,11 @@ class Ida:
 
     answer: dict[str, Any]
     output: str
+
+    def _lines(self) -> list[str]:
+        limits = [limit["name"] for limit in self.answer.get("limits", [])]
+        intensities = len(self.answer.get("levels", []))
+        return [f"{intensities} intensities, runs in {self.output}", f"limits: {', '.join(limits)}"]
 
     @property
     def levels(self) -> pandas.DataFrame:
@@ -179,21 +211,17 @@ def ida(
 
     Parameters are those of :func:`sweep`; the study has a part ``[ida]``.
     """
-    from ._errors import CaseError
-
     if not _native.has_ida(os.fspath(study)):
-        raise CaseError(
-            f"{os.fspath(study)} has no [ida]\n  help: add it, or run the study with sweep",
-            [(f"{os.fspath(study)} has no [ida]", "add it, or run the study with sweep")],
-        )
+        what = f"{os.fspath(study)} has no [ida]"
+        raise refused(what, "add it, or run the study with sweep")
     options = {"shard": None, "resume": resume, "keep_going": keep_going}
     target, finished, analysis = _run_study(study, output, True, threads, progress, **options)
     # The working folder may be another one when its runs are read.
     return Ida({**(analysis or {}), "sweep": finished}, os.path.abspath(target))
 
 
-@dataclass(frozen=True)
-class GapCheck:
+@dataclass(frozen=True, repr=False)
+class GapCheck(_Answered):
     """Whether the gaps of a case are wide enough.
 
     Attributes
@@ -203,6 +231,18 @@ class GapCheck:
     """
 
     answer: dict[str, Any]
+
+    def _lines(self) -> list[str]:
+        lines = ["adequate" if self.adequate else "not adequate"]
+        count = len(self.answer["records"]) + len(self.answer["collapsed"])
+        records = f"{count} record{'' if count == 1 else 's'}"
+        for gap in self.answer["gaps"]:
+            governing = gap["governing"]
+            lines.append(
+                f"gap {gap['name']}: {1e3 * governing['provided']:.4g} mm, of which "
+                f"{1e3 * governing['required']:.4g} mm are required under {records}"
+            )
+        return lines
 
     @property
     def adequate(self) -> bool:
@@ -246,11 +286,16 @@ def gap_check(
     *,
     code: str | None = None,
     country: str | None = None,
-    date: str | None = None,
+    date: str | datetime.date | None = None,
     rules: Path | None = None,
-    probability: float = 0.0,
-    confidence: float = 0.9,
+    provisions: Iterable[str] | str = (),
+    set: Mapping[str, Any] | None = None,
+    probability: float | str = 0.0,
+    confidence: float | str = 0.9,
     points: int = 0,
+    from_: float | str | None = None,
+    to: float | str | None = None,
+    gap: str | None = None,
     threads: int | None = None,
     progress: Progress | bool | None = None,
 ) -> GapCheck:
@@ -267,20 +312,29 @@ def gap_check(
         of a family, such as ``"eurocode_8"``, is its edition in force on ``date``.
     country : str, optional
         The code in force there decides.
-    date : str, optional
+    date : str or datetime.date, optional
         Day of the editions, ``"YYYY-MM-DD"``; today by default, and in ``answer`` in any case.
     rules : path, optional
         A file of rules of your own (TOML), which are applied beside the built-in ones.
-    probability : float
-        Part of the records that may bring the buildings into contact (-).
-    confidence : float
+    provisions : iterable of str, or one name, optional
+        Provisions that alone are applied; those of the case, or all, by default.
+    set : dict, optional
+        Entries of the table ``separation`` in the place of those of the case, such as
+        ``{"importance": 1.25}``.
+    probability : float or str
+        Part of the records that may bring the buildings into contact (-), such as ``"10 %"``.
+    confidence : float or str
         Of two-sided bounds (-).
     points : int
         Widths in a sweep of the gap; none by default.
+    from_, to : float or str, optional
+        First and last width of the sweep (m).
+    gap : str, optional
+        Gap whose width varies in the sweep; all, with the same width, by default.
     threads : int, optional
     progress : callable or bool, optional
     """
-    given = _as_case(case)
+    given = as_case(case)
     told, bar = _progress(progress, "gap check")
     try:
         answer = _native.gap_check_json(
@@ -288,11 +342,15 @@ def gap_check(
             _records(records),
             code,
             country,
-            date,
+            date.isoformat() if isinstance(date, datetime.date) else date,
             None if rules is None else os.fspath(rules),
+            _names(provisions, "a name of provisions"),
+            None if set is None else dict(set),
             probability,
             confidence,
-            points,
+            whole(points, "points", 0),
+            (from_, to),
+            gap,
             _threads(threads),
             told,
         )
@@ -302,8 +360,8 @@ def gap_check(
     return GapCheck(json.loads(answer))
 
 
-@dataclass(frozen=True)
-class Comparison:
+@dataclass(frozen=True, repr=False)
+class Comparison(_Answered):
     """Impact models beside one another on one case.
 
     Attributes
@@ -313,6 +371,17 @@ class Comparison:
     """
 
     answer: dict[str, Any]
+
+    def _lines(self) -> list[str]:
+        models, records = self.answer["models"], self.answer["records"]
+        failed = sum(1 for model in models if model["failures"])
+        lines = [f"{len(models)} models under {len(records)} record{'' if len(records) == 1 else 's'}"]
+        if failed:
+            lines.append(f"{failed} failed")
+        for said in self.answer["conclusions"]:
+            if said["holds"] == "depends on the model":
+                lines.append(f"depends on the model: {said['statement']}")
+        return lines
 
     @property
     def models(self) -> pandas.DataFrame:
@@ -326,10 +395,11 @@ class Comparison:
 
 def compare(
     case: Case | Path,
-    models: Iterable[str] = (),
+    models: Iterable[str] | str = (),
     records: Records = None,
     *,
-    restitution: float | None = None,
+    restitution: float | str | None = None,
+    approach_velocity: float | str | None = None,
     same_duration: bool = False,
     exact: bool = False,
     threads: int | None = None,
@@ -340,24 +410,28 @@ def compare(
     Parameters
     ----------
     case : Case or path
-    models : iterable of str
+    models : iterable of str, or one name
         Names of impact models; all by default.
     records : motions, files or folders of records, optional
     restitution : float, optional
         That of the gap's own law by default.
+    approach_velocity : float or str, optional
+        Of the collision in which models are calibrated (m/s); the maximum of the gap's own law
+        by default.
     same_duration : bool
         Stiffnesses follow from the same contact time, not from the same penetration.
     exact : bool
         The restitution is what models return, not what their publications ask for.
     """
-    given = _as_case(case)
+    given = as_case(case)
     told, bar = _progress(progress, "comparison")
     try:
         answer = _native.compare_json(
             given._native,
-            list(models),
+            _names(models, "a name of models"),
             _records(records),
             restitution,
+            approach_velocity,
             same_duration,
             exact,
             _threads(threads),

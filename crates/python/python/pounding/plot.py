@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from ._errors import refused
 from ._motion import Motion, spectrum
 from ._result import Result
 
@@ -106,11 +107,15 @@ def energy(result: Result, *, axes: Axes | None = None) -> Axes:
 
 
 def spectra(
-    motions: Iterable[Motion], *, damping: float = 0.05, axes: Axes | None = None
+    motions: Iterable[Motion] | Motion, *, damping: float | str = 0.05, axes: Axes | None = None
 ) -> Axes:
-    """Pseudo-acceleration spectra (m/s2) of motions, and their mean where there are several."""
+    """Pseudo-acceleration spectra (m/s2) of motions, or of one, and their mean where there are
+    several."""
+    given = [motions] if isinstance(motions, Motion) else list(motions)
+    if not given:
+        raise refused("no motions are given", "give one or more")
     drawn, all_values = _axes(axes), []
-    for motion in motions:
+    for motion in given:
         values = spectrum(motion, damping=damping)
         all_values.append(values["pseudo_acceleration"].values)
         drawn.loglog(values["period"], all_values[-1], lw=0.7, label=motion.name)

@@ -400,6 +400,14 @@ impl StationFile {
                 "{message}: their signs are opposite, and that of the sensitivity is used"
             ));
         }
+        // Opposite signs are named above.
+        if value < 0.0 && !(ratio < 0.0) {
+            doubts.push(format!(
+                "{}: the sensitivity of {} is negative, {value}: the samples have the opposite sign of the counts",
+                self.file,
+                name.label()
+            ));
+        }
         let rate = number(channel, "SampleRate").filter(|rate| *rate > 0.0);
         if let Some(rate) = rate.filter(|rate| (rate / name.rate - 1.0).abs() > 0.01) {
             doubts.push(format!(

@@ -254,3 +254,15 @@ fn counts_and_steps_that_stand_twice() {
     let error = read(&format!("{unit}\nNPTS= 1,021, DT= .01"), &lenient).unwrap_err();
     assert!(error.contains("\"1,021\" has a comma"), "{error}");
 }
+
+#[test]
+fn decimal_commas() {
+    let unit = "ACCELERATION TIME SERIES IN UNITS OF G";
+    let text = with_header(&format!("{unit}\nNPTS= 3, DT= .01 SEC\n 0,01 0,02 -0,03"));
+    let text = text.replace("\n 0.0 0.1 -0.2", "");
+    let error = read(&text, None).unwrap_err().to_string();
+    assert!(
+        error.starts_with("f:5:1: ") && error.contains("within the numbers"),
+        "{error}"
+    );
+}

@@ -326,3 +326,54 @@ fn records_of_mini_seed_without_samples() {
     let read = read_all_bytes("f", &[log, detection, good].concat(), &options).unwrap();
     assert!(read.series[0].origin.warnings.is_empty());
 }
+
+/// Files that were packed, or saved in another encoding, are called what they are.
+#[test]
+fn files_that_are_no_text() {
+    for (start, words, remedy) in [
+        (&b"\x1f\x8b\x08\x00abc"[..], "compressed by gzip", "unpack"),
+        (b"PK\x03\x04abc", "zip archive", "unpack"),
+        (b"\xff\xfe0\x00.\x001\x00\n\x00", "UTF-16", "UTF-8"),
+    ] {
+        let error = read_all_bytes("f", start, &ReadOptions::default()).unwrap_err();
+        let shown = format!("{error}; {}", error.help().unwrap());
+        assert!(shown.contains(words) && shown.contains(remedy), "{shown}");
+    }
+}
+
+/// Row numbers that pass for times of 1 s, beside the step that the user gives.
+#[test]
+fn row_numbers_beside_a_time_step() {
+    let rows: String = (1..30).map(|i| format!("{i} 0.{}\n", i % 7)).collect();
+    let mut options = ReadOptions {
+        unit: Some(AccelerationUnit::Gal),
+        time_step: Some(0.02),
+        ..ReadOptions::default()
+    };
+    let error = read(&rows, &options).unwrap_err();
+    let shown = format!("{error}; {}", error.help().unwrap());
+    for words in ["f:1:1: column 1 increases by 1", "--layout \"-,a\""] {
+        assert!(shown.contains(words), "{shown}");
+    }
+    options.layout = Some("-,a".to_owned());
+    assert_eq!(read(&rows, &options).unwrap().series[0].samples.len(), 29);
+}
+
+/// The step in double precision behind the data of SAC 7.
+#[test]
+fn two_steps_of_sac() {
+    let with = |step: f64| {
+        let mut bytes = sac_with(&[], &[(76, 7)], "HNE");
+        bytes.extend(step.to_le_bytes());
+        bytes.extend((-12345.0_f64).to_le_bytes().repeat(21));
+        let unit = ReadOptions {
+            unit: Some(AccelerationUnit::Gal),
+            ..ReadOptions::default()
+        };
+        read_all_bytes("f", &bytes, &unit)
+    };
+    with(0.01).unwrap();
+    with(-12345.0).unwrap();
+    let error = with(0.02).unwrap_err().to_string();
+    assert!(error.contains("0.02 s here, but 0.01 s"), "{error}");
+}

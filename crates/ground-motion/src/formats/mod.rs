@@ -154,7 +154,7 @@ fn every_series(
     not_too_large(file, bytes.len() as u64)?;
     let format = format_of(file, bytes, options, path)?;
     let source = Source::new(file, bytes, options, path);
-    if ![&mini_seed_2::FORMAT, &sac::FORMAT].contains(&format) {
+    if !is_binary(format) {
         source.is_text()?;
     }
     let mut series = (format.read)(&source)?;
@@ -244,6 +244,37 @@ fn unused(source: &Source<'_>, format: &Format) -> Result<(), GroundMotionError>
     Ok(())
 }
 
+/// Whether the files of a format are no texts.
+fn is_binary(format: &Format) -> bool {
+    [&mini_seed_2::FORMAT, &sac::FORMAT].contains(&format)
+}
+
+/// Refuses archives, and texts in an encoding that is not read.
+fn unpacked(file: &str, start: &[u8]) -> Result<(), GroundMotionError> {
+    let starts: [(&[u8], &str, &'static str); 4] = [
+        (
+            b"\x1f\x8b",
+            "the file is compressed by gzip",
+            "unpack it, `gunzip FILE`, and give what is in it",
+        ),
+        (
+            b"PK\x03\x04",
+            "the file is a zip archive",
+            "unpack it, and give the file of one record",
+        ),
+        (b"\xff\xfe", "the text is UTF-16", "save it as UTF-8"),
+        (b"\xfe\xff", "the text is UTF-16", "save it as UTF-8"),
+    ];
+    match starts.iter().find(|(first, ..)| start.starts_with(first)) {
+        Some((_, what, remedy)) => Err(GroundMotionError::Unsupported {
+            file: file.to_owned(),
+            what: (*what).to_owned(),
+            remedy,
+        }),
+        None => Ok(()),
+    }
+}
+
 /// The format that the options name, or that the start of the file shows.
 fn format_of(
     file: &str,
@@ -255,6 +286,9 @@ fn format_of(
     let source = Source::new(file, start, options, path);
     let detected = || Format::all().iter().copied().find(|f| (f.matches)(&source));
     let format = options.format.or_else(detected);
+    if !format.is_some_and(is_binary) {
+        unpacked(file, start)?;
+    }
     format.ok_or_else(|| GroundMotionError::UnknownFormat {
         file: file.to_owned(),
     })

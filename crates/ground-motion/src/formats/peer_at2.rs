@@ -63,6 +63,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     // A value takes two bytes at least.
     let mut samples = Vec::with_capacity((lines.remaining() / 2 + 1).min(header.count + 1));
     let mut last_row = 0;
+    let mut decimal_commas = None;
     for line in lines.by_ref() {
         if line.is_text() {
             if line.lower().contains("end data") {
@@ -72,10 +73,22 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             continue;
         }
         let before = samples.len();
+        decimal_commas = decimal_commas.or_else(|| has_commas_alone(line).then_some(line.number));
         for (column, field) in line.fields() {
             samples.push(source.number(line, column, field)?);
         }
         last_row = samples.len() - before;
+    }
+    if let Some(line) = decimal_commas.filter(|_| samples.len() > header.count) {
+        return Err(source.error(
+            line,
+            0,
+            format!(
+                "the header says {} samples, and commas without decimal points stand here: they are within the numbers",
+                header.count
+            ),
+            "write decimal points, `0.0172`, and blanks between the numbers",
+        ));
     }
     source.ends_whole()?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
@@ -99,6 +112,13 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let shown = header.text.len().saturating_sub(1).min(2);
     draft.title = header.text[..shown].join("; ");
     Ok(vec![draft.finish(source)?])
+}
+
+/// Whether commas stand between digits on a line without any point.
+fn has_commas_alone(line: Line<'_>) -> bool {
+    let digits =
+        |three: &[u8]| three[1] == b',' && three[0].is_ascii_digit() && three[2].is_ascii_digit();
+    !line.bytes.contains(&b'.') && line.bytes.windows(3).any(digits)
 }
 
 /// Reads the header; `lines` are at the data afterwards.

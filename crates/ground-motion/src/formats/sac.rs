@@ -131,6 +131,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let step = words
         .float(0)
         .and_then(|delta| format!("{}", delta as f32).parse::<f64>().ok());
+    if footer > 0 && !uneven {
+        same_step(source, &words, HEADER + width * count)?;
+    }
     let samples = values(source, &words, HEADER, count.min(present))?;
     // The header has no unit that can be relied on; a sensitivity says that there are counts.
     let unit = match source.options.sensitivity {
@@ -158,6 +161,29 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         draft.processing = Processing::Raw;
     }
     Ok(vec![draft.finish(source)?])
+}
+
+/// Refuses a step in double precision, the first number behind the data of version 7, that is not
+/// the one of the header.
+fn same_step(source: &Source<'_>, words: &Words<'_>, at: usize) -> Result<(), GroundMotionError> {
+    let (Some(field), Some(step)) = (words.bytes.get(at..at + 8), words.float(0)) else {
+        return Ok(());
+    };
+    let mut eight = [0; 8];
+    eight.copy_from_slice(field);
+    let double = match words.big {
+        true => f64::from_be_bytes(eight),
+        false => f64::from_le_bytes(eight),
+    };
+    let stated = double.is_finite() && double != f64::from(UNDEFINED);
+    if stated && (double - step).abs() > 1.0e-6 * step.abs() && !source.options.lenient {
+        let message = format!(
+            "the time step is {double} s here, but {} s in the header",
+            step as f32
+        );
+        return Err(source.binary_error(at, message));
+    }
+    Ok(())
 }
 
 /// Refuses what the header says to be no acceleration: by IDEP (word 87), or where that says

@@ -40,8 +40,13 @@ impl Husid {
         if !(sum > 0.0) {
             return Err(GroundMotionError::NotPossible {
                 step: STEP,
-                reason: "the record is zero throughout".to_owned(),
-                remedy: "use another record or component",
+                reason: match record.peak().value {
+                    0.0 => "the record is zero throughout".to_owned(),
+                    peak => {
+                        format!("the peak acceleration {peak:e} m/s2 is too small to be squared")
+                    }
+                },
+                remedy: "use another record or component, or check the unit",
             });
         }
         Ok(Self {

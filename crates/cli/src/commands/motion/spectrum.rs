@@ -3,6 +3,8 @@
 use std::path::Path;
 
 use pounding_case::Dimension;
+use pounding_catalogue::numbers::six_digits;
+use pounding_catalogue::wording::counted;
 use pounding_ground_motion::GroundMotionError;
 use pounding_ground_motion::processing::distinct;
 use pounding_ground_motion::spectra::{
@@ -229,6 +231,18 @@ fn fourier(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure
     } else {
         let bandwidth = value(&arguments.smoothing, "smoothing", Dimension::NUMBER)?;
         let (first, highest) = whole.range();
+        let is_chosen =
+            arguments.at.is_some() || arguments.from.is_some() || arguments.to.is_some();
+        if !is_chosen && first >= FREQUENCIES.1.min(highest) {
+            return Err(Failure::input(
+                format!(
+                    "the record of {} is too short for a smoothed spectrum: its frequencies start at {} Hz, one over its duration",
+                    counted(record.samples().len(), "sample"),
+                    six_digits(first)
+                ),
+                Some("put zeros behind it, `pounding motion process FILE --pad \"after=10 s\" -o FILE.csv`, or give --unsmoothed".to_owned()),
+            ));
+        }
         let default = (
             FREQUENCIES.0.max(first),
             FREQUENCIES.1.min(highest),

@@ -205,14 +205,43 @@ fn numbers(source: &Source<'_>, header: Option<&Header>) -> Result<Vec<Series>, 
     match survey.arrangement(source)? {
         Arrangement::Wrapped => wrapped(source, &survey, None),
         Arrangement::CountAndStep(count, step) => wrapped(source, &survey, Some((count, step))),
-        Arrangement::Columns(names) => columns(
-            source,
-            &survey,
-            &Columns::new(names, None),
-            &Keys::default(),
-        ),
+        Arrangement::Columns(names) => {
+            let columns = Columns::new(names, None);
+            match self::columns(source, &survey, &columns, &Keys::default()) {
+                Err(GroundMotionError::Contradiction {
+                    quantity: "time_step",
+                    stated,
+                    given,
+                    ..
+                }) if stated == "1 s" => Err(counts_rows(source, &survey, &columns.names, &given)),
+                found => found,
+            }
+        }
         Arrangement::Cards => cards(source, &survey),
     }
+}
+
+/// The error of a column that was taken for one of times, 1 s apart, beside another step.
+fn counts_rows(
+    source: &Source<'_>,
+    survey: &Survey,
+    names: &[String],
+    given: &str,
+) -> GroundMotionError {
+    let passed = names.iter().map(|n| if n == "t" { "-" } else { n });
+    let layout: Vec<&str> = passed.collect();
+    source.error(
+        survey.first,
+        0,
+        format!(
+            "column {} increases by 1 a row, which are times 1 s apart, but a time step of {given} is given",
+            names.iter().position(|n| n == "t").unwrap_or(0) + 1
+        ),
+        &format!(
+            "if it counts the rows, pass it over: `layout = \"{0}\"` in [ground_motion] of a case, `--layout \"{0}\"` with `pounding motion`; else do not give the time step",
+            layout.join(",")
+        ),
+    )
 }
 
 /// Columns by name, as they stand in the rows.

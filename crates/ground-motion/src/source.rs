@@ -135,7 +135,7 @@ impl<'a> Source<'a> {
 
     /// The lines from the first that is not blank on: blank ones before a header hide no format.
     pub(crate) fn lines(&self) -> Lines<'a> {
-        self.all_lines().from_text()
+        self.all_lines().after_blank()
     }
 
     /// All lines, of files whose lines the user counts.

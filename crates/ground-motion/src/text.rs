@@ -41,7 +41,7 @@ impl<'a> Lines<'a> {
     }
 
     /// The same after blank lines.
-    pub(crate) fn from_text(mut self) -> Self {
+    pub(crate) fn after_blank(mut self) -> Self {
         let rest = &self.bytes[self.at..];
         let is_blank = |b: &u8| b.is_ascii_whitespace() || *b == 0x1a;
         let blank = rest.iter().position(|b| !is_blank(b)).unwrap_or(rest.len());

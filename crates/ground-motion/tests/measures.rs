@@ -261,3 +261,13 @@ proptest! {
         }
     }
 }
+
+/// A record that is not zero is not called so.
+#[test]
+fn records_whose_squares_vanish() {
+    let error = Husid::of(&record(vec![0.0, 1.0e-300, 0.0], 0.01), LINEAR).unwrap_err();
+    assert!(
+        error.to_string().contains("1e-300 m/s2 is too small"),
+        "{error}"
+    );
+}

@@ -372,6 +372,24 @@ fn gains_of_stages() {
     }
 }
 
+/// A negative sensitivity turns the sign, and that is said.
+#[test]
+fn negative_sensitivities() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    let epoch = Epoch {
+        value: "-2.5E+05",
+        ..HNE
+    };
+    let file = write(folder.path(), "station.xml", station(&[epoch]));
+    let recording = read_all(&record, &with(&file)).unwrap();
+    let warnings = recording.series[0].origin.warnings.join("; ");
+    assert!(
+        warnings.contains("is negative, -250000: the samples have the opposite sign"),
+        "{warnings}"
+    );
+}
+
 /// Azimuth and dip go before the code of the channel.
 #[test]
 fn directions_of_channels() {

@@ -376,3 +376,13 @@ fn frequencies_of_the_ground_have_both_units() {
     let help = text(&["synth", "kanai_tajimi_1960", "--help"]);
     assert!(help.contains("a plain number is in Hz"), "{help}");
 }
+
+/// Options that nobody gave are not blamed for a record of few samples.
+#[test]
+fn records_too_short_for_a_smoothed_spectrum() {
+    let folder = Folder::new();
+    let file = folder.name("short.csv");
+    std::fs::write(&file, "time_s,acceleration_g\n0,0.1\n0.01,-0.1\n").unwrap();
+    let told = ["the record of 2 samples is too short", "--unsmoothed"];
+    refused(2, &["spectrum", &file, "--fourier"], &told);
+}

@@ -52,10 +52,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             unit = stated.map_or(DraftUnit::Unstated, DraftUnit::Stated);
         } else if key.starts_with("site") {
             site = value.to_owned();
-        } else if key.starts_with("initial time") {
-            if !value.is_empty() {
-                start = format!("{value} JST");
-            }
+        } else if key.starts_with("initial time") && !value.is_empty() {
+            start = format!("{value} JST");
         }
     };
     if names.len() > 12 {

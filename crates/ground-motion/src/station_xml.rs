@@ -401,7 +401,7 @@ impl StationFile {
             ));
         }
         // Opposite signs are named above.
-        if value < 0.0 && !(ratio < 0.0) {
+        if value < 0.0 && (gains.is_empty() || ratio > 0.0) {
             doubts.push(format!(
                 "{}: the sensitivity of {} is negative, {value}: the samples have the opposite sign of the counts",
                 self.file,

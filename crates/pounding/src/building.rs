@@ -256,6 +256,10 @@ impl Building {
         let count = self.floors.len();
         let isolators = usize::from(self.isolator.is_some());
         for (storeys, law) in &self.laws {
+            // One that no storey has is to be one all the same.
+            if storeys.as_ref().is_some_and(Vec::is_empty) {
+                law.build(&of, None)?;
+            }
             let all = || (1 + isolators..=count).collect();
             for storey in storeys.clone().unwrap_or_else(all) {
                 let refused = |reason| Error::LawOfStorey {

@@ -79,6 +79,32 @@ pub enum Error {
         /// Name of the parameter.
         parameter: String,
     },
+    /// A level that is given twice: both would act.
+    #[error("{of}: the level of storeys {left} and {right} is given twice")]
+    LevelTwice {
+        /// Gap or link.
+        of: String,
+        /// Storey of the left side, from 1.
+        left: String,
+        /// Storey of the right side, from 1.
+        right: String,
+    },
+    /// Two gaps between the same neighbours: both would act.
+    #[error("gap {gap} is between the same two as gap {first}")]
+    SecondGap {
+        /// Name of the gap.
+        gap: String,
+        /// Name of the first of them.
+        first: String,
+    },
+    /// A separation rule beside an impact model of one's own, which has its own rule.
+    #[error(
+        "gap {gap}: the separation rule is of an impact model by name, and the gap has one of one's own"
+    )]
+    RuleBesideModel {
+        /// Name of the gap.
+        gap: String,
+    },
     /// A gap without width or impact model, or a link without law.
     #[error("{of} has no {what}")]
     Incomplete {
@@ -219,6 +245,11 @@ impl Error {
                 "name floors at equal elevation; `.floor_to_floor()` lets these act on each other as if they were level, a simplification that leaves out the columns which they hit"
                     .to_owned(),
             ),
+            Self::LevelTwice { .. } => Some("name each pair of storeys once".to_owned()),
+            Self::SecondGap { .. } => {
+                Some("give one of them all levels by `.levels(...)`, with their `.widths(...)`".to_owned())
+            }
+            Self::RuleBesideModel { .. } => Some("leave `.separation(...)` out".to_owned()),
             Self::Incomplete { what, .. } => Some(format!("give it one: `.{what}(...)`")),
             Self::Model { reason, .. } => reason.help(),
             Self::Law { reason, .. } => reason.help(),

@@ -72,6 +72,18 @@ impl Facing {
             return Err(Error::NotNeighbours { of: self.of() });
         }
         let pairs = self.storeys(sides, system)?;
+        let mut seen = std::collections::BTreeSet::new();
+        if let Some(twice) = pairs.iter().find(|pair| !seen.insert(**pair)) {
+            let storey = |side: usize, storey: usize| match sides[side] {
+                Some(_) => (storey + 1).to_string(),
+                None => WALL.to_owned(),
+            };
+            return Err(Error::LevelTwice {
+                of: self.of(),
+                left: storey(0, twice.0),
+                right: storey(1, twice.1),
+            });
+        }
         if pairs.is_empty() {
             let level = match self.what {
                 "gap" => "contact level",

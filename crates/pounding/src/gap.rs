@@ -98,7 +98,7 @@ impl Gap {
         self
     }
 
-    /// How the model lets the floors part, where it offers more than one rule.
+    /// How the model lets the floors part, where it is one by name that offers more than one rule.
     #[must_use]
     pub fn separation(mut self, rule: SeparationRule) -> Self {
         self.separation = Some(rule);
@@ -152,6 +152,9 @@ impl Gap {
 
     pub(crate) fn built_model(&self) -> Result<Arc<dyn ImpactModel>, Error> {
         match &self.model {
+            Model::Own(_) if self.separation.is_some() => {
+                Err(Error::RuleBesideModel { gap: self.name() })
+            }
             Model::Own(model) => Ok(Arc::clone(model)),
             Model::Named(name, parameters) => {
                 once(&self.facing.of(), parameters.iter().map(|p| p.0.as_str()))?;

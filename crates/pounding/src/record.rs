@@ -12,7 +12,7 @@ use crate::units::{Acceleration, Time};
 #[derive(Debug, Clone)]
 pub struct GroundMotion {
     accelerogram: Accelerogram,
-    /// Where it was read.
+    /// Where it was read, which no result may replace.
     file: Option<PathBuf>,
 }
 
@@ -68,9 +68,12 @@ impl GroundMotion {
 
 impl From<Accelerogram> for GroundMotion {
     fn from(accelerogram: Accelerogram) -> Self {
+        let origin = accelerogram.origin();
+        let file = origin.map(|origin| PathBuf::from(&origin.file));
         Self {
+            // Of a motion in memory it is a name.
+            file: file.filter(|file| file.is_file()),
             accelerogram,
-            file: None,
         }
     }
 }

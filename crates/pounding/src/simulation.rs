@@ -42,6 +42,8 @@ pub struct Model {
     pub(crate) title: String,
     /// Text of the case file, empty for what was built by code.
     pub(crate) source: String,
+    /// What is to be said of how the buildings were made, and of what the case file gives and nothing uses.
+    told: Vec<String>,
     /// Files that it was made of, each with what it is: no result replaces them.
     #[cfg_attr(not(feature = "hdf5"), expect(dead_code))]
     pub(crate) files: Vec<(&'static str, std::path::PathBuf)>,
@@ -123,6 +125,7 @@ impl Simulation {
         let motion = self.motion.as_ref().ok_or(Error::NoGroundMotion)?;
         let accelerogram = motion.accelerogram().clone();
         self.check_names()?;
+        self.one_gap_between_two()?;
         let buildings = self.buildings.iter().map(Building::build);
         let buildings = buildings.collect::<Result<Vec<_>, _>>()?;
         let ground = GroundAcceleration {
@@ -154,6 +157,7 @@ impl Simulation {
             output_step: OUTPUT_STEP,
             title: String::new(),
             source: String::new(),
+            told: Vec::new(),
             files: motion
                 .file()
                 .map(|f| ("record", f.to_owned()))
@@ -234,6 +238,20 @@ impl Simulation {
         Ok(())
     }
 
+    /// Refuses a second gap between the same neighbours.
+    fn one_gap_between_two(&self) -> Result<(), Error> {
+        for (place, gap) in self.gaps.iter().enumerate() {
+            let same = |other: &&Gap| other.facing.between == gap.facing.between;
+            if let Some(first) = self.gaps[..place].iter().find(same) {
+                return Err(Error::SecondGap {
+                    gap: gap.name(),
+                    first: first.name(),
+                });
+            }
+        }
+        Ok(())
+    }
+
     fn add_gap(&self, gap: &Gap, system: &mut System) -> Result<(), Error> {
         let pairs = gap.facing.pairs(&self.buildings, system)?;
         let (widths, model) = (gap.built_widths(pairs.len())?, gap.built_model()?);
@@ -277,6 +295,16 @@ impl Model {
     #[must_use]
     pub fn accelerogram(&self) -> &Accelerogram {
         &self.accelerogram
+    }
+
+    /// All that is to be said of a run: of its record, of what the case file gives and nothing uses, and
+    /// the warnings of its outcome, as `pounding run` says it.
+    #[must_use]
+    pub fn warnings(&self, outcome: &Outcome) -> Vec<String> {
+        let record = self.accelerogram.origin().map(|o| o.warnings.as_slice());
+        let before = record.unwrap_or_default().iter().chain(&self.told).cloned();
+        let of_run = outcome.warnings.iter().map(ToString::to_string);
+        before.chain(of_run).collect()
     }
 
     /// The system: buildings with their modes, gaps with their contact levels.
@@ -330,6 +358,7 @@ impl Model {
         let case = pounding_case::Case::read(path.as_ref());
         let case = case.map_err(pounding_assembly::AssemblyError::from)?;
         let assembly = pounding_assembly::assemble(&case)?;
+        let told = assembly.warnings_of_buildings();
         let mut files = vec![("case", path.as_ref().to_owned())];
         files.extend(case.files());
         Ok(Self {
@@ -338,6 +367,7 @@ impl Model {
             accelerogram: assembly.accelerogram,
             options: assembly.options,
             output_step: assembly.output_step,
+            told,
             title: case.title,
             source: case.source,
         })
@@ -380,9 +410,7 @@ impl Model {
         }
         let outcome = outcome?;
         let isolated = self.isolated().run();
-        let record = self.accelerogram.origin().map(|o| o.warnings.clone());
-        let mut warnings = record.unwrap_or_default();
-        warnings.extend(outcome.warnings.iter().map(ToString::to_string));
+        let mut warnings = self.warnings(&outcome);
         // What is there for comparison does not take the result away.
         let isolated = isolated.unwrap_or_else(|error| {
             warnings.push(format!("without gaps and links: {error}"));

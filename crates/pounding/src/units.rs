@@ -72,7 +72,8 @@ quantities! {
     Acceleration(metres_per_second_squared) {
         /// In m/s2.
         metres_per_second_squared: 1.0,
-        /// In standard gravities (9.80665 m/s2).
+        /// In standard gravities (9.80665 m/s2). The product is rounded: a case file, whose `0.35 g` is the
+        /// number nearest to the decimal product, may have another last digit.
         gravities: STANDARD_GRAVITY,
     }
 }

@@ -337,6 +337,22 @@ fn what_a_case_file_refuses_is_refused() {
     };
     let (said, _) = of(vec![light(), heavy()], vec![gap(), gap()]);
     assert!(said.contains("another gap"), "{said}");
+    let (said, help) = of(vec![light(), heavy()], vec![gap(), gap().named("second")]);
+    assert!(
+        said.contains("gap second is between the same two"),
+        "{said}"
+    );
+    assert!(help.contains(".levels("), "{help}");
+    let (said, _) = of(vec![light(), heavy()], vec![gap().levels([(2, 2), (2, 2)])]);
+    assert!(said.contains("storeys 2 and 2 is given twice"), "{said}");
+    // Beside a wall its number says nothing.
+    let mut wall = Gap::between("heavy", "wall").width(Length::millimetres(20.0));
+    wall = wall.model("linear_elastic", [("stiffness", 1e8)]);
+    let (said, _) = of(vec![light(), heavy()], vec![wall.levels([(2, 1), (2, 2)])]);
+    assert!(said.contains("storeys 2 and wall is given twice"), "{said}");
+    let nowhere = light().law_of_storeys([], "no such law", []);
+    let (said, _) = of(vec![nowhere, heavy()], vec![]);
+    assert!(said.contains("no such law"), "{said}");
     let (said, help) = of(vec![light(), heavy()], vec![gap().levels([])]);
     assert!(said.contains("no contact level") && help.contains(".levels("));
     let high = Building::shear("heavy")
@@ -375,6 +391,21 @@ fn what_a_case_file_refuses_is_refused() {
     assert!(said.contains("light has no storey 4"), "{said}");
 }
 
+/// What a case file gives and nothing uses is said of its run as by the command.
+#[test]
+fn what_nothing_uses_is_said() {
+    let case = root().join("examples/three_storey_pair/case.toml");
+    let text = std::fs::read_to_string(&case).unwrap();
+    let unused = format!("{text}\nbeta = 0.3\n");
+    let folder = tempfile::tempdir().unwrap();
+    let motions = root().join("ground_motions");
+    let unused = unused.replace("../../ground_motions", motions.to_str().unwrap());
+    std::fs::write(folder.path().join("case.toml"), unused).unwrap();
+    let model = Model::read(folder.path().join("case.toml")).unwrap();
+    let said = model.warnings(&model.run().unwrap()).join("\n");
+    assert!(said.contains("`beta`"), "{said}");
+}
+
 /// A result never takes the place of what it was made of.
 #[test]
 fn no_result_replaces_an_input() {
@@ -394,9 +425,15 @@ fn no_result_replaces_an_input() {
     assert_eq!(std::fs::read_to_string(file("case.toml")).unwrap(), case);
     let motion = GroundMotion::read(file("r.csv")).unwrap();
     let simulation = Simulation::of([building("light", 25.0, 3.46)]).ground_motion(motion);
-    let built = simulation.duration(Time::seconds(1.0)).build().unwrap();
+    let simulation = simulation.duration(Time::seconds(1.0));
+    let built = simulation.build().unwrap();
     assert!(built.run_to_file(file("r.csv")).is_err());
     built.run_to_file(file("r.h5")).unwrap();
+    // However it was read.
+    let read = pounding::ground_motion::read(&file("r.csv"), &Default::default()).unwrap();
+    let built = simulation.ground_motion(read).build().unwrap();
+    let error = built.run_to_file(file("r.csv")).unwrap_err();
+    assert!(matches!(error, Error::FileUse(_)), "{error}");
 }
 
 /// Where the buildings have no end without their neighbours, the run keeps its result.

@@ -19,6 +19,9 @@ pub struct LateralStiffness {
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LateralStiffnessError {
+    /// A building without floors.
+    #[error("a stiffness matrix of no floors")]
+    Empty,
     /// Rows of the wrong length.
     #[error("the matrix is not square: row {row} has {found} of {expected} entries")]
     NotSquare {
@@ -131,7 +134,7 @@ impl LateralStiffness {
     /// floors (for one `EI`, `z_i^2 (3 z_j - z_i) / (6 EI)`).
     ///
     /// # Errors
-    /// Lists of unequal length, or a value that is not positive.
+    /// No storeys, lists of unequal length, or a value that is not positive.
     pub fn cantilever(
         heights: &[f64],
         flexural_rigidity: &[f64],
@@ -264,6 +267,9 @@ impl LateralStiffness {
 /// difference of such entries over the largest entry.
 fn symmetric(rows: &[Vec<f64>]) -> Result<(DMatrix<f64>, f64), LateralStiffnessError> {
     let n = rows.len();
+    if n == 0 {
+        return Err(LateralStiffnessError::Empty);
+    }
     for (i, row) in rows.iter().enumerate() {
         if row.len() != n {
             return Err(LateralStiffnessError::NotSquare {
@@ -313,6 +319,7 @@ fn positive(
         });
     }
     match values.iter().position(|x| !(x.is_finite() && *x > 0.0)) {
+        None if expected == 0 => Err(LateralStiffnessError::Empty),
         None => Ok(()),
         Some(i) => Err(LateralStiffnessError::Value {
             quantity,
@@ -334,6 +341,18 @@ mod tests {
                 let error = (found.matrix[(i, j)] - x).abs();
                 assert!(error < tolerance * largest, "{i}, {j}: {error:e}");
             }
+        }
+    }
+
+    #[test]
+    fn no_floors_have_no_matrix() {
+        for made in [
+            LateralStiffness::from_rows(&[]),
+            LateralStiffness::from_flexibility(&[]),
+            LateralStiffness::cantilever(&[], &[], None),
+            LateralStiffness::fishbone(&[], &[], &[]),
+        ] {
+            assert!(matches!(made, Err(LateralStiffnessError::Empty)));
         }
     }
 

@@ -34,6 +34,11 @@ impl Shard {
     /// All runs.
     pub const WHOLE: Self = Self { index: 1, count: 1 };
 
+    /// Whether there can be such a one.
+    fn exists(self) -> bool {
+        self.count <= MOST_SHARDS && (1..=self.count).contains(&self.index)
+    }
+
     /// What its result holds; the whole study if its numbers cannot be.
     fn part(self) -> Part {
         Part::of(vec![self.index], self.count).unwrap_or_else(Part::whole)
@@ -48,10 +53,8 @@ impl FromStr for Shard {
         let parts = text.split_once('/');
         let numbers =
             parts.and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
-        match numbers {
-            Some((index, count)) if count <= MOST_SHARDS && (1..=count).contains(&index) => {
-                Ok(Self { index, count })
-            }
+        match numbers.map(|(index, count)| Self { index, count }) {
+            Some(shard) if shard.exists() => Ok(shard),
             _ => Err(StudyError::Shard {
                 text: text.to_owned(),
             }),
@@ -149,6 +152,11 @@ pub fn sweep(
     options: &SweepOptions,
     progress: &mut dyn FnMut(&Progress) -> ControlFlow<()>,
 ) -> Result<SweepReport, StudyError> {
+    if !options.shard.exists() {
+        return Err(StudyError::Shard {
+            text: format!("{}/{}", options.shard.index, options.shard.count),
+        });
+    }
     let shared = options.shared.as_deref();
     let mut runner = Runner::new(study, options.keep_going, shared)?;
     let description = describe(&runner, options.shard);

@@ -34,10 +34,9 @@ fn study(folder: &Path, text: &str) -> Result<Study, StudyError> {
     Study::parse(&text, &folder.join("study.toml"))
 }
 
-fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
-    let output = folder.join("out.h5");
-    let options = SweepOptions {
-        output: output.clone(),
+fn options(folder: &Path) -> SweepOptions {
+    SweepOptions {
+        output: folder.join("out.h5"),
         csv: None,
         threads: 2,
         shard: Shard::WHOLE,
@@ -45,7 +44,30 @@ fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
         store_every: std::time::Duration::from_secs(5),
         keep_going: false,
         shared: None,
-    };
+    }
+}
+
+/// A shard that cannot be, as its numbers are public, is an error and leaves nothing behind.
+#[test]
+fn shards_that_cannot_be_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let gaps = "[[variable]]\npath = \"gap.0.width\"\nvalues = [\"15 mm\", \"20 mm\"]\n";
+    let study = study(folder.path(), gaps).unwrap();
+    for (index, count) in [(1, 0), (0, 0), (0, 2), (3, 2)] {
+        let asked = SweepOptions {
+            shard: Shard { index, count },
+            ..options(folder.path())
+        };
+        let error = sweep(&study, &asked, &mut |_| std::ops::ControlFlow::Continue(()));
+        let error = error.unwrap_err().to_string();
+        assert!(error.contains("is no shard"), "{error}");
+        assert!(!asked.output.exists());
+    }
+}
+
+fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
+    let options = options(folder);
+    let output = options.output.clone();
     sweep(
         study,
         &options,

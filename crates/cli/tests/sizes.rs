@@ -176,7 +176,22 @@ fn runs_that_would_not_end_are_refused_by_what_they_mean() {
     let link = CASE.replace("[ground_motion]", law);
     refused(
         &link,
-        &["case.toml", "a-wall level 1", "stiffness of the law"],
+        &[
+            "case.toml",
+            "a-wall level 1",
+            "stiffness and damping of the law",
+        ],
+    );
+    // So are steps of its own rate to a damper: at 1e15 N s/m over 25 t some 1e-11 s.
+    let damper = "[[link]]\nbetween = [\"a\", \"wall\"]\nlevels = [1]\nmodel = \"viscous_damper\"\ndamping = \"1e15 N s/m\"\n[ground_motion]";
+    let link = CASE.replace("[ground_motion]", damper);
+    refused(
+        &link,
+        &[
+            "case.toml",
+            "a-wall level 1",
+            "stiffness and damping of the law",
+        ],
     );
 }
 

@@ -50,11 +50,12 @@ pub enum StepLimit {
         /// Period (s).
         period: f64,
     },
-    /// The shortest period (s) of a floor on a storey or link that follows a law.
+    /// The shortest period (s) of a floor on a storey or link that follows a law, or the memory of a damper
+    /// times two pi.
     Element {
         /// The storey or link.
         place: String,
-        /// Period (s) with the law's initial stiffness.
+        /// Period (s) with the law's initial stiffness, or its damping.
         period: f64,
     },
 }
@@ -92,7 +93,7 @@ impl StepLimit {
             Self::GroundMotion(_) => "shorten `duration`, or correct the time step of the record",
             Self::Step(_) => "raise `step` or shorten `duration` in [analysis]",
             Self::Element { .. } => {
-                "correct the stiffness of the law and the masses beside it (units?); else shorten `duration`"
+                "correct stiffness and damping of the law and the masses beside it (units?); else shorten `duration`"
             }
             Self::Period { .. } => {
                 "correct masses, stiffnesses and damping (units?), or join storeys that are much lighter or stiffer than their neighbours; else shorten `duration`"
@@ -169,16 +170,22 @@ impl StepEstimate {
     }
 }
 
-/// Steps on the stiffest storey or link that follows a law, whose product with its rate is
+/// Steps on the stiffest or most damped storey or link that follows a law, whose product with its rate is
 /// `longest`.
 fn by_element(system: &System, longest: f64) -> Option<(f64, StepLimit)> {
     let rate = |element: &Element| {
         let added = (element.law.initial_stiffness() - element.carried).max(0.0);
         let ends = [element.far, element.near].into_iter().flatten();
-        let of_ends: f64 = ends.map(|i| added / system.mass()[i]).sum();
+        let of_ends: f64 = ends.map(|i| 1.0 / system.mass()[i]).sum();
         let further = element.terms.pushed.iter();
-        let further = further.map(|(i, w)| added * w * w / system.mass()[*i]);
-        (of_ends + further.sum::<f64>()).sqrt()
+        let further = further.map(|(i, w)| w * w / system.mass()[*i]);
+        let yields = of_ends + further.sum::<f64>();
+        // That of a damper whose force is a power of the velocity is steep at rest alone.
+        let damping = match element.law.is_linear() {
+            true => element.law.initial_damping(),
+            false => 0.0,
+        };
+        (added * yields).sqrt().max(damping * yields)
     };
     let rates = system.elements().iter().map(rate).enumerate();
     let (index, rate) = rates.max_by(|a, b| a.1.total_cmp(&b.1))?;

@@ -114,6 +114,7 @@ impl RunOptions {
                 "it must be greater than zero",
             )
         };
+        positive("time step of the ground motion", system.ground().time_step)?;
         match self.method {
             MethodChoice::Adaptive { relative_tolerance }
             | MethodChoice::EventDriven { relative_tolerance } => require(
@@ -262,5 +263,44 @@ fn require(
             value,
             reason,
         })
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use std::sync::Arc;
+
+    use pounding_shear_building::{Damping, ShearBuilding};
+
+    use super::*;
+    use crate::system::GroundAcceleration;
+
+    /// Time does not go back: the run would not end.
+    #[test]
+    fn ground_motions_go_forward() {
+        for time_step in [-0.02, 0.0, f64::NAN, f64::INFINITY] {
+            let damping = Damping::Modal { ratios: vec![0.05] };
+            let floor = |value: f64| vec![value];
+            let building = ShearBuilding::new(
+                "a".to_owned(),
+                floor(2.5e4),
+                floor(3.46e6),
+                floor(3.0),
+                damping,
+            )
+            .unwrap();
+            let ground = GroundAcceleration {
+                samples: Arc::new(vec![0.0, 1.0, 0.0]),
+                time_step,
+            };
+            let options = RunOptions {
+                duration: Some(1.0),
+                ..RunOptions::default()
+            };
+            let checked = options.check(&System::new(vec![Arc::new(building)], ground));
+            let said = checked.unwrap_err().to_string();
+            assert!(said.contains("time step of the ground motion"), "{said}");
+        }
     }
 }

@@ -86,39 +86,21 @@ fn block(
     };
     // Five columns cannot hold a count of six digits, and Caltech leaves the
     // counts of velocity and displacement to their blocks.
-    if label.quantity == Quantity::Acceleration
-        && label.count < 100_000
-        && let Some(count) = header.integers.count(index)
-        && count != label.count
-    {
-        let message = format!(
-            "{} samples follow here, but line {} says {count}",
-            label.count,
-            header.integers.line_of(index)
-        );
-        count_differs(
-            source,
-            &mut draft,
-            line.number,
-            count.abs_diff(label.count),
-            message,
-        )?;
-    }
-    if label.quantity == Quantity::Acceleration
-        && let Some((at, count)) = count_in_words(header)
-        && count != label.count
-    {
-        let message = format!(
-            "{} samples follow here, but line {at} says {count}",
-            label.count
-        );
-        count_differs(
-            source,
-            &mut draft,
-            line.number,
-            count.abs_diff(label.count),
-            message,
-        )?;
+    if label.quantity == Quantity::Acceleration {
+        let in_numbers = header.integers.count(index);
+        let in_numbers = in_numbers.filter(|_| label.count < 100_000);
+        let in_numbers = in_numbers.map(|count| (header.integers.line_of(index), count));
+        for (at, count) in in_numbers.into_iter().chain(count_in_words(header)) {
+            if count == label.count {
+                continue;
+            }
+            let message = format!(
+                "{} samples follow here, but line {at} says {count}",
+                label.count
+            );
+            let difference = count.abs_diff(label.count);
+            count_differs(source, &mut draft, line.number, difference, message)?;
+        }
     }
     let of_numbers = header.reals.positive(STEP);
     let of_numbers = of_numbers.map(|step| (header.reals.line_of(STEP), step));

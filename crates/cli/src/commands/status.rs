@@ -73,7 +73,7 @@ fn list_of_one(folder: &Path, studies: &[Progress]) -> Result<String, Failure> {
     match unfinished[..] {
         [] => Ok(String::new()),
         [one] => {
-            let in_the_way = one.in_the_way();
+            let (in_the_way, for_the_plan) = one.divided();
             if !in_the_way.is_empty() {
                 note(&format!(
                     "shards {} are not in the list: what stands in their places has to be moved away first, as `pounding status {}` shows",
@@ -81,7 +81,7 @@ fn list_of_one(folder: &Path, studies: &[Progress]) -> Result<String, Failure> {
                     shell_line(&[path_word(folder)])
                 ));
             }
-            Ok(ranges(&one.for_the_plan()))
+            Ok(ranges(&for_the_plan))
         }
         _ => {
             let named = unfinished
@@ -279,19 +279,19 @@ impl Progress {
             if found.is_some_and(|found| found.of_no_use().is_some()) {
                 progress.no_use.push(index);
             }
-            let stands = found == Some(&Standing::Result) && !failed;
-            // Runs of a result that is gone are gone.
-            let gone_again = |b: &&Beat| stands || b.state != State::Done;
-            let told = beat.as_ref().filter(gone_again);
-            match told.filter(|beat| !stands || beat.state == State::Done) {
-                Some(beat) => progress.count(beat.finished, [beat.failed, beat.collapsed]),
-                // Nothing was told of what stands: it was copied here, or what told of it is lost.
-                None if stands => {
-                    let (finished, ended) =
-                        counted_in(&folder.join(progress.shard(index).result()));
-                    progress.count(finished, ended);
-                }
-                None => {}
+            let mut stands = found == Some(&Standing::Result) && !failed;
+            if stands && beat.as_ref().is_none_or(|b| b.state != State::Done) {
+                // Nothing was told of what stands: it was copied here, or what told of it is lost. What cannot
+                // be counted is damaged, and not done.
+                let counted = counted_in(&folder.join(progress.shard(index).result()));
+                stands = counted.is_some();
+                let (finished, ended) = counted.unwrap_or_default();
+                progress.count(finished, ended);
+            }
+            // Runs of a result that is gone are gone; those of one that stands were told when it was done.
+            let is_told = |b: &&Beat| stands == (b.state == State::Done);
+            if let Some(beat) = beat.as_ref().filter(is_told) {
+                progress.count(beat.finished, [beat.failed, beat.collapsed]);
             }
             if let Some(beat) = &beat {
                 let command = || (beat.folder.clone(), beat.command.clone());
@@ -299,8 +299,12 @@ impl Progress {
             }
             match beat {
                 _ if stands => progress.done.push(index),
-                None => match found.and_then(Standing::of_no_use) {
-                    Some(why) => progress.ended.push(Of::untold(index, why)),
+                None => match found {
+                    Some(found) => {
+                        let damaged = || "its result is damaged".to_owned();
+                        let why = found.of_no_use().unwrap_or_else(damaged);
+                        progress.ended.push(Of::untold(index, why));
+                    }
                     None => progress.missing.push(index),
                 },
                 Some(beat) => {
@@ -358,18 +362,10 @@ impl Progress {
         self.done.len() == self.shards
     }
 
-    /// Unfinished shards in whose places results stand that a plan does not replace.
-    fn in_the_way(&self) -> Vec<usize> {
-        let unfinished = self.unfinished();
-        let stand = |shard: &usize| self.no_use.contains(shard);
-        unfinished.into_iter().filter(stand).collect()
-    }
-
-    /// Unfinished shards that a plan makes.
-    fn for_the_plan(&self) -> Vec<usize> {
-        let unfinished = self.unfinished();
-        let free = |shard: &usize| !self.no_use.contains(shard);
-        unfinished.into_iter().filter(free).collect()
+    /// Unfinished shards in whose places results stand that a plan does not replace, and those that it makes.
+    fn divided(&self) -> (Vec<usize>, Vec<usize>) {
+        let unfinished = self.unfinished().into_iter();
+        unfinished.partition(|shard| self.no_use.contains(shard))
     }
 
     /// Shards that are neither done nor running.
@@ -454,7 +450,7 @@ impl Progress {
         if let Some(first) = self.commands.first() {
             text.push_str(&format!("go on with\n  {first}\n"));
             if unfinished.len() > 1 {
-                let listed = self.for_the_plan();
+                let (_, listed) = self.divided();
                 text.push_str("and likewise with the others");
                 if !listed.is_empty() {
                     text.push_str(&format!(
@@ -495,14 +491,11 @@ fn moved(path: &Path) -> String {
     format!("mv {} && ", shell_line(&words))
 }
 
-/// How many runs stand in the result of a shard, and how many of them failed and collapsed. Of one that
-/// is damaged nothing is known here: merging says what it is.
-fn counted_in(result: &Path) -> (usize, [usize; 2]) {
-    let counted = || {
-        let result = ResultReader::open(result, WithoutChecksum::Accept).ok()?;
-        Some((result.rows, result.failed_and_collapsed().ok()?))
-    };
-    counted().unwrap_or_default()
+/// How many runs stand in the result of a shard, and how many of them failed and collapsed; `None` if it
+/// is damaged.
+fn counted_in(result: &Path) -> Option<(usize, [usize; 2])> {
+    let result = ResultReader::open(result, WithoutChecksum::Refuse).ok()?;
+    Some((result.rows, result.failed_and_collapsed().ok()?))
 }
 
 impl Of {

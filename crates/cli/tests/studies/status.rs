@@ -369,6 +369,21 @@ fn results_without_a_word_are_counted() {
     assert!(before.contains("60 runs finished, 30 failed"), "{before}");
     std::fs::remove_dir_all(bench.path("all/status")).unwrap();
     assert_eq!(bench.text("status all"), before);
+    // What cannot be counted is not done.
+    let name = bench.folder.path().canonicalize().unwrap();
+    let name = name.file_name().unwrap().to_str().unwrap().to_owned();
+    let result = format!("all/{name}.shard-1-of-2.h5");
+    let mut damaged = bench.bytes(&result);
+    let middle = damaged.len() / 2;
+    damaged[middle] ^= 1;
+    std::fs::write(bench.path(&result), damaged).unwrap();
+    let told = String::from_utf8(bench.run("status all").stdout).unwrap();
+    assert!(told.contains("1 of 2 shards done"), "{told}");
+    assert!(told.contains("28 runs finished, 14 failed"), "{told}");
+    assert!(
+        told.contains("shard 1 ended before its end: its result is damaged"),
+        "{told}"
+    );
 }
 
 /// Where the folder of the shards was moved, alone or with the study, the command that is shown goes on

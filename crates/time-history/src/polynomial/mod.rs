@@ -178,20 +178,28 @@ fn sign_changes(b: &Polynomial) -> usize {
     changes
 }
 
-/// Root in a bracket (negative left, positive right) by Newton kept inside it.
+/// Root in a bracket (negative left, positive right) by Newton kept inside it, to this precision or until
+/// the value is the round-off of its own sum: steps beyond that go back and forth by chance.
 fn polish(q: &Polynomial, bracket: (f64, f64), precision: f64) -> f64 {
     let (mut low, mut high) = bracket;
     let d = derivative(q);
-    let mut x = 0.5 * (low + high);
-    if bracket == (0.0, 1.0) {
+    let sizes = q.map(f64::abs);
+    let guess = if bracket == (0.0, 1.0) {
         // Where the chord has its root.
-        let chord = q[0] / (q[0] - q.iter().sum::<f64>());
-        if chord > 0.0 && chord < 1.0 {
-            x = chord;
-        }
-    }
+        q[0] / (q[0] - q.iter().sum::<f64>())
+    } else {
+        low - value(q, low) / value(&d, low)
+    };
+    let mut x = if guess > low && guess < high {
+        guess
+    } else {
+        0.5 * (low + high)
+    };
     for _ in 0..80 {
         let f = value(q, x);
+        if f.abs() <= 0.5 * f64::EPSILON * value(&sizes, x) {
+            return x;
+        }
         if f > 0.0 {
             high = x;
         } else {

@@ -333,6 +333,34 @@ mod tests {
         assert!((theta - 0.5).abs() < 1e-9, "{theta}");
     }
 
+    /// The root is as near as the round-off of the polynomial's sum allows, also close to the start and
+    /// between others.
+    #[test]
+    fn a_crossing_is_placed_to_its_round_off() {
+        for root in [1.0e-9, 1.0e-5, 0.013, 0.25, 0.7, 0.999_999] {
+            for others in [
+                &[][..],
+                &[1.5, 2.0],
+                &[-1.0e-3, 1.0 + 1.0e-3],
+                &[3.0, -2.0, 1.2, -0.4],
+            ] {
+                let roots: Vec<f64> = others.iter().copied().chain([root]).collect();
+                let mut p = from_roots(&roots, 1.0);
+                if p[0] > 0.0 {
+                    p = p.map(|c| -c);
+                }
+                let slope = value(&derivative(&p), root).abs();
+                // Sums and the coefficients themselves are rounded, each a few times.
+                let noise = 16.0 * f64::EPSILON * value(&p.map(f64::abs), root) / slope;
+                let theta = first_rise(&p).unwrap();
+                assert!(
+                    (theta - root).abs() <= noise + EXACT,
+                    "{roots:?}: {theta:e}"
+                );
+            }
+        }
+    }
+
     #[test]
     fn a_near_miss_is_no_touch() {
         let mut p = from_roots(&[0.5, 0.5], -1.0);

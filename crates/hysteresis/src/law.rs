@@ -49,6 +49,9 @@ pub type Guards = [Option<Guard>; MAXIMUM_GUARDS];
 
 /// A force-deformation law with its parameters: a pure function of its arguments.
 ///
+/// Laws are files of this crate: what a [`History`] remembers is for them alone to write. How one is added
+/// stands in `docs/how-to/add-a-hysteresis-law.md`.
+///
 /// **Implicit seam.** [`HysteresisLaw::trial`] follows the straight path from the
 /// committed state to a trial point over a step, through every change of branch on
 /// the way, and gives force and tangents there. It leaves the committed history

@@ -204,6 +204,12 @@ pub enum Error {
     /// The system, the options, or the run.
     #[error(transparent)]
     Run(#[from] TimeHistoryError),
+    /// Who was asked whether to go on ended the run ([`Model::run_while`](crate::Model::run_while)).
+    #[error("the run was ended with {:.0} % of its duration done", 100.0 * done)]
+    Stopped {
+        /// Part of the duration that was done (-).
+        done: f64,
+    },
     /// The case file cannot be read or assembled.
     #[cfg(feature = "toml")]
     #[error(transparent)]
@@ -228,8 +234,18 @@ impl Error {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::GravityOnIsolators { .. } => Some("leave `.p_delta()` out".to_owned()),
-            Self::Building(ShearBuildingError::Isolator { source, .. }) => source.help(),
-            Self::Building(_) | Self::LateralStiffness(_) | Self::Twice { .. } => None,
+            Self::Building(ShearBuildingError::NoStoreys { .. }) => Some(
+                "`.storeys(...)` adds them, and `.floors(...)` those of a building with a stiffness matrix"
+                    .to_owned(),
+            ),
+            Self::Building(
+                ShearBuildingError::Unstable { .. } | ShearBuildingError::UnstableMatrix { .. },
+            ) => Some(
+                "correct stiffness, masses and heights, with their units, or leave `.p_delta()` out".to_owned(),
+            ),
+            Self::Building(error) => error.help(),
+            Self::LateralStiffness(_) | Self::Stopped { .. } => None,
+            Self::Twice { .. } => Some("give it once".to_owned()),
             Self::StiffnessOfStorey { .. } => Some(
                 "`Building::shear(...)` takes storeys, `Building::stiffness_matrix(...)` floors"
                     .to_owned(),

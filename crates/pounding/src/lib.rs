@@ -82,6 +82,36 @@
 //! # }
 //! ```
 //!
+//! # How far it is, and by which method
+//!
+//! [`Model::run_while`] says how far a run is, and asks whether to go on; [`Model::with_options`]
+//! integrates a case otherwise than its file says.
+//!
+//! ```
+//! # use pounding::prelude::*;
+//! use std::ops::ControlFlow;
+//!
+//! # fn main() -> Result<(), Error> {
+//! # let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+//! # std::env::set_current_dir(root).expect("the repository");
+//! let model = Model::read("examples/three_storey_pair/case.toml")?;
+//! let options = RunOptions {
+//!     method: MethodChoice::Newmark { step: 1e-3, beta: 0.25, gamma: 0.5 },
+//!     energy_tolerance: Some(0.2),
+//!     ..*model.options()
+//! };
+//! let model = model.with_options(options)?;
+//! let mut recorder = GridRecorder::new(0.01)?;
+//! let ended = model.run_while(&mut [&mut recorder], |done| {
+//!     eprint!("\r{:3.0} %", 100.0 * done);
+//!     if done < 0.5 { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
+//! });
+//! assert!(matches!(ended, Err(Error::Stopped { .. })));
+//! assert!(recorder.responses.len() > 100);
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Yielding storeys, links, widths
 //!
 //! Laws of storeys and links go by the names that [`hysteresis::find`] knows. What a building,
@@ -198,7 +228,8 @@ pub mod prelude {
         Damping, Isolator, IsolatorKind, LateralStiffness, PostYield, Strength,
     };
     pub use pounding_time_history::{
-        ForceHistory, GridRecorder, History, HistorySink, MethodChoice, Outcome, Recorder, Summary,
+        ForceHistory, GridRecorder, History, HistorySink, MethodChoice, Outcome, Recorder,
+        RunOptions, Summary,
     };
 
     pub use crate::units::{Acceleration, Length, Mass, Stiffness, Time, Velocity};

@@ -1,11 +1,14 @@
 //! A row of buildings under a ground motion, and its run.
 
+use std::cell::Cell;
+use std::ops::ControlFlow;
+
 use pounding_catalogue::suggestion;
 use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{NAMES, is_name};
 use pounding_time_history::{
-    Floor, FloorForce, ForceHistory, GroundAcceleration, MethodChoice, Outcome, Recorder,
-    RunOptions, System, run,
+    Floor, FloorForce, ForceHistory, GroundAcceleration, History, MethodChoice, Outcome, Recorder,
+    RunOptions, StepView, System, TimeHistoryError, run,
 };
 
 use crate::building::Building;
@@ -322,6 +325,22 @@ impl Model {
         }
     }
 
+    /// How it is integrated: method, duration, bound of the energy residual.
+    #[must_use]
+    pub fn options(&self) -> &RunOptions {
+        &self.options
+    }
+
+    /// Integrates otherwise than the simulation or the case file says.
+    ///
+    /// # Errors
+    /// An option out of range.
+    pub fn with_options(mut self, options: RunOptions) -> Result<Self, Error> {
+        options.check(&self.system)?;
+        self.options = options;
+        Ok(self)
+    }
+
     /// Records responses at another step than 0.01 s, or than that of the case file.
     #[must_use]
     pub fn output_step(mut self, step: Time) -> Self {
@@ -345,6 +364,58 @@ impl Model {
     /// As [`run`](Self::run), and what keeps a recorder from recording.
     pub fn run_with(&self, recorders: &mut [&mut dyn Recorder]) -> Result<Outcome, Error> {
         Ok(run(&self.system, &self.options, recorders, &mut |_| {})?)
+    }
+
+    /// The same, asked whether to go on: `progress` is given the part of the duration that is done, at most
+    /// some hundred times a run, as what has no contact is taken at once, and ends it by
+    /// [`ControlFlow::Break`]. Recorders then hold what they have recorded.
+    ///
+    /// # Errors
+    /// As [`run_with`](Self::run_with); [`Error::Stopped`] where `progress` ended it.
+    pub fn run_while(
+        &self,
+        recorders: &mut [&mut dyn Recorder],
+        mut progress: impl FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<Outcome, Error> {
+        let stopped = Cell::new(None);
+        let mut stop = Stop(&stopped);
+        let mut all: Vec<&mut dyn Recorder> = vec![&mut stop];
+        for recorder in recorders {
+            all.push(&mut **recorder);
+        }
+        let outcome = run(&self.system, &self.options, &mut all, &mut |done| {
+            // What is asked at the end cannot end it any more.
+            if progress(done).is_break() && done < 1.0 && stopped.get().is_none() {
+                stopped.set(Some(done));
+            }
+        });
+        match stopped.get() {
+            Some(done) => Err(Error::Stopped { done }),
+            None => Ok(outcome?),
+        }
+    }
+}
+
+/// Ends the run once it is told so. It is shown no step until then.
+struct Stop<'s>(&'s Cell<Option<f64>>);
+
+impl Recorder for Stop<'_> {
+    fn begin(&mut self, _system: &System, _start: &History) -> Result<(), TimeHistoryError> {
+        Ok(())
+    }
+
+    fn next_time(&self) -> f64 {
+        match self.0.get() {
+            None => f64::INFINITY,
+            Some(_) => f64::NEG_INFINITY,
+        }
+    }
+
+    fn step(&mut self, _step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
+        match self.0.get() {
+            None => Ok(()),
+            Some(_) => Err(TimeHistoryError::Recorder("stopped".to_owned())),
+        }
     }
 }
 

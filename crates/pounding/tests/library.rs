@@ -2,6 +2,7 @@
 //! what is wrong is said with its place.
 #![allow(clippy::unwrap_used)]
 
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -584,9 +585,9 @@ fn buildings_with_a_stiffness_matrix() {
     system
         .add_gap("core-frame", names, (0..3).map(level).collect())
         .unwrap();
-    let options = core::RunOptions {
+    let options = RunOptions {
         duration: Some(8.0),
-        ..core::RunOptions::default()
+        ..RunOptions::default()
     };
     let expected = core::run(&system, &options, &mut [], &mut |_| {}).unwrap();
     assert_eq!(outcome.buildings, expected.buildings);
@@ -741,4 +742,100 @@ fn forces_by_code_are_those_of_the_case_file() {
     assert!(push("heavy", 0).build().is_err());
     assert!(push("heavy", 4).build().is_err());
     assert!(ForceHistory::new(&[(1.0, 0.0), (0.5, 1.0)], false).is_err());
+}
+
+/// Who is asked whether to go on changes nothing by saying yes, and ends the run by saying no: what recorders hold then
+/// is the beginning of what they hold of the whole run.
+#[test]
+fn a_run_is_ended_by_who_is_asked() {
+    let model = pair().build().unwrap();
+    let mut told = Vec::new();
+    let mut whole = GridRecorder::new(0.01).unwrap();
+    let outcome = model.run_while(&mut [&mut whole], |done| {
+        told.push(done);
+        ControlFlow::Continue(())
+    });
+    assert_eq!(outcome.unwrap(), model.run().unwrap());
+    assert!(told.len() > 10 && told.is_sorted(), "{told:?}");
+    assert_eq!(told.last(), Some(&1.0));
+    let mut recorder = GridRecorder::new(0.01).unwrap();
+    let ended = model.run_while(&mut [&mut recorder], |done| match done < 0.25 {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    });
+    let Err(Error::Stopped { done }) = ended else {
+        panic!("{ended:?}");
+    };
+    assert_eq!(told.iter().find(|d| **d >= 0.25), Some(&done));
+    let (part, whole) = (recorder.responses, whole.responses);
+    let duration = model
+        .options()
+        .duration
+        .unwrap_or(whole.time[whole.len() - 1]);
+    let end = part.time[part.len() - 1];
+    assert!((end - done * duration).abs() < 0.2, "{end}");
+    let n = part.displacement.len();
+    assert!(n > 0 && part.displacement[..] == whole.displacement[..n]);
+    // At the end there is nothing left to be ended.
+    let late = |done: f64| match done < 1.0 {
+        true => ControlFlow::Continue(()),
+        false => ControlFlow::Break(()),
+    };
+    assert!(model.run_while(&mut [], late).is_ok());
+}
+
+/// Another method than the one that the model was built with, checked like that one.
+#[test]
+fn a_model_takes_other_options() {
+    let model = pair().build().unwrap();
+    let method = MethodChoice::RungeKutta4 { step: 1e-4 };
+    let options = RunOptions {
+        method,
+        duration: Some(4.0),
+        ..*model.options()
+    };
+    let by_options = model.clone().with_options(options).unwrap();
+    assert_eq!(by_options.options().duration, Some(4.0));
+    let by_code = pair().method(method).duration(Time::seconds(4.0));
+    assert_eq!(by_options.run().unwrap(), by_code.run().unwrap());
+    let options = RunOptions {
+        duration: Some(-1.0),
+        ..*model.options()
+    };
+    let error = model.with_options(options).unwrap_err();
+    assert!(error.to_string().contains("duration"), "{error}");
+}
+
+/// What there is not, the force of a jump and the opening of a contact that outlasts the run, does not make equal
+/// outcomes unequal.
+#[test]
+fn equal_outcomes_are_equal_with_rigid_impacts() {
+    let gap = gap().model("stereomechanical", [("restitution", 0.6)]);
+    let buildings = [
+        building("light", 25.0, 3.46),
+        building("heavy", 1000.0, 2215.0),
+    ];
+    let rigid = Simulation::of(buildings)
+        .gap(gap)
+        .ground_motion(el_centro());
+    let outcome = rigid.run().unwrap();
+    assert!(outcome.impacts.iter().any(|i| i.peak_force.value.is_nan()));
+    assert_eq!(outcome, rigid.run().unwrap());
+    let mut other = outcome.clone();
+    other.impacts[0].impulse *= 1.0 + 1e-15;
+    assert_ne!(outcome, other);
+}
+
+/// Buildings that cannot be come with a remedy in words of the library.
+#[test]
+fn buildings_that_cannot_be_come_with_a_remedy() {
+    let soft = building("soft", 1000.0, 0.5).p_delta();
+    for (building, remedy) in [
+        (Building::shear("none").undamped(), ".storeys("),
+        (soft, ".p_delta()"),
+    ] {
+        let of = Simulation::of([building]).ground_motion(el_centro());
+        let (said, help) = refused(&of);
+        assert!(help.contains(remedy), "{said}: {help}");
+    }
 }

@@ -161,3 +161,19 @@ pub enum ShearBuildingError {
         pivot: f64,
     },
 }
+
+impl ShearBuildingError {
+    /// What to try, where it is the same for a case file and for code.
+    #[must_use]
+    pub fn help(&self) -> Option<String> {
+        let text = match self {
+            Self::TooManyStoreys { .. } => {
+                "join storeys: several of them as one of their total height and mass, and of their stiffnesses in series"
+            }
+            Self::Modes { .. } => "correct masses and stiffnesses, with their units",
+            Self::Isolator { source, .. } => return source.help(),
+            _ => return None,
+        };
+        Some(text.to_owned())
+    }
+}

@@ -3,8 +3,8 @@
 use crate::methods::Information;
 use crate::warnings::Warning;
 
-/// A maximum absolute value and when it happened.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+/// A maximum absolute value and when it happened. One that is not known (NaN) equals another such.
+#[derive(Debug, Clone, Copy, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 pub struct Peak {
     /// Maximum absolute value, in the unit of the quantity.
@@ -12,6 +12,17 @@ pub struct Peak {
     pub value: f64,
     /// Time (s); zero if the quantity never left zero.
     pub time: f64,
+}
+
+/// Whether two numbers are equal, or both none: what there is not in two equal runs is equal.
+fn same(a: f64, b: f64) -> bool {
+    a == b || (a.is_nan() && b.is_nan())
+}
+
+impl PartialEq for Peak {
+    fn eq(&self, other: &Self) -> bool {
+        same(self.value, other.value) && same(self.time, other.time)
+    }
 }
 
 impl Peak {
@@ -185,8 +196,9 @@ pub struct LinkOutcome {
     pub levels: Vec<LinkLevelOutcome>,
 }
 
-/// One impact: from a located closure to the located opening.
-#[derive(Debug, Clone, PartialEq)]
+/// One impact: from a located closure to the located opening. What there is not (NaN) equals what there is not
+/// in another.
+#[derive(Debug, Clone)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]
 pub struct Impact {
@@ -218,6 +230,37 @@ pub struct Impact {
     pub energy_dissipated: f64,
     /// The model's constants of this collision, in the order of its descriptor.
     pub constants: Vec<f64>,
+}
+
+impl PartialEq for Impact {
+    fn eq(&self, other: &Self) -> bool {
+        // By name, so that a new field is not forgotten.
+        let Self {
+            gap,
+            level,
+            time_closed,
+            time_opened,
+            approach_velocity,
+            separation_velocity,
+            achieved_restitution,
+            peak_force,
+            peak_penetration,
+            impulse,
+            energy_dissipated,
+            constants,
+        } = self;
+        (*gap, *level) == (other.gap, other.level)
+            && *time_closed == other.time_closed
+            && same(*time_opened, other.time_opened)
+            && *approach_velocity == other.approach_velocity
+            && same(*separation_velocity, other.separation_velocity)
+            && same(*achieved_restitution, other.achieved_restitution)
+            && *peak_force == other.peak_force
+            && *peak_penetration == other.peak_penetration
+            && *impulse == other.impulse
+            && *energy_dissipated == other.energy_dissipated
+            && *constants == other.constants
+    }
 }
 
 /// What happened at one contact level.

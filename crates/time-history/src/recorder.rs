@@ -347,6 +347,9 @@ impl History {
     }
 
     /// Some columns of one of the lists, row after row.
+    ///
+    /// # Panics
+    /// A column that the list does not have.
     #[must_use]
     pub fn columns(&self, values: &[f64], range: Range<usize>) -> Vec<f64> {
         let width = values.len() / self.len().max(1);
@@ -359,6 +362,9 @@ impl History {
     }
 
     /// One column of one of the lists.
+    ///
+    /// # Panics
+    /// A column that the list does not have.
     #[must_use]
     pub fn column(&self, values: &[f64], index: usize) -> Vec<f64> {
         self.columns(values, index..index + 1)
@@ -393,7 +399,8 @@ const BLOCK_ROWS: usize = 1024;
 const BLOCK_BYTES: usize = 4 << 20;
 
 /// Gives responses on an even grid of times, from zero to the end of the run, to a sink: to a
-/// [`History`] in memory, or to what writes them to a file.
+/// [`History`] in memory, or to what writes them to a file. One records one run: rows of a second
+/// would come behind those of the first.
 #[derive(Debug, Clone)]
 pub struct GridRecorder<S = History> {
     step: f64,

@@ -363,16 +363,13 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
             ShearBuildingError::Unstable { .. } => (&b.name.span, Some(OVERTURNED.to_owned())),
             ShearBuildingError::UnstableMatrix { .. } => (at_matrix, Some(OVERTURNED.to_owned())),
             ShearBuildingError::Length { .. } => (at_matrix, None),
-            ShearBuildingError::TooManyStoreys { .. } => (
-                &b.name.span,
-                Some("join storeys: several of them as one of their total height and mass, and of their stiffnesses in series".to_owned()),
-            ),
+            ShearBuildingError::TooManyStoreys { .. } => (&b.name.span, e.help()),
             ShearBuildingError::Damping { .. } if b.lateral.is_some() => (
                 &b.damping.span,
                 Some("give ratios, such as { modal = 0.05 }".to_owned()),
             ),
-            ShearBuildingError::Isolator { source, .. } => (at_isolator, source.help()),
-            _ => (&b.damping.span, None),
+            ShearBuildingError::Isolator { .. } => (at_isolator, e.help()),
+            _ => (&b.damping.span, e.help()),
         };
         case.error(place.clone(), e.to_string(), help)
     })?;

@@ -186,13 +186,21 @@ impl Study {
         self.design.runs()
     }
 
-    /// Values of all variables in run number `run`.
+    /// Values of all variables in run number `run`, from zero.
+    ///
+    /// # Panics
+    /// A run that the study does not have.
     #[must_use]
     pub fn point(&self, run: usize) -> Vec<Value> {
+        let runs = self.runs();
+        assert!(run < runs, "run {run} of a study of {runs} runs");
         self.design.point(run, &self.variables)
     }
 
-    /// Name of a choice of a variable, as results show it.
+    /// Name of a choice of a variable, as results show it; empty for one that it does not have.
+    ///
+    /// # Panics
+    /// A variable that the study does not have.
     #[must_use]
     pub fn label(&self, variable: usize, choice: usize) -> &str {
         match &self.variables[variable].values {

@@ -66,7 +66,8 @@ const CHANGES_ON_THE_WAY: usize = 2;
 const CHATTER: usize = 10_000;
 
 /// Integrates a system: a pure function of its arguments. `progress` is given the
-/// part of the duration that is done, a few hundred times a run.
+/// part of the duration that is done, at most a few hundred times a run: exact steps
+/// without contact are taken at once.
 ///
 /// # Errors
 /// An option out of range, a step that cannot be made small enough, events

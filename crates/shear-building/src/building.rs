@@ -797,6 +797,10 @@ fn geometric(mass: &[f64], height: &[f64], gravity: f64) -> Vec<f64> {
         .collect()
 }
 
+/// Sum of masses (kg), heights (m) or stiffnesses (N/m) of a building at most: a little beyond it products with
+/// gravity are no numbers.
+const LARGEST_SUM: f64 = 1.0e300;
+
 impl Parts {
     fn new(
         name: String,
@@ -842,14 +846,25 @@ fn check(
             expected: storeys,
         });
     }
-    match values.iter().position(|x| !(x.is_finite() && *x > 0.0)) {
-        None => Ok(()),
-        Some(i) => Err(ShearBuildingError::Value {
+    let refused = |i: usize, required| {
+        Err(ShearBuildingError::Value {
             building: building.to_owned(),
             quantity,
             storey: i + 1,
             value: values[i],
-            required: "greater than zero",
-        }),
+            required,
+        })
+    };
+    if let Some(i) = values.iter().position(|x| !(x.is_finite() && *x > 0.0)) {
+        return refused(i, "greater than zero");
     }
+    // The weight of all storeys, and how high they stand, are sums of such values.
+    let mut sum = 0.0;
+    for (i, value) in values.iter().enumerate() {
+        sum += value;
+        if sum > LARGEST_SUM {
+            return refused(i, "less than 1e300 with those below: check its unit");
+        }
+    }
+    Ok(())
 }

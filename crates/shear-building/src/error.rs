@@ -2,6 +2,14 @@
 
 use crate::foundation::FoundationError;
 
+/// A value without hundreds of zeros.
+fn short(value: f64) -> String {
+    match (1.0e-6..1.0e12).contains(&value.abs()) || value == 0.0 {
+        true => value.to_string(),
+        false => format!("{value:e}"),
+    }
+}
+
 /// A building that cannot be.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -37,7 +45,7 @@ pub enum ShearBuildingError {
         expected: usize,
     },
     /// A value that is not finite, or not positive where it must be.
-    #[error("building {building}, storey {storey}: {quantity} = {value} must be {required}")]
+    #[error("building {building}, storey {storey}: {quantity} = {} must be {required}", short(*value))]
     Value {
         /// Name of the building.
         building: String,

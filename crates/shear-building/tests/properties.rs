@@ -99,6 +99,14 @@ fn what_cannot_be_is_refused() {
         new(vec![1.0, f64::NAN], vec![1.0; 2], sound()),
         Err(ShearBuildingError::Value { .. })
     ));
+    // Sums that are no numbers: the weight on the lowest storey was `NaN N`.
+    let heavy = new(vec![1e308; 2], vec![1.0; 2], sound()).unwrap_err();
+    let text = heavy.to_string();
+    assert!(text.contains("storey 1: mass = 1e308 must be"), "{text}");
+    assert!(matches!(
+        new(vec![1.0; 2], vec![0.7e300; 2], sound()),
+        Err(ShearBuildingError::Value { storey: 2, .. })
+    ));
     for d in [
         Damping::RayleighRatio {
             ratio: 0.05,

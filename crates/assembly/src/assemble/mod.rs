@@ -363,7 +363,9 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
             ShearBuildingError::Unstable { .. } => (&b.name.span, Some(OVERTURNED.to_owned())),
             ShearBuildingError::UnstableMatrix { .. } => (at_matrix, Some(OVERTURNED.to_owned())),
             ShearBuildingError::Length { .. } => (at_matrix, None),
-            ShearBuildingError::TooManyStoreys { .. } => (&b.name.span, e.help()),
+            ShearBuildingError::TooManyStoreys { .. } | ShearBuildingError::Value { .. } => {
+                (&b.name.span, e.help())
+            }
             ShearBuildingError::Damping { .. } if b.lateral.is_some() => (
                 &b.damping.span,
                 Some("give ratios, such as { modal = 0.05 }".to_owned()),

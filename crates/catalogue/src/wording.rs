@@ -16,6 +16,16 @@ pub fn agreeing<'w, N: PartialEq + From<u8>>(count: &N, one: &'w str, others: &'
     if *count == N::from(1) { one } else { others }
 }
 
+/// A title or name on one line: blanks stand for what ends lines. With its own lines one could say in an answer what
+/// the answer does not.
+#[must_use]
+pub fn one_line(text: String) -> String {
+    match text.contains(['\n', '\r']) {
+        false => text,
+        true => text.split_whitespace().collect::<Vec<_>>().join(" "),
+    }
+}
+
 /// A text as a cell of a CSV table. Spreadsheets take what begins with `=`, `+`, `-`, `@`, a tab or a
 /// carriage return for a formula, which may do anything: an apostrophe before it makes it a text. A
 /// number stays as it is, and so does the sign `-` of what has no unit.

@@ -216,6 +216,7 @@ impl From<TimeHistoryError> for Failure {
             | TimeHistoryError::CompliantModel { .. }
             | TimeHistoryError::NoClearance { .. }
             | TimeHistoryError::ContactTooShort { .. }
+            | TimeHistoryError::ClosureTooShort { .. }
             | TimeHistoryError::TooManySteps { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),
             error => Self::Computation(plain(error.to_string(), help)),

@@ -153,6 +153,55 @@ fn sweeps_of_rigid_impacts() {
     }
 }
 
+/// Rigid impacts have no force: zero of a level that nothing hits is not that of a run, alone or beside a model that
+/// has one. A curve of one point is a dot, and one is said as one.
+#[test]
+fn sweeps_of_what_has_no_force() {
+    let folder = tempfile::tempdir().unwrap();
+    let page_of = |name: &str, variables: &str| {
+        let study = folder.path().join(format!("{name}.toml"));
+        let of_case = format!("case = {:?}\n\n{variables}", example("three_storey_pair"));
+        std::fs::write(&study, of_case).unwrap();
+        let page = folder.path().join(format!("{name}.html"));
+        let result = folder.path().join(format!("{name}.h5"));
+        let [study, result, output] =
+            [study, result, page.clone()].map(|p| p.display().to_string());
+        text("sweep", &format!("{study} -o {result} --report {output}"));
+        std::fs::read_to_string(page).unwrap()
+    };
+    // At 95 mm the roof alone is hit.
+    let widths = "[[variable]]\npath = \"gap.0.width\"\nvalues = [\"90 mm\", \"95 mm\"]\n";
+    let rigid = "{ model = \"stereomechanical\", restitution = 0.6 }";
+    let compliant =
+        "{ model = \"jankowski_2005\", stiffness = \"2.75e9 N/m^1.5\", restitution = 0.65 }";
+    let model = |values: &str| {
+        format!(
+            "{widths}[[variable]]\npath = \"gap.0.model\"\nname = \"model\"\nvalues = [{values}]\n"
+        )
+    };
+    let alone = page_of("alone", &model(rigid));
+    assert!(alone.contains("They have no contact force."));
+    assert!(!alone.contains("contact force is at most"), "{alone}");
+    let mixed = page_of("mixed", &model(&format!("{compliant}, {rigid}")));
+    assert!(mixed.contains("; rigid impacts have none."));
+    let force = |html: &str| {
+        let panel = html
+            .split_once("maximum contact force, maximum of a run")
+            .unwrap()
+            .1;
+        let panel = panel.split("maximum displacement").next().unwrap();
+        panel.matches("<polyline").count()
+    };
+    let both = page_of("compliant", &model(compliant));
+    // Of one run at each width, with the force of the compliant one alone, all shares are that one.
+    assert_eq!(force(&mixed), force(&both));
+    let one = page_of(
+        "one",
+        "[[variable]]\npath = \"gap.0.width\"\nvalues = [\"100 mm\"]\n",
+    );
+    assert!(one.contains(">1 value<"), "{one}");
+}
+
 /// A figure is as wide as asked for, its text as large as at any width.
 #[test]
 fn figures_have_the_width_of_a_column() {

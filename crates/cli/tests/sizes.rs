@@ -182,6 +182,31 @@ fn runs_that_would_not_end_are_refused_by_what_they_mean() {
             "stiffness and damping of the law",
         ],
     );
+    // A hook is that stiff once its play is taken up: its law shows nothing of it at first.
+    for (model, keys) in [
+        (
+            "gap_hook",
+            "tension_gap = \"5 mm\"\ntension_stiffness = \"1e28 MN/m\"",
+        ),
+        (
+            "elastoplastic_gap",
+            "gap = \"5 mm\"\nstiffness = \"1e28 MN/m\"\nyield_force = \"1e30 MN\"",
+        ),
+    ] {
+        let hook = format!(
+            "[[link]]\nbetween = [\"a\", \"wall\"]\nlevels = [1]\nmodel = \"{model}\"\n{keys}\n[ground_motion]"
+        );
+        let link = CASE.replace("[ground_motion]", &hook);
+        refused(
+            &link,
+            &[
+                "case.toml",
+                "a-wall level 1",
+                "once its play is taken up",
+                "stiffness of the law",
+            ],
+        );
+    }
     // So are steps of its own rate to a damper: at 1e15 N s/m over 25 t some 1e-11 s.
     let damper = "[[link]]\nbetween = [\"a\", \"wall\"]\nlevels = [1]\nmodel = \"viscous_damper\"\ndamping = \"1e15 N s/m\"\n[ground_motion]";
     let link = CASE.replace("[ground_motion]", damper);

@@ -85,6 +85,12 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
     /// for a rate-dependent law that of an infinitely fast start.
     fn initial_stiffness(&self) -> f64;
 
+    /// Derivative of the force by the deformation at most (N/m), where it can be more than at first, as
+    /// of what closes a gap.
+    fn steepest_stiffness(&self) -> f64 {
+        self.initial_stiffness()
+    }
+
     /// Derivative of the force by the velocity at rest (N s/m).
     fn initial_damping(&self) -> f64 {
         0.0

@@ -18,6 +18,11 @@ pub(crate) trait PathLaw: Send + Sync + std::fmt::Debug {
 
     fn stiffness_when_new(&self) -> f64;
 
+    /// Stiffness (N/m) on the steepest branch.
+    fn steepest(&self) -> f64 {
+        self.stiffness_when_new()
+    }
+
     fn begin(&self) -> History;
 
     /// Whether all branches are straight: the event-driven method then follows them
@@ -95,6 +100,9 @@ impl<L: PathLaw> HysteresisLaw for L {
     }
     fn initial_stiffness(&self) -> f64 {
         self.stiffness_when_new()
+    }
+    fn steepest_stiffness(&self) -> f64 {
+        self.steepest()
     }
     fn virgin(&self) -> History {
         self.begin()

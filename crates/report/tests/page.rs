@@ -162,7 +162,7 @@ fn the_answers_stand_in_the_page() {
     for answer in [
         "Gap light-heavy closes 3 times</strong> at 2 of 2 levels",
         "1271 kN at level 2-2 (6.000 m | 6.000 m), 1.250 s into the motion, approaching with 0.3210 m/s",
-        "acceleration at most 3.00 times (storey 2: 9.000 m/s\u{b2}, isolated 3.000 m/s\u{b2})",
+        "acceleration at most 3.00 times (storey 2: 9.000 m/s\u{b2}, alone 3.000 m/s\u{b2})",
         "viscous damping 75.0 %, impacts 25.0 %",
         "closes to 1.2e-13",
         "The hardest 3 of 3 impacts",
@@ -232,7 +232,7 @@ fn base_moments_stand_in_the_page() {
     });
     let html = page(&result, "pair.h5").unwrap();
     let html = is_whole(&html);
-    let sentence = "overturning moment at the base 1.25 times (2500 kN m, isolated 2000 kN m)";
+    let sentence = "overturning moment at the base 1.25 times (2500 kN m, alone 2000 kN m)";
     assert_eq!(html.matches(sentence).count(), 1, "{html}");
     let row = "<td>2500</td><td>4.321</td><td>2000</td><td>1.25</td>";
     assert_eq!(html.matches(row).count(), 1, "{html}");

@@ -100,6 +100,14 @@ impl Working {
             formula.push_str(", plus the relative displacement of the ground u_g");
             width += self.note("u_g", ground, "m");
         }
+        // Factors far out of their range: no width is that of a code then.
+        if !width.is_finite() {
+            return Err(SeparationError::OutOfRange {
+                quantity: "width",
+                value: width,
+                range: "[0, inf)",
+            });
+        }
         width = unsigned_zero(width);
         let factors: Vec<String> = self.factors.iter().map(shown).collect();
         let mut explanation = format!("{formula}; {}; {:.1} mm", factors.join(", "), width * 1e3);

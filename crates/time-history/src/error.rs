@@ -158,6 +158,14 @@ pub enum TimeHistoryError {
         /// Name of the gap.
         gap: String,
     },
+    /// The same of a storey or link whose law is that stiff once its play is taken up.
+    #[error(
+        "{place} stops a floor with {APPROACH_VELOCITY} m/s within {SHORTEST_CONTACT:e} s once its play is taken up, which the digits of the time do not tell apart"
+    )]
+    ClosureTooShort {
+        /// The storey or link.
+        place: String,
+    },
     /// Rigid floors that no impact could move: contact forces between them and the walls
     /// would not be unique.
     #[error(
@@ -238,6 +246,9 @@ impl TimeHistoryError {
             }
             Self::ContactTooShort { .. } => {
                 "correct the stiffness of the impact model and the masses beside it (units?), or take the rigid model \"stereomechanical\""
+            }
+            Self::ClosureTooShort { .. } => {
+                "correct the stiffness of the law and the masses beside it (units?)"
             }
             Self::CompliantModel { .. } => {
                 "use model = \"stereomechanical\" in every gap, or method = \"adaptive\""

@@ -175,11 +175,7 @@ impl StepEstimate {
 fn by_element(system: &System, longest: f64) -> Option<(f64, StepLimit)> {
     let rate = |element: &Element| {
         let added = (element.law.initial_stiffness() - element.carried).max(0.0);
-        let ends = [element.far, element.near].into_iter().flatten();
-        let of_ends: f64 = ends.map(|i| 1.0 / system.mass()[i]).sum();
-        let further = element.terms.pushed.iter();
-        let further = further.map(|(i, w)| w * w / system.mass()[*i]);
-        let yields = of_ends + further.sum::<f64>();
+        let yields = yielding(system, element);
         // That of a damper whose force is a power of the velocity is steep at rest alone.
         let damping = match element.law.is_linear() {
             true => element.law.initial_damping(),
@@ -196,8 +192,18 @@ fn by_element(system: &System, longest: f64) -> Option<(f64, StepLimit)> {
     (rate > 0.0).then(|| (longest / rate, limit))
 }
 
+/// Acceleration of the deformation of a storey or link by a unit of its force (1/kg).
+fn yielding(system: &System, element: &Element) -> f64 {
+    let ends = [element.far, element.near].into_iter().flatten();
+    let of_ends: f64 = ends.map(|i| 1.0 / system.mass()[i]).sum();
+    let further = element.terms.pushed.iter();
+    let further = further.map(|(i, w)| w * w / system.mass()[*i]);
+    of_ends + further.sum::<f64>()
+}
+
 /// Refuses contacts that round-off of the time would lose: those that would stop a floor
-/// with [`APPROACH_VELOCITY`] within [`SHORTEST_CONTACT`].
+/// with [`APPROACH_VELOCITY`] within [`SHORTEST_CONTACT`], in a gap or where the play of a storey or
+/// link is taken up.
 pub(crate) fn contacts_last(system: &System) -> Result<(), TimeHistoryError> {
     let gaps = system.gaps().iter();
     for (gap, level) in gaps.flat_map(|g| system.levels_of(g).iter().map(move |l| (g, l))) {
@@ -214,6 +220,15 @@ pub(crate) fn contacts_last(system: &System) -> Result<(), TimeHistoryError> {
         if force * SHORTEST_CONTACT > mass * velocity {
             return Err(TimeHistoryError::ContactTooShort {
                 gap: gap.name.clone(),
+            });
+        }
+    }
+    for (index, element) in system.elements().iter().enumerate() {
+        let steepest = element.law.steepest_stiffness();
+        let rate = steepest * yielding(system, element) * SHORTEST_CONTACT * SHORTEST_CONTACT;
+        if steepest > element.law.initial_stiffness() && rate > 1.0 {
+            return Err(TimeHistoryError::ClosureTooShort {
+                place: system.place_of_element(index),
             });
         }
     }

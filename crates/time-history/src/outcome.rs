@@ -397,7 +397,7 @@ impl Energy {
         },
         EnergyPart {
             name: "residual",
-            description: "what the ledger misses",
+            description: "sum of the other parts less the input",
             value: |e| e.residual,
         },
     ];

@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::path::Path;
 
-use pounding_catalogue::wording::{agreeing, counted};
+use pounding_catalogue::wording::{agreeing, counted, one_line};
 use pounding_shear_building::{NAMES, is_name};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -120,7 +120,7 @@ impl CaseFile {
         let separation = separation.map(|table| table.read(reader, row.count));
         Draft {
             case: Case {
-                title: self.title.value().unwrap_or_default(),
+                title: one_line(self.title.value().unwrap_or_default()),
                 buildings: row.readable.clone(),
                 gaps,
                 links,

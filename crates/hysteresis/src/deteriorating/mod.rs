@@ -18,8 +18,10 @@ pub(crate) use parameters::{PARAMETERS, build};
 pub(crate) const ENERGY_SINCE: &str = "E is the energy dissipated since the mode acted before: since the crossing of zero force before for strength, cap and target, since the turning point before for Ku; sum E is all energy dissipated so far.";
 /// To know of the laws that aim at a target: what a small unloading does.
 pub(crate) const RETRACED: &str = "Unloading that turns before zero force is retraced to the point where it began, and goes on from there as if it had not been.";
+/// To know of the laws that aim at a target: what bounds their way to it.
+pub(crate) const NO_STEEPER: &str = "Reloading is no steeper than unloading: where the way to the target is, after Ku has fallen, the path has the slope Ku, passes below the target and meets the envelope farther on. The published rule has no such bound, and gives back more energy there than was put in.";
 /// To know of every law of the family: its energy where the unloading stiffness falls.
-pub(crate) const ENERGY_STEPS_BACK: &str = "Where the unloading stiffness falls, what is stored rises, and the dissipated energy steps back: no further than to what it was at the turning point before, which bounds the stiffness from below. The published rule has no bound, and gives back more energy than was put in as its capacity runs out.";
+pub(crate) const ENERGY_STEPS_BACK: &str = "Where the unloading stiffness falls, what is stored rises, and the dissipated energy steps back: no further than to what it was at the turning point before, which bounds the stiffness from below. The published rule has no bound, and gives back more energy than was put in as its capacity runs out. The E of a turning point is with the stiffness before it falls; energies that are reported on the way to it are with the one that it would fall to there.";
 /// To know: how it fails.
 pub(crate) const FAILS_FOR_EVER: &str = "Exhausted capacity, or a strength that reaches zero, leaves an element without force for ever.";
 /// To know: what does not deteriorate.

@@ -107,6 +107,9 @@ impl PathLaw for ElastoplasticGap {
     fn stiffness_when_new(&self) -> f64 {
         if self.gap == 0.0 { self.stiffness } else { 0.0 }
     }
+    fn steepest(&self) -> f64 {
+        self.stiffness
+    }
     fn begin(&self) -> History {
         let mut branch = self.open(self.gap);
         branch.start = Point::default();

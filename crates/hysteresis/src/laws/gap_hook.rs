@@ -125,6 +125,9 @@ impl PathLaw for GapHook {
         }
         0.0
     }
+    fn steepest(&self) -> f64 {
+        self.tension_stiffness.max(self.compression_stiffness)
+    }
     fn begin(&self) -> History {
         History::new(self.open())
     }

@@ -229,6 +229,9 @@ impl PathLaw for HyperbolicGap {
             0.0
         }
     }
+    fn steepest(&self) -> f64 {
+        1.0 / self.flexibility
+    }
     fn begin(&self) -> History {
         let mut branch = self.open(0.0);
         branch.start = Point::default();

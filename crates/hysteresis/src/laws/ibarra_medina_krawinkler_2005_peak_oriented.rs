@@ -35,6 +35,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     example_amplitude: 0.06,
     traps: &[
         deteriorating::RETRACED,
+        deteriorating::NO_STEEPER,
         deteriorating::ENERGY_SINCE,
         deteriorating::ENERGY_STEPS_BACK,
         deteriorating::FAILS_FOR_EVER,

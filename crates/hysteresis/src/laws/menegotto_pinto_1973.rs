@@ -16,7 +16,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         citation: "common name of the form without isotropic hardening",
     }],
     title: "Menegotto-Pinto",
-    formula: "f = r s + (1-r) s / (1 + |s|^R)^(1/R), from the last turning point (s = f = 0) to where its tangent k meets the yield line (s = f = 1);  R = R0 (1 - c1 p / (c2 + p)), p = |xm - x0| / xy",
+    formula: "f = r s + (1-r) s / (1 + |s|^R)^(1/R), from the last turning point (s = f = 0) to where its tangent k meets the yield line (s = f = 1);  R = R0 (1 - c1 p / (c2 + p)), p = |xm - x0| / xy, x0 where the two lines meet",
     citation: "Menegotto and Pinto, IABSE Symposium on Resistance and Ultimate Deformability of Structures, Lisbon (1973) 15; R as in Filippou, Popov and Bertero, Report UCB/EERC-83/19 (1983)",
     parameters: &[
         STIFFNESS,

@@ -470,7 +470,17 @@ fn escaped(content: &str) -> String {
 /// A curve, broken where a point has no place, with its markers.
 fn curve(body: &mut String, look: &Look, places: &[Option<(f64, f64)>], turn: usize) {
     if look.dash.is_some() {
-        for part in places.split(Option::is_none).filter(|p| p.len() > 1) {
+        for part in places.split(Option::is_none).filter(|p| !p.is_empty()) {
+            // A point without neighbours is a dot.
+            if let [Some((x, y))] = part {
+                let _ = writeln!(
+                    body,
+                    "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\" fill=\"{}\"/>",
+                    1.2 * look.width,
+                    look.colour
+                );
+                continue;
+            }
             let points: Vec<String> = part
                 .iter()
                 .flatten()

@@ -13,8 +13,10 @@ pub(super) fn figures(x: f64) -> String {
     if !(1.0e-4..1.0e7).contains(&size) {
         return format!("{x:.3e}");
     }
-    let before = size.log10().floor() as i32;
-    let decimals = (3 - before).max(0) as usize;
+    // Of the number as four figures leave it: they may take it to the next power of ten.
+    let rounded = format!("{size:.3e}");
+    let before = rounded.split_once('e').and_then(|(_, e)| e.parse().ok());
+    let decimals = (3 - before.unwrap_or(0_i32)).max(0) as usize;
     format!("{x:.decimals$}")
 }
 
@@ -35,7 +37,12 @@ pub(super) fn percent(part: f64, whole: f64) -> String {
     if !(whole > 0.0) || !part.is_finite() {
         return "\u{2013}".to_owned();
     }
-    format!("{:.1} %", 100.0 * part / whole)
+    let shown = format!("{:.1} %", 100.0 * part / whole);
+    // What round-off leaves has no sign.
+    match shown.as_str() {
+        "-0.0 %" => "0.0 %".to_owned(),
+        _ => shown,
+    }
 }
 
 #[cfg(test)]
@@ -48,7 +55,9 @@ mod tests {
             (0.0, "0"),
             (117.208_1, "117.2"),
             (-0.012_345, "-0.01235"),
-            (9.999_96, "10.000"),
+            (9.999_96, "10.00"),
+            (0.999_999_18, "1.000"),
+            (0.099_999_6, "0.1000"),
             (123_456.0, "123456"),
             (1.0e9, "1.000e9"),
             (2.0e-7, "2.000e-7"),
@@ -61,5 +70,6 @@ mod tests {
         assert_eq!(ratio(3.0, 1.0e-28), "3.0e28");
         assert_eq!(figures(-1.8e-15), "0");
         assert_eq!(percent(1.0, 8.0), "12.5 %");
+        assert_eq!(percent(-2.3e-8, 5.0e7), "0.0 %");
     }
 }

@@ -1,6 +1,6 @@
 //! The page of the result of a sweep.
 
-use pounding_catalogue::wording::counted;
+use pounding_catalogue::wording::{agreeing, counted};
 use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError, fractile};
 
 use super::answer::{in_parentheses, unit_of};
@@ -170,7 +170,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         let touches = |row: &usize| impacts.iter().any(|c| runs.values[*c][*row] > 0.0);
         let closed = (0..result.rows).filter(touches).count();
         points.push(format!(
-            "In {}{} a gap closes, with up to {} impacts at a level.",
+            "In {}{} a gap closes, with up to {} at a level.",
             counted(closed, "run"),
             match ended {
                 0 => String::new(),
@@ -179,11 +179,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
                     result.rows - ended
                 ),
             },
-            number(
-                "maximum impacts",
-                1.0,
-                &greatest(runs, &impacts).to_string()
-            ),
+            counted_impacts(greatest(runs, &impacts)),
         ));
     }
     for name in &DRAWN[1..] {
@@ -192,7 +188,9 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         };
         let found = columns(layout, name);
         let most = greatest(runs, &found);
-        if !most.is_finite() {
+        let jumps = *name == "peak_force" && has_rigid_impacts(result, runs);
+        // Where velocities jump there is no force: zero is that of levels that nothing hits.
+        if !most.is_finite() || (jumps && most == 0.0) {
             continue;
         }
         let place = found.iter().find(|c| runs.values[**c].contains(&most));
@@ -216,9 +214,12 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
                 " in run {}",
                 runs.numbers[row]
             )),
-            match runs.collapsed.len() {
-                0 => "",
-                _ => "; of runs that collapsed it is not known",
+            match (runs.collapsed.len(), jumps) {
+                (0, false) => "",
+                (0, true) => "; rigid impacts have none",
+                (_, false) => "; of runs that collapsed it is not known",
+                (_, true) =>
+                    "; rigid impacts have none, and of runs that collapsed it is not known",
             },
         ));
     }
@@ -247,6 +248,13 @@ fn columns(layout: &Layout, name: &str) -> Vec<usize> {
 fn greatest(runs: &Runs, columns: &[usize]) -> f64 {
     let values = columns.iter().flat_map(|c| &runs.values[*c]);
     values.copied().fold(f64::NAN, f64::max)
+}
+
+/// A greatest number of impacts with its noun.
+fn counted_impacts(most: f64) -> String {
+    let noun = agreeing(&most, "impact", "impacts");
+    let shown = number("maximum impacts", 1.0, &most.to_string());
+    format!("{shown} {noun}")
 }
 
 /// What a column of a quantity is of.
@@ -286,7 +294,7 @@ fn variables(result: &ResultReader, runs: &Runs) -> String {
                 c.name.clone(),
                 c.long_name.clone(),
                 range,
-                format!("{} values", known.len()),
+                counted(known.len(), "value"),
             ],
         )
     });
@@ -401,8 +409,14 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
             let (factor, _) = unit_of(quantity.unit);
             let of_row = |row: &usize| {
                 let values = found.iter().map(|c| runs.values[*c][*row]);
-                match runs.fell[*row] {
-                    true => f64::INFINITY,
+                if runs.fell[*row] {
+                    return f64::INFINITY;
+                }
+                // A run with a level of unknown force has no maximum of it: that of its other
+                // levels, often zero, is not the run's.
+                let unknown = name == "peak_force" && values.clone().any(f64::is_nan);
+                match unknown {
+                    true => f64::NAN,
                     false => factor * values.fold(f64::NAN, f64::max),
                 }
             };

@@ -82,10 +82,19 @@ fn curves(report: &IdaReport) -> Vec<Plot> {
         let upper = report.levels.iter().map(|l| 100.0 * l.fractiles[index][2]);
         let upper = upper.filter(finite).fold(0.0, f64::max);
         let horizontal = Axis::linear("maximum drift ratio (%)");
+        let all = report.curves[index].iter().flatten();
+        let largest = all.map(|x| 100.0 * x).filter(finite).fold(0.0, f64::max);
+        let end = 1.25 * upper;
+        let beyond = upper > 0.0 && largest > end;
         Plot {
-            heading: format!("Maximum drift ratio of {building}"),
+            heading: match beyond {
+                true => format!(
+                    "Maximum drift ratio of {building}: records reach {largest:.1} %, beyond the picture"
+                ),
+                false => format!("Maximum drift ratio of {building}"),
+            },
             horizontal: if upper > 0.0 {
-                horizontal.over(0.0, 1.25 * upper)
+                horizontal.over(0.0, end)
             } else {
                 horizontal
             },

@@ -189,13 +189,6 @@ impl OwnRule {
         };
         let (left, right) = (side(&situation.left)?, side(&situation.right)?);
         let width = working.summed(left, right);
-        if !width.is_finite() {
-            return Err(SeparationError::OutOfRange {
-                quantity: "width",
-                value: width,
-                range: "[0, inf)",
-            });
-        }
         let formula = format!("{}, summed over both sides", self.formula());
         working.finish(&formula, (width, site), None)
     }

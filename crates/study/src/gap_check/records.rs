@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};
 use pounding_case::{Case, GroundMotion, Located};
+use pounding_catalogue::wording::one_line;
 use pounding_ground_motion::{Accelerogram, Offset};
 use pounding_time_history::Warning;
 
@@ -313,10 +314,8 @@ pub fn distinct(name: &str, ending: &str, is_known: impl Fn(&str) -> bool) -> St
 }
 
 fn name_of(file: &Path) -> String {
-    file.file_stem()
-        .unwrap_or(file.as_os_str())
-        .to_string_lossy()
-        .into_owned()
+    let stem = file.file_stem().unwrap_or(file.as_os_str());
+    one_line(stem.to_string_lossy().into_owned())
 }
 
 fn motion(case: &Case, file: &Path) -> GroundMotion {

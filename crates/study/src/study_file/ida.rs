@@ -10,6 +10,7 @@ use pounding_case::document::{
     TableOr, Within, Written,
 };
 use pounding_case::{Building, ContactLevel, Dimension, Located, Support};
+use pounding_catalogue::wording::one_line;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
@@ -426,6 +427,7 @@ impl LimitTable {
         let Field::Given(Located { value: name, span }) = &self.name else {
             return None;
         };
+        let name = &one_line(name.clone());
         if name.trim().is_empty() {
             let help = "give the state a name, by which answers and tables tell it from others";
             return reader.refuse(span.clone(), "the name is empty", help);

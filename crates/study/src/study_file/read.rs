@@ -9,6 +9,7 @@ use pounding_assembly::{AssemblyError, assemble_with_record};
 use pounding_case::document::{Entry, Field, List, Optional, Reader, Table, schema_of};
 use pounding_case::{CaseError, Errors, Located};
 use pounding_catalogue::suggestion;
+use pounding_catalogue::wording::one_line;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use pounding_results::study::quantity_names;
 use schemars::JsonSchema;
@@ -265,7 +266,7 @@ impl StudyFile {
             (None, None) => (vec![records::of_case(&base)], Readings::new()),
         };
         Some(Study {
-            title: self.title.value().unwrap_or_default(),
+            title: one_line(self.title.value().unwrap_or_default()),
             file: file.to_owned(),
             source: reader.source.to_owned(),
             variables: read.variables,

@@ -11,6 +11,7 @@ use pounding_case::document::{
 };
 use pounding_case::{Case, CaseError, CaseTree, Dimension, Located};
 use pounding_catalogue::suggestion;
+use pounding_catalogue::wording::one_line;
 use pounding_ground_motion::generators::{RezaeianDerKiureghian2010, TimeGrid};
 
 use schemars::{JsonSchema, Schema, SchemaGenerator};
@@ -184,10 +185,8 @@ pub(super) fn of_case(base: &Case) -> RecordSource {
 }
 
 pub(super) fn stem(file: &Path) -> String {
-    file.file_stem()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
+    let stem = file.file_stem().unwrap_or_default();
+    one_line(stem.to_string_lossy().into_owned())
 }
 
 fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Option<RecordSource> {
@@ -199,7 +198,11 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
             let span = span.clone();
             (None, Located { value: file, span }, Vec::new())
         }
-        TableOr::Table(table) => (table.name.value(), table.file.located()?, table.others.0),
+        TableOr::Table(table) => (
+            table.name.value().map(one_line),
+            table.file.located()?,
+            table.others.0,
+        ),
     };
     let Located {
         value: file,

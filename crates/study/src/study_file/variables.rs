@@ -9,6 +9,7 @@ use pounding_case::document::{
     TableOr, Time, Written,
 };
 use pounding_case::{Case, CaseError, CaseTree, Dimension, Located};
+use pounding_catalogue::wording::one_line;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -177,7 +178,7 @@ impl VariableTable {
             let help = "a name begins with a letter, has letters, digits and underscores, and is not that of a result; write `name = ...`";
             return reader.refuse(place, message, help);
         }
-        Some((name, long?))
+        Some((name, one_line(long?)))
     }
 
     fn of_records(

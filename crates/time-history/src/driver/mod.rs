@@ -399,6 +399,15 @@ impl<'a> Driver<'a> {
             } else {
                 tau + step
             };
+            // A step below the digits of the time would be taken for ever.
+            if !reached_end && ended_by.is_none() && next <= tau {
+                return Err(TimeHistoryError::StepTooSmall {
+                    time: segment.start + tau,
+                    step,
+                    method: self.method.information().title,
+                    place: self.places_in_touch(),
+                });
+            }
             let last = reached_end && segment.start + segment.length >= duration * (1.0 - 1e-12);
             self.accept(segment, tau, step, (ended_by.is_some(), last), recorders)?;
             if let Some((event, whole)) = ended_by {

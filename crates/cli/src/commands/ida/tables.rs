@@ -349,7 +349,9 @@ fn fitted(limit: &LimitResult, confidence: f64, scale: f64) -> [String; 2] {
 /// Four significant digits.
 fn digits(x: f64) -> String {
     let size = x.abs();
-    if x == 0.0 || !x.is_finite() {
+    if x.is_nan() {
+        "-".to_owned()
+    } else if x == 0.0 || !x.is_finite() {
         format!("{x}")
     } else if (1e-3..1e5).contains(&size) {
         let decimals = (3 - size.log10().floor() as i32).clamp(0, 6) as usize;

@@ -98,13 +98,26 @@ fn floors(building: &BuildingResult, row: usize) -> impl Iterator<Item = f64> + 
     values.take(columns).copied()
 }
 
+/// Whether grounds on both sides of a gap move differently: the picture, whose displacements are relative to
+/// each, then has other gaps than the run.
+fn on_different_grounds(result: &RunResult) -> bool {
+    let responses = result.gaps.iter().flat_map(|g| &g.responses);
+    let mut ground = responses.filter(|r| r.name == "relative_ground_displacement");
+    ground.any(|r| r.value.iter().any(|u| *u > 0.0))
+}
+
 fn caption(result: &RunResult, row: usize, magnification: f64) -> String {
     format!(
         "Elevation at <span data-part=\"instant\">{:.3}</span> s. Heights are to scale; displacements and \
          gaps are drawn <span data-part=\"factor\">{magnification}</span> times as wide as they are. The case \
          does not say how wide buildings are: they are drawn alike. Displacements are relative to the ground \
-         under each building.{}",
+         under each building.{}{}",
         result.time[row],
+        match on_different_grounds(result) {
+            true =>
+                " The grounds move apart and together, which is left out: gaps are not drawn as wide as they are then.",
+            false => "",
+        },
         match result.gaps.iter().any(|g| !g.impacts.is_empty()) {
             true => " A dot marks a level in contact.",
             false => "",

@@ -147,7 +147,7 @@ pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
     let opening = gap.penetration.column(level).map(|d| -1.0e3 * d);
     let at = words::level(&gap.levels[level]);
     let mut panels = vec![over_time(
-        &format!("Opening of the gap at {at} (mm); negative in contact"),
+        &format!("Distance across the gap at {at} (mm); negative in contact"),
         vec![history(result, &at, opening)],
     )];
     let end = result.time.last().copied().unwrap_or(0.0);
@@ -167,7 +167,7 @@ pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
         ));
     }
     let words = format!(
-        "Opening of the gap {}, and its impacts, over time",
+        "Distance across the gap {}, and its impacts, over time",
         gap.name
     );
     wide(&panels, &words)

@@ -38,12 +38,13 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
         let title = format!("Building {}", building.name);
         body.push_str(&section(&title, &inside));
     }
+    let input = result.energy.input.iter().copied().fold(0.0, f64::max);
     for gap in &result.gaps {
         let mut inside = words::gap(gap);
-        inside.push_str(&tables::levels(gap));
+        inside.push_str(&tables::levels(gap, input));
         inside.push_str(&tables::level_responses(gap));
         inside.push_str(&figures::gap(result, gap)?);
-        inside.push_str(&tables::hardest(gap, HARDEST));
+        inside.push_str(&tables::hardest(gap, HARDEST, input));
         body.push_str(&section(&format!("Gap {}", gap.name), &inside));
     }
     for link in &result.links {

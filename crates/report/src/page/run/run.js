@@ -156,7 +156,7 @@
       svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
       const s = series[chosen];
       const middle = s.force ? (height - 40) / 2 : height - 40;
-      panel(s.opening, 1e3, [24, middle - 4], "Opening of the gap (mm), 0 and below: contact", "opening");
+      panel(s.opening, 1e3, [24, middle - 4], "Distance across the gap (mm), 0 and below: contact", "opening");
       if (s.force) panel(s.force, 1e-3, [middle + 32, height - 36], "Contact force (kN)", "force");
       for (const t of ticks(range[0], range[1], Math.max(2, Math.floor(width / 110)))) {
         add("text", { x: across(t), y: height - 18, "text-anchor": "middle" }, String(t));

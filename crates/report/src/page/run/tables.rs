@@ -172,6 +172,14 @@ pub(super) fn responses(building: &BuildingResult) -> String {
     table("Responses", &columns, rows)
 }
 
+/// Energy (J) without what round-off leaves of the largest input energy, of either sign.
+fn without_round_off(energy: f64, input: f64) -> f64 {
+    match energy.abs() <= 1.0e-12 * input {
+        true => 0.0,
+        false => energy,
+    }
+}
+
 /// What the levels of a gap bear beside contact forces, the top first; nothing if that is
 /// nothing.
 pub(super) fn level_responses(gap: &GapResult) -> String {
@@ -179,7 +187,12 @@ pub(super) fn level_responses(gap: &GapResult) -> String {
     for r in &gap.responses {
         let (factor, unit) = shown_unit(&r.unit);
         let path = format!("gap/{}/response/peak/{}", gap.name, r.name);
-        let what = format!("{} ({unit})", r.name.replace('_', " "));
+        let name = match r.name.as_str() {
+            // A seat bears this, not the distance across the gap, of which figures are.
+            "opening" => "opening beyond the distance at rest".to_owned(),
+            name => name.replace('_', " "),
+        };
+        let what = format!("{name} ({unit})");
         let mut columns = vec![
             Column::new("level"),
             Column::of("peak", format!("{path}[*]"), factor).below(&what),
@@ -272,7 +285,7 @@ fn elevations(path: &str) -> [Column; 2] {
 }
 
 /// The levels of a gap, the top first.
-pub(super) fn levels(gap: &GapResult) -> String {
+pub(super) fn levels(gap: &GapResult, input: f64) -> String {
     let path = format!("gap/{}", gap.name);
     let of_impacts = |heading: &str, word: &str, column: &str, factor: f64| {
         let from = format!("{word} {path}/impacts[level=*+1].{column}");
@@ -328,6 +341,7 @@ pub(super) fn levels(gap: &GapResult) -> String {
             .map(|i| i.energy_dissipated)
             .filter(|e| e.is_finite())
             .sum();
+        let dissipated = without_round_off(dissipated, input);
         let mut row = vec![
             gap.levels[l].label.clone(),
             figures(gap.levels[l].elevations[0]),
@@ -349,7 +363,7 @@ pub(super) fn levels(gap: &GapResult) -> String {
 }
 
 /// The hardest impacts of a gap, by force, or by impulse where a model has no force.
-pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
+pub(super) fn hardest(gap: &GapResult, count: usize, input: f64) -> String {
     if gap.impacts.is_empty() {
         return String::new();
     }
@@ -390,7 +404,7 @@ pub(super) fn hardest(gap: &GapResult, count: usize) -> String {
             figures(1.0e-3 * i.force()),
             figures(1.0e3 * i.peak_penetration),
             figures(1.0e-3 * i.impulse),
-            figures(1.0e-3 * i.energy_dissipated),
+            figures(1.0e-3 * without_round_off(i.energy_dissipated, input)),
         ];
         Row::new(number.unwrap_or_default(), cells)
     });

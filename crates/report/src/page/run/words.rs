@@ -170,7 +170,7 @@ fn changed(building: &BuildingResult) -> Option<String> {
         let both = (peaks.value[storey], peaks.isolated[storey]);
         let [ratio, with, without] = three(name, &format!("[{storey}]"), factor, both);
         Some(format!(
-            "{what} at most {ratio} times (storey {}: {with} {unit}, isolated {without} {unit})",
+            "{what} at most {ratio} times (storey {}: {with} {unit}, alone {without} {unit})",
             storey + 1,
         ))
     };
@@ -178,9 +178,7 @@ fn changed(building: &BuildingResult) -> Option<String> {
     let base = base.map(|moment| {
         let both = (moment.value, moment.isolated);
         let [ratio, with, without] = three("base_moment", "", 1.0e-3, both);
-        format!(
-            "overturning moment at the base {ratio} times ({with} kN m, isolated {without} kN m)"
-        )
+        format!("overturning moment at the base {ratio} times ({with} kN m, alone {without} kN m)")
     });
     let parts = [
         rise(
@@ -206,7 +204,7 @@ fn changed(building: &BuildingResult) -> Option<String> {
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| {
         format!(
-            "Peaks of building {} beside those of the isolated building: {}.",
+            "Peaks of building {} beside those without its neighbours: {}.",
             escaped(&building.name),
             parts.join(", ")
         )
@@ -219,7 +217,10 @@ fn ledger(result: &RunResult) -> String {
         number(
             "energy@residual_ratio",
             1.0,
-            &format!("{:.1e}", result.residual_ratio)
+            &match result.residual_ratio {
+                0.0 => "0".to_owned(),
+                ratio => format!("{ratio:.1e}"),
+            }
         )
     )
 }

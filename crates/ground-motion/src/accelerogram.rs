@@ -295,6 +295,14 @@ impl Accelerogram {
         self
     }
 
+    /// The same record with a warning, where it has an origin to say it with.
+    pub(crate) fn warned(mut self, warning: Option<&str>) -> Self {
+        if let (Some(origin), Some(warning)) = (&mut self.history.origin, warning) {
+            origin.warnings.push(warning.to_owned());
+        }
+        self
+    }
+
     /// Notes that these steps made it what it is.
     pub(crate) fn note(&mut self, steps: &[StepRecord]) {
         self.history.steps.extend_from_slice(steps);

@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use pounding_ground_motion::processing::{ProcessingStep, Trim, distinct, process, rotate};
-use pounding_ground_motion::spectra::{Evaluation, rotated_spectrum};
+use pounding_ground_motion::spectra::{Evaluation, response_spectrum, rotated_spectrum};
 use pounding_ground_motion::{Accelerogram, ReadOptions, read_bytes};
 
 use crate::common::binary::{SENSITIVITY, Seed, counts, record};
@@ -48,6 +48,76 @@ fn a_component_beside_itself_is_refused() {
     assert!(error.contains("the same series, \"EW\""), "{error}");
     let other = first.scaled_by(0.5).unwrap();
     assert!(distinct(&first, &other).is_ok());
+}
+
+/// A component of so many samples: strong from 1 to 2 s, and from 3 to 3.5 s times `tail`.
+fn lasting(name: &str, count: usize, tail: f64) -> Accelerogram {
+    let mut text = format!("# Component: {name}\ntime_s,acceleration_m_s2\n");
+    for i in 0..count {
+        let time = i as f64 * 0.01;
+        let size = match time {
+            t if (1.0..2.0).contains(&t) => 1.0,
+            t if (3.0..3.5).contains(&t) => tail,
+            _ => 0.0,
+        };
+        text.push_str(&format!("{time:.2},{:.6}\n", size * (19.0 * time).sin()));
+    }
+    read_bytes(name, text.as_bytes(), &ReadOptions::default()).unwrap()
+}
+
+/// Where the ground still moves a little behind the end of the shorter component, that one is
+/// continued with zeros and both lengths are named: no direction has less than a component alone.
+#[test]
+fn a_shorter_component_is_continued_with_zeros() {
+    let (long, short) = (lasting("NS", 400, 0.04), lasting("EW", 300, 0.0));
+    let periods = [0.0, 0.1, 0.33, 2.0];
+    for evaluation in [Evaluation::AtSamples, Evaluation::PiecewiseLinear] {
+        for (first, second) in [(&long, &short), (&short, &long)] {
+            let both = rotated_spectrum(first, second, &periods, 0.05, evaluation).unwrap();
+            for one in [first, second] {
+                let alone = response_spectrum(one, &periods, 0.05, evaluation).unwrap();
+                for (most, alone) in both.maximum.iter().zip(&alone.pseudo_acceleration) {
+                    assert!(*most >= alone * (1.0 - 1e-12), "{most} {alone}");
+                }
+            }
+            let [warning] = both.warnings.as_slice() else {
+                panic!("{:?}", both.warnings)
+            };
+            for part in ["400 samples in 3.99 s", "300 samples in 2.99 s", "4.0 %"] {
+                assert!(warning.contains(part), "{warning}");
+            }
+            let turned = rotate(first, second, 30.0).unwrap();
+            for one in [&turned.first, &turned.second] {
+                assert_eq!(one.samples().len(), 400);
+                assert!(one.origin().unwrap().warnings.contains(warning));
+            }
+            assert_eq!(
+                turned.step.get("samples of the first"),
+                Some(first.samples().len() as f64)
+            );
+        }
+    }
+    // Nothing is said of components of one length.
+    let other = lasting("EW", 400, 0.0);
+    let both = rotated_spectrum(&long, &other, &periods, 0.05, Evaluation::AtSamples).unwrap();
+    assert!(both.warnings.is_empty(), "{:?}", both.warnings);
+}
+
+/// What a component did is not known where it has ended and the other still moves strongly.
+#[test]
+fn a_component_that_ends_in_strong_motion_is_refused() {
+    let (long, short) = (lasting("NS", 400, 1.4), lasting("EW", 300, 0.0));
+    for error in [
+        rotate(&long, &short, 30.0).unwrap_err(),
+        rotate(&short, &long, 30.0).unwrap_err(),
+        rotated_spectrum(&long, &short, &[0.2], 0.05, Evaluation::AtSamples).unwrap_err(),
+    ] {
+        let shown = error.to_string();
+        for part in ["400 samples", "300 samples", "\"NS\"", "\"EW\"", "100.0 %"] {
+            assert!(shown.contains(part), "{shown}");
+        }
+        assert!(error.help().unwrap().contains("--trim"), "{shown}");
+    }
 }
 
 /// Gaps of less than half a sample add up.

@@ -12,6 +12,8 @@ use pounding_ground_motion::spectra::{
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
 use proptest::prelude::*;
 
+use crate::common::two_components;
+
 const LINEAR: Evaluation = Evaluation::PiecewiseLinear;
 
 fn record(samples: Vec<f64>, step: f64) -> Accelerogram {
@@ -214,6 +216,7 @@ proptest! {
     /// The median and maximum over directions are those of rotated records.
     #[test]
     fn directions(first in any_record(), second in any_record(), period in 0.03..1.5_f64) {
+        let [first, second] = two_components([first, second]);
         for evaluation in [LINEAR, Evaluation::AtSamples] {
             let periods = [0.0, period];
             let rotated = rotated_spectrum(&first, &second, &periods, 0.05, evaluation).unwrap();

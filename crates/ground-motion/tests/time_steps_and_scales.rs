@@ -16,6 +16,8 @@ use pounding_ground_motion::{
 };
 use proptest::prelude::*;
 
+use crate::common::two_components;
+
 const LINEAR: Evaluation = Evaluation::PiecewiseLinear;
 
 fn record(samples: Vec<f64>, step: f64) -> Accelerogram {
@@ -226,22 +228,26 @@ proptest! {
     /// Rotation keeps the energy of both components, and turning back returns them.
     #[test]
     fn rotation_keeps_energy(first in any_record(), second in any_record(), angle in -360.0..360.0_f64) {
-        let count = first.samples().len().min(second.samples().len());
-        let energy = |a: &[f64], b: &[f64]| (0..count).map(|i| a[i] * a[i] + b[i] * b[i]).sum::<f64>();
+        let [first, second] = two_components([first, second]);
+        let energy = |a: &[f64], b: &[f64]| a.iter().chain(b).map(|a| a * a).sum::<f64>();
         let pair = rotate(&first, &second, angle).unwrap();
         let before = energy(first.samples(), second.samples());
         let after = energy(pair.first.samples(), pair.second.samples());
         prop_assert!((after / before - 1.0).abs() < 1e-13);
         let back = rotate(&pair.first, &pair.second, -angle).unwrap();
-        for i in 0..count {
-            prop_assert!((back.first.samples()[i] - first.samples()[i]).abs() < 1e-14);
-            prop_assert!((back.second.samples()[i] - second.samples()[i]).abs() < 1e-14);
+        for (back, once) in [(&back.first, &first), (&back.second, &second)] {
+            // Zeros behind the end of the shorter one.
+            let once = once.samples().iter().chain(std::iter::repeat(&0.0));
+            for (a, b) in back.samples().iter().zip(once) {
+                prop_assert!((a - b).abs() < 1e-14);
+            }
         }
     }
 
     /// A motion along north and east, seen by skew instruments, turned to a fault.
     #[test]
     fn components_of_a_fault(north in any_record(), east in any_record(), azimuth in 0.0..360.0_f64, between in 35.0..145.0_f64, strike in 0.0..360.0_f64) {
+        let [north, east] = two_components([north, east]);
         let along = |bearing: f64| rotate(&north, &east, bearing).unwrap().first;
         let (a, b) = (along(azimuth), along((azimuth + between) % 360.0));
         let pair = fault_components((&a, azimuth), (&b, (azimuth + between) % 360.0), strike).unwrap();

@@ -121,6 +121,52 @@ fn all_directions_of_equal_components() {
     }
 }
 
+/// A component that ends before the other is continued with zeros, and that is said; one that ends
+/// in strong motion is refused for what it is, not under the option of the periods.
+#[test]
+fn components_of_unequal_length_are_named() {
+    let file = el_centro();
+    let folder = Folder::new();
+    let north = std::fs::read_to_string(&file).unwrap();
+    let samples = north
+        .lines()
+        .filter(|l| l.starts_with(|c: char| c.is_ascii_digit()));
+    let count = samples.count();
+    assert_eq!(count, 1559);
+    let shortened = |name: &str, by: usize| {
+        let path = folder.name(name);
+        let lines: Vec<&str> = north.lines().collect();
+        let text = lines[..lines.len() - by].join("\n") + "\n";
+        std::fs::write(&path, text.replace("NS (north-south)", "EW (east-west)")).unwrap();
+        path
+    };
+    let at = ["--at", "0.3 s, 1 s"];
+    let second = shortened("ew.csv", 59);
+    let rotated = ["spectrum", &file, "--rotated", "--second-file", &second];
+    let shown = text(&[&rotated, &at[..]].concat());
+    let warning = "warning: the first component (\"NS (north-south)\") has 1559 samples in 31.16 s, the second (\"EW (east-west)\") 1500 samples in 29.98 s: the shorter one is continued with zeros";
+    assert_eq!(shown.matches(warning).count(), 1, "{shown}");
+    let told = json(&[&rotated, &at[..]].concat());
+    let found = told["spectra"][0]["warnings"][0].as_str().unwrap();
+    assert!(
+        warning.ends_with(found.split(", where").next().unwrap()),
+        "{found}"
+    );
+    // Cut before the strongest motion.
+    let second = shortened("cut.csv", 1500);
+    let arguments = ["spectrum", &file, "--rotated", "--second-file", &second];
+    let arguments = [&arguments, &at[..]].concat();
+    refused::refused(
+        2,
+        &arguments,
+        &[
+            "error: rotation: the first component",
+            "59 samples in 1.16 s",
+            "--trim",
+        ],
+    );
+}
+
 /// A file beside itself, and a copy of it that says no other direction, are no second component.
 #[test]
 fn a_record_beside_itself_is_no_second_component() {

@@ -1,5 +1,7 @@
 //! Two horizontal components.
 
+use std::borrow::Cow;
+
 use crate::accelerogram::Accelerogram;
 use crate::direction::{Direction, Orientation};
 use crate::error::{GroundMotionError, bound, within};
@@ -12,6 +14,9 @@ const OF_FAULT: &str = "fault components";
 const LEAST_SINE: f64 = 0.5;
 /// Degrees by which two components may miss the right angle: agencies print whole degrees.
 const OFF_RIGHT_ANGLE: f64 = 1.0;
+/// Part of the larger peak that a component may reach where the other one has ended: ends of
+/// records, cut where instruments stop on their own, are below it.
+const STILL_MOVES: f64 = 0.05;
 
 /// Two components in other directions.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,21 +29,89 @@ pub struct RotatedPair {
     pub step: StepRecord,
 }
 
-/// Samples that both components have, which must start together.
-pub(crate) fn common_length(
-    first: &Accelerogram,
-    second: &Accelerogram,
-) -> Result<usize, GroundMotionError> {
+/// Two components sample by sample, which start together and end together.
+pub(crate) struct Together<'a> {
+    /// Samples (m/s2), as many of the first as of the second.
+    pub samples: [Cow<'a, [f64]>; 2],
+    /// What is to be said where one of them had ended before the other.
+    pub continued: Option<String>,
+}
+
+/// The samples of both components, which must start together. The ground is taken to stand still
+/// after the end of the shorter one: that one is continued with zeros, so that nothing of the
+/// longer one is lost.
+///
+/// # Errors
+/// Different time steps or starts, or a longer component that still moves strongly where the other
+/// has ended: what the other did there is not known.
+pub(crate) fn together<'a>(
+    first: &'a Accelerogram,
+    second: &'a Accelerogram,
+) -> Result<Together<'a>, GroundMotionError> {
     let (a, b) = (first.time_step(), second.time_step());
-    let count = first.samples().len().min(second.samples().len());
-    // Over the common length they must not part by a hundredth of a step.
+    let count = first.samples().len().max(second.samples().len());
+    // Over the whole length they must not part by a hundredth of a step.
     if !((a - b).abs() * count as f64 <= 0.01 * a) {
         return Err(GroundMotionError::Mismatch(format!(
             "their time steps are {a} s and {b} s"
         )));
     }
     starts_together(first, second)?;
-    Ok(count)
+    let samples = [first, second].map(|of| {
+        let mut samples = Cow::Borrowed(of.samples());
+        if samples.len() < count {
+            samples.to_mut().resize(count, 0.0);
+        }
+        samples
+    });
+    Ok(Together {
+        samples,
+        continued: ends_together(first, second)?,
+    })
+}
+
+/// What is to be said where one component ends before the other.
+fn ends_together(
+    first: &Accelerogram,
+    second: &Accelerogram,
+) -> Result<Option<String>, GroundMotionError> {
+    let least = first.samples().len().min(second.samples().len());
+    let behind = [first, second].map(|of| &of.samples()[least..]).concat();
+    if behind.is_empty() {
+        return Ok(None);
+    }
+    let reached = behind.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    let peak = first.peak().value.max(second.peak().value);
+    let of = |of: &Accelerogram| {
+        let name = of.origin().map_or("", |o| o.component.as_str());
+        let name = if name.is_empty() {
+            String::new()
+        } else {
+            format!(" (\"{name}\")")
+        };
+        (name, of.samples().len(), bound(of.duration()))
+    };
+    let ((first, n, long), (second, m, wide)) = (of(first), of(second));
+    let lengths = format!(
+        "the first component{first} has {n} samples in {long} s, the second{second} {m} samples in {wide} s"
+    );
+    let still = format!(
+        "{} m/s2, {:.1} % of the larger peak",
+        bound(reached),
+        100.0 * reached / peak.max(f64::MIN_POSITIVE)
+    );
+    if reached > STILL_MOVES * peak {
+        return Err(GroundMotionError::NotPossible {
+            step: STEP,
+            reason: format!(
+                "{lengths}: behind the end of the shorter one the other still reaches {still}, and what the shorter one did there is not known"
+            ),
+            remedy: "get the shorter one whole; or, if the motion behind its end is not wanted, cut the longer one to its length, `pounding motion process FILE --trim \"start=0 s, end=30 s\" -o FILE.csv`, and use that file",
+        });
+    }
+    Ok(Some(format!(
+        "{lengths}: the shorter one is continued with zeros, where the other reaches {still}"
+    )))
 }
 
 /// Refuses components with first samples at different times, as those of instruments
@@ -160,17 +233,23 @@ fn combine(
     weights: [[f64; 2]; 2],
     step: StepRecord,
 ) -> Result<RotatedPair, GroundMotionError> {
-    let count = common_length(first, second)?;
+    let Together { samples, continued } = together(first, second)?;
     let component = |of: &Accelerogram, w: [f64; 2]| {
-        let sum = first.samples()[..count]
-            .iter()
-            .zip(&second.samples()[..count])
-            .map(|(a, b)| w[0] * a + w[1] * b)
-            .collect();
+        let pairs = samples[0].iter().zip(samples[1].iter());
+        let sum = pairs.map(|(a, b)| w[0] * a + w[1] * b).collect();
         let turned = of.with_samples(sum, first.time_step())?;
-        Ok::<_, GroundMotionError>(turned.pointing(None))
+        Ok::<_, GroundMotionError>(turned.pointing(None).warned(continued.as_deref()))
     };
-    let step = step.number("samples used", count as f64, "-");
+    let counts = [first, second].map(|of| of.samples().len() as f64);
+    let step = match counts[0] == counts[1] {
+        true => step,
+        false => step.number("samples of the first", counts[0], "-").number(
+            "samples of the second",
+            counts[1],
+            "-",
+        ),
+    };
+    let step = step.number("samples used", samples[0].len() as f64, "-");
     let mut pair = RotatedPair {
         first: component(first, weights[0])?,
         second: component(second, weights[1])?,
@@ -184,11 +263,12 @@ fn combine(
 
 /// Two components at right angles, turned by an angle (degrees) from the first
 /// towards the second: `a1 cos + a2 sin` and `-a1 sin + a2 cos`. Both must start at
-/// the same time; the longer one is cut.
+/// the same time; the shorter one is continued with zeros, with a warning.
 ///
 /// # Errors
-/// Different time steps, an angle that is not finite, or components whose names say directions
-/// that are not horizontal or not at right angles.
+/// Different time steps, an angle that is not finite, components whose names say directions
+/// that are not horizontal or not at right angles, or one that still moves strongly where the
+/// other has ended.
 pub fn rotate(
     first: &Accelerogram,
     second: &Accelerogram,
@@ -204,11 +284,11 @@ pub fn rotate(
 /// The components parallel to a fault (first) and normal to it (second, a quarter
 /// turn clockwise from the strike), from two components and their azimuths; azimuths
 /// and strike in degrees clockwise from north. The components need not be at right
-/// angles.
+/// angles; the shorter one is continued with zeros, with a warning.
 ///
 /// # Errors
 /// Different time steps, azimuths out of range, or components less than 30 degrees
-/// apart.
+/// apart; a component that still moves strongly where the other has ended.
 pub fn fault_components(
     first: (&Accelerogram, f64),
     second: (&Accelerogram, f64),

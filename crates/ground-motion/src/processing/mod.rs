@@ -18,7 +18,7 @@ use crate::unit::AccelerationUnit;
 pub use baseline::{Baseline, SegmentWindow};
 pub use butterworth::{Butterworth, Phase};
 pub use components::{RotatedPair, distinct, fault_components, rotate};
-pub(crate) use components::{at_right_angles, common_length};
+pub(crate) use components::{Together, at_right_angles, together};
 pub use resampling::{Interpolation, to_even_steps};
 pub use scaling::{BAND_PERIODS, BandTarget, Scale, band_factor};
 pub use window::Trim;

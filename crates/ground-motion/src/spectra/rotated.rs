@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::accelerogram::{Accelerogram, Peak};
 use crate::error::GroundMotionError;
-use crate::processing::{at_right_angles, common_length};
+use crate::processing::{Together, at_right_angles, together};
 use crate::spectra::oscillator::{Oscillator, State};
 use crate::spectra::{Evaluation, response};
 
@@ -27,6 +27,9 @@ pub struct RotatedSpectrum {
     pub maximum: Vec<f64>,
     /// Direction of the maximum, degrees from the first component towards the second.
     pub direction_of_maximum: Vec<f64>,
+    /// What the user should know.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub warnings: Vec<String>,
 }
 
 /// States of both components at all samples.
@@ -39,13 +42,13 @@ struct Pair<'a> {
 
 /// RotD50 and RotD100 for periods (s; zero is the ground itself) and a damping ratio:
 /// at each degree from 0 to 179 the peak of `a1 cos + a2 sin`. The median of the 180
-/// is the mean of the two in the middle. Components of different length are used to
-/// the shorter one's end.
+/// is the mean of the two in the middle. The shorter component is continued with zeros, with a
+/// warning: the maximum is never less than that of either component alone.
 ///
 /// # Errors
 /// Components of different time steps, or whose names say directions that are not horizontal or
-/// not at right angles, a damping ratio outside [0, 1), or a period
-/// that is negative or below a thousandth of the time step.
+/// not at right angles, one that still moves strongly where the other has ended, a damping ratio
+/// outside [0, 1), or a period that is negative or below a thousandth of the time step.
 pub fn rotated_spectrum(
     first: &Accelerogram,
     second: &Accelerogram,
@@ -54,20 +57,22 @@ pub fn rotated_spectrum(
     evaluation: Evaluation,
 ) -> Result<RotatedSpectrum, GroundMotionError> {
     at_right_angles(first, second)?;
-    let count = common_length(first, second)?;
+    let Together { samples, continued } = together(first, second)?;
     let step = first.time_step();
     response::check(periods, damping, step)?;
-    let ground = [&first.samples()[..count], &second.samples()[..count]];
+    let ground = [&*samples[0], &*samples[1]];
     let mut spectrum = RotatedSpectrum {
         damping,
         periods: periods.to_vec(),
         median: Vec::new(),
         maximum: Vec::new(),
         direction_of_maximum: Vec::new(),
+        warnings: continued.into_iter().collect(),
     };
     for &period in periods {
         let mut peaks = if period == 0.0 {
-            let points: Vec<[f64; 2]> = (0..count).map(|i| [ground[0][i], ground[1][i]]).collect();
+            let pairs = ground[0].iter().zip(ground[1]);
+            let points: Vec<[f64; 2]> = pairs.map(|(a, b)| [*a, *b]).collect();
             all_directions(|cosine, sine| support(&points, cosine, sine))
         } else {
             let frequency = TAU / period;

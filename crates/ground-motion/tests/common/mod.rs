@@ -9,11 +9,38 @@ pub mod networks;
 pub mod text;
 pub mod volumes;
 
-use pounding_ground_motion::{AccelerationUnit, Format, Quantity, ReadOptions};
+use pounding_ground_motion::{AccelerationUnit, Accelerogram, Format, Quantity, ReadOptions};
 
 /// Samples of every series: not a multiple of what any format prints on a line.
 pub const COUNT: usize = 23;
 pub const G: f64 = 9.80665;
+
+/// Two components of these samples, of which the longer one comes to 4 % of the peak where the
+/// other has ended: stronger motion there is refused.
+pub fn two_components(records: [Accelerogram; 2]) -> [Accelerogram; 2] {
+    let [least, most] = {
+        let lengths = records.each_ref().map(|r| r.samples().len());
+        [lengths[0].min(lengths[1]), lengths[0].max(lengths[1])]
+    };
+    if least == most {
+        return records;
+    }
+    let head = |r: &Accelerogram| {
+        r.samples()[..least]
+            .iter()
+            .fold(0.0, |m: f64, a| m.max(a.abs()))
+    };
+    let peak = head(&records[0]).max(head(&records[1]));
+    records.map(|record| {
+        let quiet = |(i, a): (usize, &f64)| {
+            let most = 0.04 * peak;
+            if i < least { *a } else { a.clamp(-most, most) }
+        };
+        let samples = record.samples().iter().enumerate().map(quiet).collect();
+        let unit = AccelerationUnit::MetrePerSecondSquared;
+        Accelerogram::new(samples, unit, record.time_step()).unwrap()
+    })
+}
 
 /// A series that must be found: values in SI.
 #[derive(Debug, Clone)]

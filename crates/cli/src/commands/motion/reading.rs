@@ -78,8 +78,12 @@ pub fn reported(record: &Accelerogram) -> String {
     for line in record.echo() {
         text.push_str(&format!("  {line}\n"));
     }
-    for warning in record.origin().map_or(&[][..], |o| &o.warnings) {
-        text.push_str(&format!("warning: {warning}\n"));
-    }
+    text.push_str(&warned(record.origin().map_or(&[], |o| &o.warnings)));
     text
+}
+
+/// Warnings, a line each, for the screen.
+pub fn warned(warnings: &[String]) -> String {
+    let lines = warnings.iter().map(|w| format!("warning: {w}\n"));
+    lines.collect()
 }

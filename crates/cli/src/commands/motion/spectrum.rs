@@ -119,6 +119,8 @@ fn named(error: GroundMotionError, arguments: &SpectrumArguments) -> Failure {
             _ if arguments.at.is_some() => Some("at"),
             _ => Some("from"),
         },
+        // Two components that do not fit together have nothing to do with the periods.
+        GroundMotionError::NotPossible { step, .. } if *step == "rotation" => None,
         GroundMotionError::NotPossible { .. } if arguments.at.is_some() => Some("at"),
         _ => None,
     };
@@ -213,10 +215,13 @@ fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure
             records: [first.echo(), second.echo()],
         })?
     } else {
+        // Of the components, whatever the damping.
+        let warnings = spectra.first().map_or(&[][..], |s| &s.warnings);
         format!(
-            "{}{}{}",
+            "{}{}{}{}",
             reading::reported(&first),
             reading::reported(&second),
+            reading::warned(warnings),
             tables::rotated_text(&spectra)
         )
     })

@@ -51,6 +51,9 @@ pub struct Origin {
     pub mean_removed: bool,
     /// Time of the first sample as printed, with its zone; empty if not stated.
     pub start_time: String,
+    /// Time of the first sample (s) in a column of times, from whatever they count; `None` where
+    /// there is no such column.
+    pub first_time: Option<f64>,
     /// Where its positive values point, where header or metadata say it in degrees.
     pub orientation: Option<Orientation>,
     /// Corner frequency (Hz) of the low-cut filter.
@@ -73,6 +76,9 @@ pub struct Origin {
 impl Origin {
     /// Moves the time of the first sample by so much (s).
     pub(crate) fn start_later(&mut self, by: f64) {
+        if let Some(first) = &mut self.first_time {
+            *first += by;
+        }
         if by == 0.0 || self.start_time.is_empty() {
             return;
         }

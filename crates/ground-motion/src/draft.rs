@@ -135,6 +135,8 @@ pub(crate) struct Draft {
     pub processing: Processing,
     pub title: String,
     pub start_time: String,
+    /// Time of the first sample (s) in a column of times.
+    pub first_time: Option<f64>,
     pub orientation: Option<Orientation>,
     /// Low and high corner frequency (Hz).
     pub corners: (Option<f64>, Option<f64>),
@@ -169,6 +171,7 @@ impl Draft {
             processing: Processing::Unstated,
             title: String::new(),
             start_time: String::new(),
+            first_time: None,
             orientation: None,
             corners: (None, None),
             warnings: Vec::new(),
@@ -228,6 +231,7 @@ impl Draft {
                 header_count: self.header_count,
                 processing: self.processing,
                 start_time: std::mem::take(&mut self.start_time),
+                first_time: self.first_time,
                 orientation: self.orientation,
                 low_corner: self.corners.0,
                 high_corner: self.corners.1,

@@ -43,6 +43,11 @@ impl TimeColumn {
         self.printed.see(printed);
     }
 
+    /// The first time (s).
+    pub(crate) fn first(&self) -> Option<f64> {
+        self.times.first().copied()
+    }
+
     /// Whether one step is between all of them, within their printed digits.
     pub(crate) fn is_even(&self) -> bool {
         even_step(&self.times, self.printed, self.unit).is_some()
@@ -60,7 +65,7 @@ impl TimeColumn {
         line: usize,
         warnings: &mut Vec<String>,
     ) -> Result<Times, GroundMotionError> {
-        let first = self.times.first().copied().unwrap_or(0.0);
+        let first = self.first().unwrap_or(0.0);
         let prepended = source.options.prepend_zero;
         let mean = (self.times.last().map_or(0.0, |last| last - first)) / self.times.len() as f64;
         if prepended && first.abs() <= 1.0e-3 * mean {

@@ -120,6 +120,85 @@ fn a_component_that_ends_in_strong_motion_is_refused() {
     }
 }
 
+/// Columns of times say when a component starts where no date does. One without such a column
+/// says nothing of it.
+#[test]
+fn columns_of_times_that_start_apart_are_refused() {
+    let read = |name: &str, first: f64, options: &ReadOptions| {
+        let mut text = format!("time (s),{name} (g)\n");
+        for i in 0..50 {
+            let time = first + 0.02 * f64::from(i);
+            text.push_str(&format!("{time:.2},{:.4}\n", (0.7 * f64::from(i)).sin()));
+        }
+        read_bytes(name, text.as_bytes(), options).unwrap()
+    };
+    let plain = ReadOptions::default();
+    let zero = ReadOptions {
+        prepend_zero: true,
+        ..ReadOptions::default()
+    };
+    let first = read("NS", 0.0, &plain);
+    for start in [0.0, 0.01] {
+        rotate(&first, &read("EW", start, &plain), 30.0).unwrap();
+    }
+    for start in [0.02, 5.0] {
+        let later = read("EW", start, &plain);
+        for error in [
+            rotate(&first, &later, 30.0).unwrap_err(),
+            rotated_spectrum(&later, &first, &[0.2], 0.05, Evaluation::AtSamples).unwrap_err(),
+        ] {
+            let shown = error.to_string();
+            let times = [
+                format!("{start} s of their times"),
+                "0 s of their times".to_owned(),
+            ];
+            assert!(times.iter().all(|t| shown.contains(t)), "{shown}");
+            let help = error.help().unwrap();
+            assert!(
+                help.contains("--trim") && help.contains("motion convert"),
+                "{help}"
+            );
+        }
+    }
+    // From one step on, both; and with the zero before them.
+    let (one, other) = (read("NS", 0.02, &plain), read("EW", 0.02, &plain));
+    rotate(&one, &other, 30.0).unwrap();
+    let end = ProcessingStep::Trim(Trim::Times {
+        start: 0.0,
+        end: 0.98,
+    });
+    let from_zero = process(&read("EW", 0.02, &zero), &[end]).unwrap();
+    rotate(&first, &from_zero.accelerogram, 30.0).unwrap();
+    // What is cut off moves the start.
+    let cut = ProcessingStep::Trim(Trim::Times {
+        start: 0.02,
+        end: 0.98,
+    });
+    let cut = process(&first, &[cut]).unwrap().accelerogram;
+    let of_its_length = ProcessingStep::Trim(Trim::Times {
+        start: 0.0,
+        end: 0.96,
+    });
+    let of_its_length = process(&other, &[of_its_length]).unwrap().accelerogram;
+    rotate(&cut, &of_its_length, 30.0).unwrap();
+    let error = rotate(&cut, &read("EW", 0.0, &plain), 30.0).unwrap_err();
+    assert!(
+        error.to_string().contains("0.02 s of their times"),
+        "{error}"
+    );
+    // Samples alone.
+    let text: String = (0..50)
+        .map(|i| format!("{:.4}\n", (0.3 * f64::from(i)).sin()))
+        .collect();
+    let options = ReadOptions {
+        unit: Some(pounding_ground_motion::AccelerationUnit::StandardGravity),
+        time_step: Some(0.02),
+        ..ReadOptions::default()
+    };
+    let bare = read_bytes("f", text.as_bytes(), &options).unwrap();
+    rotate(&bare, &other, 30.0).unwrap();
+}
+
 /// Gaps of less than half a sample add up.
 #[test]
 fn small_gaps_between_records_are_named() {

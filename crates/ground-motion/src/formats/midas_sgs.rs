@@ -171,6 +171,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         draft.warnings.push(message.to_owned());
     }
     draft.title = title;
+    draft.first_time = times.first();
     draft.times = times.finish(source, draft.lines.1, &mut draft.warnings)?;
     Ok(vec![draft.finish(source)?])
 }

@@ -111,8 +111,12 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         DraftUnit::Stated(SeriesUnit::from(unit)),
         (header.number, first, lines.number()),
     );
+    // Those that follow a step were held against it, from zero on.
+    draft.first_time = match step.is_some() || as_given {
+        true => Some(0.0),
+        false => times.first(),
+    };
     draft.times = match step.is_some() || as_given {
-        // Each time was held against the step, from zero on.
         true if source.options.prepend_zero => return Err(starts_at_zero(source, first)),
         true => Times::Step(step),
         false => times.finish(source, first, &mut draft.warnings)?,

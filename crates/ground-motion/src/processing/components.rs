@@ -18,6 +18,11 @@ const OFF_RIGHT_ANGLE: f64 = 1.0;
 /// records, cut where instruments stop on their own, are below it.
 const STILL_MOVES: f64 = 0.05;
 
+/// What to do about components that do not start together.
+const CUT_BOTH: &str = "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, and use these files";
+/// The same where the times may count from anything.
+const CUT_OR_COUNT_ANEW: &str = "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, and use these files; if they do start together and their times alone count otherwise, write both anew from zero, `pounding motion convert FILE -o FILE.csv`";
+
 /// Two components in other directions.
 #[derive(Debug, Clone, PartialEq)]
 pub struct RotatedPair {
@@ -115,20 +120,31 @@ fn ends_together(
 }
 
 /// Refuses components with first samples at different times, as those of instruments
-/// that trigger on their own do.
+/// that trigger on their own do: by the printed dates and times, else by the columns of times.
 fn starts_together(first: &Accelerogram, second: &Accelerogram) -> Result<(), GroundMotionError> {
     let (Some(a), Some(b)) = (first.origin(), second.origin()) else {
         return Ok(());
     };
-    match start_times::apart(&a.start_time, &b.start_time) {
-        Some(apart) if apart > 0.5 * first.time_step() => Err(GroundMotionError::NotPossible {
-            step: STEP,
-            reason: format!(
-                "the components do not start together: their first samples are at {} and {}",
-                a.start_time, b.start_time
-            ),
-            remedy: "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, and use these files",
-        }),
+    let refused = |a: &str, b: &str, remedy: &'static str| GroundMotionError::NotPossible {
+        step: STEP,
+        reason: format!(
+            "the components do not start together: their first samples are at {a} and {b}"
+        ),
+        remedy,
+    };
+    let most = 0.5 * first.time_step();
+    if let Some(apart) = start_times::apart(&a.start_time, &b.start_time) {
+        return match apart > most {
+            true => Err(refused(&a.start_time, &b.start_time, CUT_BOTH)),
+            false => Ok(()),
+        };
+    }
+    match (a.first_time, b.first_time) {
+        // A millionth: half a step is none, whatever the round-off of the times.
+        (Some(a), Some(b)) if (a - b).abs() > most * (1.0 + 1.0e-6) => {
+            let shown = |time: f64| format!("{} s of their times", bound(time));
+            Err(refused(&shown(a), &shown(b), CUT_OR_COUNT_ANEW))
+        }
         _ => Ok(()),
     }
 }

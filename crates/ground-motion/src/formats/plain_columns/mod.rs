@@ -518,6 +518,7 @@ fn columns(
     }
     let mut warnings = Vec::new();
     let has_times = names.iter().any(|n| n == "t");
+    let first_time = times.first();
     let times = if has_times {
         times.finish(source, survey.first, &mut warnings)?
     } else {
@@ -540,6 +541,7 @@ fn columns(
         draft.component.clone_from(name);
         draft.channel = series.len() + 1;
         draft.warnings.clone_from(&warnings);
+        draft.first_time = first_time;
         draft.times = match &times {
             Times::Step(step) => Times::Step(*step),
             Times::Each(each) => Times::Each(each.clone()),

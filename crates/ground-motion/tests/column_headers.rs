@@ -2,6 +2,7 @@
 //! where two do.
 #![allow(clippy::unwrap_used)]
 
+use pounding_ground_motion::processing::rotate;
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, GroundMotionError, ReadOptions, read_bytes,
 };
@@ -330,4 +331,52 @@ fn headers_that_cannot_be_used_say_why() {
         read(&prose),
         Err(GroundMotionError::MissingUnit { .. })
     ));
+}
+
+/// One column keeps its name as two do; a name that says no more than that it is an acceleration
+/// is none.
+#[test]
+fn the_name_of_a_single_column_is_kept() {
+    let of = |header: &str, component: Option<&str>| {
+        let options = ReadOptions {
+            component: component.map(str::to_owned),
+            ..ReadOptions::default()
+        };
+        let text = format!("{header}\n{}", rows('.', ","));
+        read_bytes("r.csv", text.as_bytes(), &options)
+    };
+    let name = |of: &Accelerogram| of.origin().unwrap().component.clone();
+    for (header, component) in [
+        ("t (s),NS (g)", "NS"),
+        ("time_s,ns_g", "ns"),
+        ("t (s),UD (g)", "UD"),
+        ("t (s),v (g)", "v"),
+        ("time_s,acc_x_g", "acc_x"),
+        ("time (s),Acceleration (g)", "a"),
+        ("t [s],acc [g]", "a"),
+        ("t [s],a [g]", "a"),
+        ("t [s],Ground acceleration [g]", "a"),
+        ("t [s],row [g]", "a"),
+    ] {
+        let read = of(header, None).unwrap_or_else(|e| panic!("{header}: {e}"));
+        assert_eq!(name(&read), component, "{header}");
+        assert_eq!(name(&of(header, Some(component)).unwrap()), component);
+    }
+    // A series along the rows, without times.
+    let options = ReadOptions {
+        time_step: Some(0.02),
+        ..ReadOptions::default()
+    };
+    for (header, component) in [("NS (g)", "NS"), ("acceleration (g)", "a")] {
+        let text = format!("{header}\n0.1 0.2 0.3\n0.4 0.5 0.1\n");
+        let read = read_bytes("r.csv", text.as_bytes(), &options).unwrap();
+        assert_eq!((name(&read).as_str(), read.samples().len()), (component, 6));
+    }
+    // The names say directions.
+    let north = of("t (s),NS (g)", None).unwrap();
+    let east = of("t (s),EW (g)", None).unwrap();
+    rotate(&north, &east, 30.0).unwrap();
+    let up = of("t (s),UD (g)", None).unwrap();
+    let error = rotate(&north, &up, 30.0).unwrap_err().to_string();
+    assert!(error.contains("\"UD\" (vertical)"), "{error}");
 }

@@ -76,6 +76,11 @@ const LONG: [&str; 10] = [
     "ground accel",
 ];
 
+/// Whether a name says that a column holds accelerations, and nothing else of it.
+pub(super) fn is_acceleration(name: &str) -> bool {
+    ACCELERATION.contains(&plain(name).as_str())
+}
+
 /// Units of time (s).
 fn time_unit(text: &str) -> Option<f64> {
     match text.trim().trim_end_matches('.').to_lowercase().as_str() {

@@ -290,19 +290,22 @@ impl Columns {
                     columns.time_unit = *unit;
                     ("t".to_owned(), None)
                 }
+                // The name of one that says no more than that it is an acceleration.
+                Role::Acceleration(name, unit) if !several && header::is_acceleration(name) => {
+                    ("a".to_owned(), *unit)
+                }
                 // Names that mean something else here, or stand twice.
-                Role::Acceleration(name, unit) if several => {
-                    let taken = ["t", "v", "d"].contains(&name.as_str())
-                        || OTHERS.contains(&name.as_str())
-                        || columns.names.contains(name);
-                    let name = if taken {
-                        format!("column_{}", k + 1)
-                    } else {
-                        name.clone()
+                Role::Acceleration(name, unit) => {
+                    let other = ["t", "v", "d"].contains(&name.as_str()) && several;
+                    let taken =
+                        other || OTHERS.contains(&name.as_str()) || columns.names.contains(name);
+                    let name = match (taken, several) {
+                        (false, _) => name.clone(),
+                        (true, true) => format!("column_{}", k + 1),
+                        (true, false) => "a".to_owned(),
                     };
                     (name, *unit)
                 }
-                Role::Acceleration(_, unit) => ("a".to_owned(), *unit),
                 Role::Other => ("-".to_owned(), None),
             };
             columns.names.push(name);
@@ -323,13 +326,13 @@ fn headed(
     for unit in columns.units.iter().flatten() {
         keys.agree(source, *unit, &header.text)?;
     }
-    if columns.names == ["a"] {
+    if let ([name], [Role::Acceleration(..)]) = (columns.names.as_slice(), &*header.columns) {
         // Values may follow one another along the rows.
         let samples = along(source, survey, 0)?;
         let unit = columns.units[0].map_or(DraftUnit::Unstated, DraftUnit::Stated);
         let mut draft = Draft::new(samples, unit, (survey.first, survey.first, survey.last));
         draft.times = Times::Step(keys.step(source, None)?);
-        draft.component = "a".to_owned();
+        draft.component.clone_from(name);
         let mut series = draft.finish(source)?;
         keys.report(&mut series.origin);
         return Ok(vec![series]);

@@ -12,7 +12,8 @@ const REMEDY: &str =
 
 impl TargetSpectrum {
     /// Reads a table with the header `period_s,psa_g` (or `psa_m_s2`, `psa_cm_s2`) and
-    /// a row a point, periods (s) increasing; lines that start with `#` are comments.
+    /// a row a point, periods (s) increasing, straight lines in the logarithms of both between them;
+    /// lines that start with `#` are comments.
     /// `damping` is the ratio that the values are for.
     ///
     /// # Errors

@@ -292,7 +292,7 @@ pub struct MatchArguments {
     /// Output
     #[command(flatten)]
     pub output: OutputArguments,
-    /// Table of the spectrum to reach: header period_s,psa_g (or psa_m_s2, psa_cm_s2)
+    /// Table of the spectrum to reach: header period_s,psa_g (or psa_m_s2, psa_cm_s2), straight lines in logarithms between its rows
     #[arg(long, required_unless_present = "code", conflicts_with = "code")]
     pub target: Option<InputPath>,
     /// Spectrum of a code: "eurocode_8_2004, ag=0.25 g, ground_type=B" (with spectrum_type=2 for type 2) or "asce_7_2016, s_ds=1.0 g, s_d1=0.6 g, t_l=8 s"

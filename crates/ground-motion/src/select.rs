@@ -2,7 +2,7 @@
 
 use crate::accelerogram::{Accelerogram, Processing};
 use crate::direction::{Direction, Orientation};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::options::{Offset, ReadOptions};
 use crate::quantity::Quantity;
 use crate::recording::{Recording, Sampling, Series, WithoutSensitivity};
@@ -217,9 +217,10 @@ fn ready(
     let (mut samples, time_step) = match series.sampling {
         Sampling::Even { time_step } => (series.samples, time_step),
         Sampling::Uneven { times } => {
+            let longest = continuous(file, &times)?;
             let step = resampling_step(file, &times, options)?;
             series.origin.warnings.push(format!(
-                "{} samples at uneven times, resampled to {step} s by linear interpolation",
+                "{} samples at uneven times, resampled to {step} s by linear interpolation; the longest step between them is {longest}",
                 times.len()
             ));
             series.origin.time_step = format!("{step} s (given by the user)");
@@ -245,6 +246,41 @@ fn ready(
         Accelerogram::new(samples, AccelerationUnit::MetrePerSecondSquared, time_step)
             .map_err(|e| GroundMotionError::Invalid(format!("{file}: {e}")))?;
     Ok(accelerogram.with_origin(origin).with_initial(initial))
+}
+
+/// Median steps of which a longer one may be a gap: digitised film has up to 27.
+const GAP_IN_STEPS: f64 = 10.0;
+/// The longest step (s) that is none, however short the others are: digitised film has up to
+/// 0.04 s, and instruments take ten samples in a second at least.
+const LONGEST_STEP: f64 = 0.1;
+
+/// The longest step between uneven times with its place, refused where it is a gap: a straight
+/// line across it is no motion of the ground.
+fn continuous(file: &str, times: &[f64]) -> Result<String, GroundMotionError> {
+    let mut steps: Vec<f64> = times.windows(2).map(|t| t[1] - t[0]).collect();
+    let longest = (0..steps.len()).max_by(|a, b| steps[*a].total_cmp(&steps[*b]));
+    let at = longest.unwrap_or(0);
+    let longest = steps[at];
+    let place = format!(
+        "{} s, from {} s to {} s",
+        bound(longest),
+        times[at],
+        times[at + 1]
+    );
+    steps.sort_by(f64::total_cmp);
+    let median = steps[steps.len() / 2];
+    // A millionth: differences of times carry noise.
+    if longest > LONGEST_STEP.max(GAP_IN_STEPS * median) * (1.0 + 1.0e-6) {
+        return Err(GroundMotionError::Unsupported {
+            file: file.to_owned(),
+            what: format!(
+                "a gap of {place}, where half of the steps are {} s or less: an excitation must be continuous",
+                bound(median)
+            ),
+            remedy: "get the record again; where the ground did not move in the gap, write rows of zeros there",
+        });
+    }
+    Ok(place)
 }
 
 /// The step that the user gives for an uneven series: not coarser than the

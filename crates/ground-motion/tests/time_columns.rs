@@ -281,6 +281,45 @@ fn uneven_times_are_resampled_in_our_layout_too() {
     assert!(error.contains("follows from dt"), "{error}");
 }
 
+/// The longest of uneven steps is named with its place; one that is a gap is refused, which no line
+/// can bridge. Steps of digitised film, of which one is 27 times the median, are none.
+#[test]
+fn a_gap_between_uneven_times_is_refused() {
+    let read = |step: f64, longest: f64, time_step: Option<f64>| {
+        let mut time = 0.0;
+        let mut text = "time (s),acceleration (g)\n".to_owned();
+        for i in 0..200 {
+            text.push_str(&format!("{time:.4},{:.4}\n", f64::from(i).sin()));
+            let jitter = if i % 3 == 0 { 0.1 * step } else { 0.0 };
+            time += if i == 99 { longest } else { step + jitter };
+        }
+        let options = ReadOptions {
+            time_step,
+            ..ReadOptions::default()
+        };
+        read_bytes("r.csv", text.as_bytes(), &options)
+    };
+    for (step, longest) in [(0.0014, 0.0375), (0.01, 0.1), (0.02, 0.2), (0.05, 0.5)] {
+        let record = read(step, longest, Some(step)).unwrap();
+        let warnings = &record.origin().unwrap().warnings;
+        let named = format!("the longest step between them is {longest} s, from ");
+        assert!(warnings.iter().any(|w| w.contains(&named)), "{warnings:?}");
+    }
+    for (step, longest) in [(0.01, 10.0), (0.0014, 0.11), (0.02, 0.22)] {
+        // Also where no step is given, which would not help.
+        for given in [Some(step), None] {
+            let error = read(step, longest, given).unwrap_err();
+            let told = error.to_string();
+            let named = format!("a gap of {longest} s, from ");
+            assert!(
+                told.contains(&named) && told.contains("continuous"),
+                "{told}"
+            );
+            assert!(error.help().is_some());
+        }
+    }
+}
+
 /// Pairs of a digital recorder are even within half the last digit of their times; those of film,
 /// a digit off here and there, are not.
 #[test]

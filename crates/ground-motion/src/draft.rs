@@ -261,8 +261,11 @@ impl Draft {
                 series.header_peak = Some(stated);
             }
             if let Err(message) = compared {
-                // Who says the unit has said that the header is wrong in it.
-                if !(source.options.lenient || source.options.unit.is_some()) {
+                // Who says the unit has said that the header is wrong in it, unless neither
+                // samples nor peak have a unit there: both are in the one that is given.
+                let without = matches!(self.unit, DraftUnit::Unstated) && peak.unit.is_none();
+                let other_unit = source.options.unit.is_some() && !without;
+                if !(source.options.lenient || other_unit) {
                     let line = peak.line.unwrap_or(self.lines.0);
                     return Err(source.error(line, 0, message, PEAK_REMEDY));
                 }

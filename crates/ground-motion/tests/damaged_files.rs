@@ -3,12 +3,12 @@
 
 use pounding_ground_motion::writers::{Written, write_pounding_csv};
 use pounding_ground_motion::{
-    AccelerationUnit, GroundMotionError, Processing, ReadOptions, Recording, read_all_bytes,
-    read_bytes,
+    AccelerationUnit, Accelerogram, GroundMotionError, Processing, ReadOptions, Recording,
+    read_all_bytes, read_bytes,
 };
 
 use crate::common::binary::{SENSITIVITY, Seed, record, sac_with, steim};
-use crate::common::{Fixture, all, fixtures};
+use crate::common::{Fixture, all, fixtures, signal};
 
 fn text_of(format: &'static str) -> (Fixture, String) {
     let fixture = fixtures(format, 0).remove(0);
@@ -152,6 +152,57 @@ fn counts_of_sac_are_raw() {
     };
     let record = read_bytes("f", &bytes, &unit).unwrap();
     assert_eq!(record.origin().unwrap().processing, Processing::Unstated);
+}
+
+/// The extremes of a SAC header are in the unit of its samples, whichever that is: no unit that the
+/// user states excuses them.
+#[test]
+fn extremes_of_sac_are_held_against_its_samples() {
+    let values: Vec<f32> = signal(0.4, 0.2).iter().map(|a| *a as f32).collect();
+    let (low, high) = values.iter().fold((0.0_f32, 0.0_f32), |(low, high), a| {
+        (low.min(*a), high.max(*a))
+    });
+    let read = |factor: f32, lenient: bool, sensitivity: Option<f64>| {
+        let bytes = sac_with(&[(1, factor * low), (2, factor * high)], &[], "HNE");
+        let options = ReadOptions {
+            unit: sensitivity.is_none().then_some(AccelerationUnit::Gal),
+            sensitivity,
+            lenient,
+            ..ReadOptions::default()
+        };
+        read_bytes("f", &bytes, &options)
+    };
+    let warns = |record: &Accelerogram| {
+        let warnings = &record.origin().unwrap().warnings;
+        warnings.iter().any(|w| w.contains("the header's peak is"))
+    };
+    assert!(!warns(&read(1.0, false, None).unwrap()));
+    assert!(warns(&read(1.03, false, None).unwrap()));
+    for sensitivity in [None, Some(SENSITIVITY)] {
+        let error = read(2.0, false, sensitivity).unwrap_err();
+        assert!(
+            error.to_string().contains("the header's peak is"),
+            "{error}"
+        );
+        assert!(error.help().unwrap().contains("lenient"), "{error}");
+        assert!(warns(&read(2.0, true, sensitivity).unwrap()));
+    }
+}
+
+/// A SAC file that says that it is unevenly spaced, but has no times.
+#[test]
+fn uneven_sac_without_times() {
+    let bytes = sac_with(&[], &[(105, 0)], "HNE");
+    let options = ReadOptions {
+        unit: Some(AccelerationUnit::Gal),
+        ..ReadOptions::default()
+    };
+    let error = read_bytes("f", &bytes, &options).unwrap_err();
+    let told = error.to_string();
+    for part in ["unevenly spaced (LEVEN", "its 23 samples", "23 numbers"] {
+        assert!(told.contains(part), "{told}");
+    }
+    assert!(error.help().unwrap().contains("even steps"), "{told}");
 }
 
 /// Our CSV states its number of samples; files without it are read as before.

@@ -116,6 +116,16 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let width = if uneven { 8 } else { 4 };
     let present = data / width;
     let surplus = data.saturating_sub(footer) / width > count;
+    if uneven && count >= 2 && present < count && data / 4 >= count {
+        return Err(GroundMotionError::Unsupported {
+            file: source.file.to_owned(),
+            what: format!(
+                "the header says that the file is unevenly spaced (LEVEN is false): the times of its {count} samples must stand behind them, but it holds {} numbers in all",
+                data / 4
+            ),
+            remedy: "get the record with its times or at even steps, as `interpolate` of SAC writes it; where its steps are even, the header is wrong: set LEVEN",
+        });
+    }
     let lenient = source.options.lenient && !uneven;
     if (present < count || surplus) && !lenient || count < 2 {
         return Err(source.binary_error(

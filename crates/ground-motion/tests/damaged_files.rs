@@ -205,6 +205,55 @@ fn uneven_sac_without_times() {
     assert!(error.help().unwrap().contains("even steps"), "{told}");
 }
 
+/// The rate of blockette 100 is the actual one; far from that of the fixed header it is named.
+#[test]
+fn rates_of_mini_seed_that_differ() {
+    let read = |rate: f32| {
+        let mut bytes = record(&Seed {
+            channel: b"HNE",
+            encoding: 3,
+            big: true,
+            start: 0,
+            count: 50,
+            data: (0..50_i32)
+                .flat_map(|i| (i * i % 17 - 8).to_be_bytes())
+                .collect(),
+        });
+        // Blockette 100 behind the other one: the data move up by its length.
+        let data = bytes[64..264].to_vec();
+        bytes[64..72].copy_from_slice(&[0, 100, 0, 0, 0, 0, 0, 0]);
+        bytes[68..72].copy_from_slice(&rate.to_be_bytes());
+        bytes[72..128].fill(0);
+        bytes[128..328].copy_from_slice(&data);
+        bytes[44..46].copy_from_slice(&128_u16.to_be_bytes());
+        bytes[50..52].copy_from_slice(&64_u16.to_be_bytes());
+        let options = ReadOptions {
+            sensitivity: Some(SENSITIVITY),
+            ..ReadOptions::default()
+        };
+        read_bytes("f", &bytes, &options).unwrap()
+    };
+    for (rate, named) in [
+        (100.0, false),
+        (100.5, false),
+        (99.9, false),
+        (200.0, true),
+        (98.0, true),
+    ] {
+        let record = read(rate);
+        assert!((record.time_step() * f64::from(rate) - 1.0).abs() < 1e-12);
+        let warnings = &record.origin().unwrap().warnings;
+        let text = format!(
+            "has {rate} samples per second by its blockette 100, which is used, but 100 by"
+        );
+        assert_eq!(
+            warnings.iter().any(|w| w.contains(&text)),
+            named,
+            "{warnings:?}"
+        );
+    }
+}
+
 /// Our CSV states its number of samples; files without it are read as before.
 #[test]
 fn csv_that_is_cut_off() {

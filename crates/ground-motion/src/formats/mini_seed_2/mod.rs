@@ -4,7 +4,7 @@
 
 use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, Times};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
 use crate::recording::{Series, WithoutSensitivity};
 use crate::source::Source;
@@ -181,6 +181,10 @@ fn unit(known: &Sensitivity) -> DraftUnit {
     }
 }
 
+/// Part by which the rate of blockette 100, the actual one, may differ from that of the fixed
+/// header, which is rounded.
+const RATE_TOLERANCE: f64 = 0.01;
+
 /// One channel from its records in the order of time.
 fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionError> {
     let first = &channel[0];
@@ -225,6 +229,16 @@ fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionE
     draft.times = Times::Step(Some(1.0 / first.rate));
     draft.header_count = Some(total);
     draft.processing = Processing::Raw;
+    let differs =
+        |r: &&Record| r.nominal > 0.0 && (r.rate - r.nominal).abs() > RATE_TOLERANCE * r.nominal;
+    if let Some(record) = channel.iter().find(differs) {
+        draft.warnings.push(format!(
+            "the record at byte {} has {} samples per second by its blockette 100, which is used, but {} by its fixed header",
+            record.at,
+            bound(record.rate),
+            bound(record.nominal)
+        ));
+    }
     let (late, record) = latest;
     if late.abs() > 0.5 / first.rate {
         draft.warnings.push(format!(

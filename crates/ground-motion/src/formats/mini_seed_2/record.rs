@@ -50,8 +50,10 @@ pub(super) struct Record {
     pub start_text: StartText,
     /// Number of samples.
     pub count: usize,
-    /// Samples per second.
+    /// Samples per second, by blockette 100 where there is one.
     pub rate: f64,
+    /// The same by the fixed header; not positive where that does not say.
+    pub nominal: f64,
     data: usize,
     encoding: u8,
     big: bool,
@@ -159,6 +161,7 @@ impl Record {
             start_text,
             count,
             rate,
+            nominal,
             data,
             encoding: blockettes.encoding,
             big: blockettes.big,

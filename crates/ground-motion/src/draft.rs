@@ -379,7 +379,7 @@ impl Draft {
         if matches!(self.unit, DraftUnit::Counts | DraftUnit::Scaled { .. }) {
             return;
         }
-        let stands_for = |a: &f64| [-999.0, -9999.0, -12345.0, -32768.0].contains(a);
+        let stands_for = |a: &f64| [-999.0, -9999.0, 9999.0, -12345.0, -32768.0].contains(a);
         let count = self.samples.iter().filter(|a| stands_for(a)).count();
         if let Some(first) = self.samples.iter().position(stands_for) {
             self.warnings.push(format!(

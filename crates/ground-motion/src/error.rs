@@ -291,7 +291,7 @@ impl GroundMotionError {
                 "give the station's StationXML, `response = \"FILE\"` in [ground_motion] of a case, `--response FILE` with `pounding motion`; or `sensitivity` in counts per m/s2".to_owned()
             }
             Self::Unsupported { remedy, .. } => (*remedy).to_owned(),
-            Self::Unit { .. } => "use g, m/s2, cm/s2, mm/s2, gal, in/s2 or ft/s2".to_owned(),
+            Self::Unit { .. } => "use g, mg, g/10, m/s2, cm/s2, mm/s2, gal, in/s2 or ft/s2".to_owned(),
             Self::OutOfRange { .. } => {
                 "correct the number; check its unit (SI inside: m/s2, s, Hz)".to_owned()
             }

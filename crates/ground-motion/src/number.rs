@@ -31,6 +31,11 @@ fn spelled(plain: &[u8]) -> Result<f64, String> {
     if plain.is_empty() {
         return Err("a value is missing: the field is blank".to_owned());
     }
+    if let Some((count, value)) = repeated(plain) {
+        return Err(format!(
+            "\"{shown}\" is a repeat count of Fortran, {count} times {value}, which is not read: the values must be written out"
+        ));
+    }
     if plain.contains(&b'*') {
         return Err(format!(
             "\"{shown}\" is a Fortran overflow: the value did not fit its field"
@@ -63,6 +68,13 @@ fn spelled(plain: &[u8]) -> Result<f64, String> {
     }
     let value = normal.parse::<f64>().map_err(|_| not_a_number(plain))?;
     present(value, plain)
+}
+
+/// The two numbers of `2*0.5`, as Fortran's list-directed output repeats a value.
+fn repeated(plain: &[u8]) -> Option<(&str, &str)> {
+    let (count, value) = std::str::from_utf8(plain).ok()?.split_once('*')?;
+    let is_count = !count.is_empty() && count.bytes().all(|b| b.is_ascii_digit());
+    (is_count && parse(value.as_bytes()).is_ok()).then_some((count, value))
 }
 
 /// Where a sign stands within a field, not behind the letter of an exponent: the last one.

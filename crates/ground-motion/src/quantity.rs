@@ -54,6 +54,91 @@ impl Quantity {
     }
 }
 
+/// A quantity that a header line names with its unit beside it.
+pub(crate) struct NamedWithUnit<'t> {
+    /// By the word.
+    pub quantity: Quantity,
+    /// The unit, which may be of another quantity.
+    pub unit: SeriesUnit,
+    /// What follows on the line.
+    pub rest: &'t str,
+}
+
+/// Words of lines that name a quantity other than that of the values: of the ground or the wave,
+/// or one value of a motion.
+const OF_SOMETHING_ELSE: [&str; 13] = [
+    "average", "end", "final", "initial", "max", "maximum", "min", "minimum", "peak", "residual",
+    "shear", "vs30", "wave",
+];
+
+/// The quantity and the unit of a line in lower case such as `el centro ns velocity cm/sec`,
+/// `acceleration (gal)` or `accel. in units cm/s2`: the unit stands right behind the word.
+pub(crate) fn named_with_unit(lower: &str) -> Option<NamedWithUnit<'_>> {
+    let is_word = |c: char| c.is_ascii_alphanumeric();
+    let words = || lower.split(|c| !is_word(c)).filter(|w| !w.is_empty());
+    if words().any(|w| OF_SOMETHING_ELSE.contains(&w)) {
+        return None;
+    }
+    let of = |word: &str| match word {
+        "acc" => Some(Quantity::Acceleration),
+        "vel" => Some(Quantity::Velocity),
+        "disp" => Some(Quantity::Displacement),
+        // `accelerogram` says what the record is, not what the number beside it counts.
+        word if word.starts_with("accel") && !word.starts_with("accelero") => {
+            Some(Quantity::Acceleration)
+        }
+        word if word.starts_with("veloc") => Some(Quantity::Velocity),
+        word if word.starts_with("displ") => Some(Quantity::Displacement),
+        _ => None,
+    };
+    let quantity = words().find_map(of)?;
+    if words().filter_map(of).any(|other| other != quantity) {
+        return None;
+    }
+    let mut at = 0;
+    let ends = lower.split_inclusive(|c| !is_word(c)).filter_map(|piece| {
+        let word = piece.trim_end_matches(|c| !is_word(c));
+        let end = at + word.len();
+        at += piece.len();
+        of(word).map(|_| end)
+    });
+    let ends: Vec<usize> = ends.collect();
+    ends.into_iter().find_map(|behind| {
+        let mut rest = lower[behind..].trim_start_matches(BETWEEN);
+        for filler in ["in", "units", "unit", "of"] {
+            let after = rest.strip_prefix(filler);
+            let after = after.filter(|after| after.starts_with([' ', ':', '=', '(', '[']));
+            rest = after.map_or(rest, |after| after.trim_start_matches(BETWEEN));
+        }
+        let (unit, rest) = match rest.strip_prefix(['(', '[']) {
+            Some(inside) => {
+                let end = inside.rfind([')', ']'])?;
+                // The unit may have brackets of its own, and others may follow on the line.
+                let ends = inside[..=end].match_indices([')', ']']);
+                ends.filter_map(|(end, _)| {
+                    Some((SeriesUnit::parse(&inside[..end])?, &inside[end + 1..]))
+                })
+                .last()?
+            }
+            None => {
+                let ends = [&[',', ';', '\t'][..], &[' ', ',', ';', '\t']];
+                ends.into_iter().find_map(|ends| {
+                    let unit = &rest[..rest.find(ends).unwrap_or(rest.len())];
+                    Some((SeriesUnit::parse(unit)?, &rest[unit.len()..]))
+                })?
+            }
+        };
+        Some(NamedWithUnit {
+            quantity,
+            unit,
+            rest,
+        })
+    })
+}
+
+/// What may stand between the name of a quantity and its unit.
+const BETWEEN: [char; 6] = [' ', '\t', '.', ',', ':', '='];
+
 impl fmt::Display for Quantity {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
@@ -162,10 +247,11 @@ impl SeriesUnit {
 
 impl From<AccelerationUnit> for SeriesUnit {
     fn from(unit: AccelerationUnit) -> Self {
-        if unit == AccelerationUnit::StandardGravity {
-            Self::G
-        } else {
-            Self::si(Quantity::Acceleration, unit.symbol(), unit.in_si())
+        match unit {
+            AccelerationUnit::StandardGravity => Self::G,
+            AccelerationUnit::MilliGravity => Self::MILLI_G,
+            AccelerationUnit::TenthGravity => Self::TENTH_G,
+            unit => Self::si(Quantity::Acceleration, unit.symbol(), unit.in_si()),
         }
     }
 }

@@ -268,6 +268,29 @@ fn round_steps(step: f64, printed: i32) -> impl Iterator<Item = f64> {
     few.chain([whole_rate, with_decimals(step, ROUND_DECIMALS)])
 }
 
+/// Numbers in one place of which a piece of a series is made, to see whether they increase.
+const PIECE: usize = 10;
+
+/// Whether nearly all of every second (third, ...) number go forward as times do, even if some do
+/// not. Piece by piece, as what is missing may change the places of those behind it; a slow motion
+/// rises too, but in all places at once, and falls as often.
+pub(crate) fn mostly_times(numbers: &[f64], every: usize) -> bool {
+    let (mut pieces, mut rising, mut all) = (0_usize, 0, 0);
+    for piece in numbers.chunks_exact(PIECE * every) {
+        let rises = |place: &usize| {
+            let places = piece[*place..].iter().step_by(every);
+            let mut steps = places.clone().zip(places.skip(1));
+            let last = piece[piece.len() - every + place];
+            steps.all(|(a, b)| b >= a) && last > piece[*place]
+        };
+        let found = (0..every).filter(rises).count();
+        pieces += 1;
+        rising += usize::from(found > 0);
+        all += usize::from(found == every);
+    }
+    pieces > 1 && rising + pieces.div_ceil(10) >= pieces && 4 * all <= 3 * pieces
+}
+
 /// Values that may share one printed time: more are no rounding.
 const MOST_TIED: usize = 4;
 

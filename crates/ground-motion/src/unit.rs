@@ -13,6 +13,10 @@ pub enum AccelerationUnit {
     MetrePerSecondSquared,
     /// Standard gravity, 9.80665 m/s2 (ISO 80000-3).
     StandardGravity,
+    /// A thousandth of it, mg.
+    MilliGravity,
+    /// A tenth of it, g/10, as agencies print.
+    TenthGravity,
     /// cm/s2, also called gal.
     Gal,
     /// mm/s2.
@@ -30,6 +34,8 @@ impl AccelerationUnit {
         match self {
             Self::MetrePerSecondSquared => 1.0,
             Self::StandardGravity => STANDARD_GRAVITY,
+            Self::MilliGravity => 1.0e-3 * STANDARD_GRAVITY,
+            Self::TenthGravity => 0.1 * STANDARD_GRAVITY,
             Self::Gal => 0.01,
             Self::MillimetrePerSecondSquared => 0.001,
             Self::InchPerSecondSquared => 0.0254,
@@ -43,6 +49,8 @@ impl AccelerationUnit {
         match self {
             Self::MetrePerSecondSquared => "m/s2",
             Self::StandardGravity => "g",
+            Self::MilliGravity => "mg",
+            Self::TenthGravity => "g/10",
             Self::Gal => "cm/s2",
             Self::MillimetrePerSecondSquared => "mm/s2",
             Self::InchPerSecondSquared => "in/s2",
@@ -64,6 +72,8 @@ impl FromStr for AccelerationUnit {
             .collect();
         let known = match plain.as_str() {
             "g" => Some(Self::StandardGravity),
+            "mg" => Some(Self::MilliGravity),
+            "g/10" => Some(Self::TenthGravity),
             "m/s2" | "m/s/s" | "m/sec2" | "m/sec/sec" => Some(Self::MetrePerSecondSquared),
             "cm/s2" | "cm/s/s" | "cm/sec2" | "cm/sec/sec" | "gal" => Some(Self::Gal),
             "mm/s2" | "mm/s/s" | "mm/sec2" => Some(Self::MillimetrePerSecondSquared),

@@ -4,7 +4,8 @@
 use pounding_ground_motion::processing::rotate;
 use pounding_ground_motion::writers::{Written, write_peer_at2};
 use pounding_ground_motion::{
-    Accelerogram, GroundMotionError, Processing, Quantity, ReadOptions, read_bytes,
+    AccelerationUnit, Accelerogram, GroundMotionError, Processing, Quantity, ReadOptions,
+    read_bytes,
 };
 
 /// A file with this second line.
@@ -70,7 +71,7 @@ fn components_behind_the_last_comma() {
     // Commas of the line of the count part no component.
     let short = "A\nNPTS= 3, DT= .01 SEC, 0\n 0.0 0.1 -0.2\n";
     let options = ReadOptions {
-        unit: Some(pounding_ground_motion::AccelerationUnit::Gal),
+        unit: Some(AccelerationUnit::Gal),
         ..ReadOptions::default()
     };
     let record = read_bytes("f", short.as_bytes(), &options).unwrap();
@@ -265,4 +266,75 @@ fn decimal_commas() {
         error.starts_with("f:5:1: ") && error.contains("within the numbers"),
         "{error}"
     );
+}
+
+/// A unit beside the name of the quantity, without the word "units", is that of the values.
+#[test]
+fn units_beside_the_quantity() {
+    let read = |line: &str, unit: Option<AccelerationUnit>| {
+        let text =
+            at2("QUAKE, STATION, 90").replace("ACCELERATION TIME SERIES IN UNITS OF G", line);
+        let options = ReadOptions {
+            unit,
+            ..ReadOptions::default()
+        };
+        read_bytes("f", text.as_bytes(), &options)
+    };
+    for line in [
+        "ACCELERATION IN GAL",
+        "ACCELERATION (GAL)",
+        "ACCELERATION, CM/S2",
+        "ACCEL. IN UNITS CM/S2",
+        "CORRECTED ACCELERATION (cm/s**2) DT=0.01 SEC",
+        "ACCELERATION (CM / SEC / SEC)",
+    ] {
+        for unit in [None, Some(AccelerationUnit::Gal)] {
+            let record = read(line, unit).unwrap_or_else(|e| panic!("{line}: {e}"));
+            assert!((record.samples()[2] + 0.002).abs() < 1e-12, "{line}");
+        }
+        let error = read(line, Some(AccelerationUnit::StandardGravity)).unwrap_err();
+        let text = error.to_string();
+        assert!(
+            text.contains("unit is cm/s2 in the file but g was given"),
+            "{line}: {text}"
+        );
+    }
+    // Velocities and displacements, whatever unit is given.
+    for line in [
+        "VELOCITY (CM/S)",
+        "DISPLACEMENT, CM",
+        "NS VELOCITY IN CM/SEC",
+    ] {
+        let error = read(line, None).unwrap_err().to_string();
+        assert!(error.contains("not an acceleration"), "{line}: {error}");
+        let error = read(line, Some(AccelerationUnit::Gal))
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains("the unit cm/s2 is given"), "{line}: {error}");
+    }
+    let error = read("VELOCITY (CM/S2)", None).unwrap_err().to_string();
+    assert!(error.contains("the header says velocity here"), "{error}");
+    let error = read("ACCELERATION (G) X 1000", None)
+        .unwrap_err()
+        .to_string();
+    assert!(
+        error.contains("behind the unit g is not understood"),
+        "{error}"
+    );
+    // No unit of the values.
+    for line in [
+        "SHEAR WAVE VELOCITY (M/S)",
+        "PEAK ACCELERATION (CM/S2)",
+        "ACCELEROGRAM, G",
+    ] {
+        let error = read(line, None).unwrap_err();
+        assert!(
+            matches!(error, GroundMotionError::MissingUnit { .. }),
+            "{line}: {error}"
+        );
+        assert!(
+            read(line, Some(AccelerationUnit::StandardGravity)).is_ok(),
+            "{line}"
+        );
+    }
 }

@@ -380,3 +380,71 @@ fn the_name_of_a_single_column_is_kept() {
     let error = rotate(&north, &up, 30.0).unwrap_err().to_string();
     assert!(error.contains("\"UD\" (vertical)"), "{error}");
 }
+
+/// A velocity or a displacement that a line before the rows names was taken for an acceleration
+/// where a unit was given.
+#[test]
+fn lines_that_name_another_quantity() {
+    let read = |text: &str, layout: Option<&str>, time_step: Option<f64>| {
+        let options = ReadOptions {
+            unit: Some(AccelerationUnit::Gal),
+            layout: layout.map(str::to_owned),
+            time_step,
+            ..ReadOptions::default()
+        };
+        read_bytes("f", text.as_bytes(), &options)
+    };
+    let one: String = (0..12)
+        .map(|i| format!("{:.4}\n", (f64::from(i)).sin()))
+        .collect();
+    for line in [
+        "Velocity (cm/s)",
+        "# Velocity [cm/s]",
+        "vel [m/s]",
+        "velocity_m_s",
+        "Displacement (cm)",
+        "Velocity",
+        "NS (cm/s)",
+        "Velocity, cm/s",
+        "EL CENTRO NS VELOCITY CM/SEC",
+        "EL CENTRO NS VELOCITY, IN CM/SEC, DT = 0.01",
+        "Velocity (cm/s2)",
+        "Acceleration (cm/s)",
+        "CORRECTED VELOCITY TIME HISTORY",
+    ] {
+        for layout in [None, Some("a")] {
+            let text = format!("El Centro\n{line}\n{one}");
+            let Err(error) = read(&text, layout, Some(0.01)) else {
+                panic!("{line}");
+            };
+            let start = format!("f:2:1: the header \"{line}\" names no acceleration");
+            assert!(error.to_string().starts_with(&start), "{line}: {error}");
+        }
+    }
+    let two: String = (0..12)
+        .map(|i| format!("{:.2} {:.4}\n", 0.01 * f64::from(i), (f64::from(i)).sin()))
+        .collect();
+    for line in ["time velocity", "t vel"] {
+        let error = read(&format!("{line}\n{two}"), None, None).unwrap_err();
+        assert!(
+            error.to_string().contains("names no acceleration"),
+            "{error}"
+        );
+    }
+    // Titles that speak of another velocity, or of all three, name nothing of the values.
+    for line in [
+        "El Centro, shear wave velocity 200 m/s",
+        "Station on rock, velocity of 800 m/s",
+        "average shear-wave velocity (m/s)",
+        "peak velocity (cm/s)",
+        "Vs30 = 309 m/s",
+        "Acceleration, velocity and displacement: cm, s",
+        "the velocity at the end is zero",
+        "Velocity Street, Building 5",
+        "Acceleration (cm/s2)",
+        "EL CENTRO NS ACCELERATION CM/SEC2",
+    ] {
+        let record = read(&format!("{line}\n{one}"), None, Some(0.01)).unwrap();
+        assert_eq!(record.samples().len(), 12, "{line}");
+    }
+}

@@ -161,3 +161,78 @@ fn a_rate_beside_pairs() {
         "{warnings:?}"
     );
 }
+
+/// What lines before plain rows say of unit and rate, and the keys of our layout in any letters, are
+/// held against the values and the options; they were passed over.
+#[test]
+fn lines_before_rows() {
+    let read = |text: &str, unit, time_step| {
+        let options = ReadOptions {
+            unit,
+            time_step,
+            ..ReadOptions::default()
+        };
+        read_all_bytes("f", text.as_bytes(), &options)
+    };
+    let g = Some(AccelerationUnit::StandardGravity);
+    let rows = "0.1\n-0.2\n0.3\n";
+    let refused = |head: &str, wanted: &str| {
+        let error = read(&(head.to_owned() + rows), g, Some(0.01)).unwrap_err();
+        assert!(error.to_string().contains(wanted), "{head}: {error}");
+    };
+    for head in [
+        "Units: cm/s2\n",
+        "# unit = gal\n",
+        "Acceleration units: cm/sec/sec\n",
+    ] {
+        refused(head, "unit is cm/s2 (line 1) in the file but g was given");
+        let read = read(
+            &(head.to_owned() + rows),
+            Some(AccelerationUnit::Gal),
+            Some(0.01),
+        );
+        assert!(read.is_ok(), "{head}");
+    }
+    refused("Units: cm/s\n", "is a velocity");
+    refused(
+        "Sampling rate: 200 Hz\n",
+        "time_step is 0.005 s (line 1) in the file but 0.01 s was given",
+    );
+    for head in [
+        "Units: g\n",
+        "Sampling rate: 100 Hz\n",
+        "Sampling rate: 200 Hz, decimated to 100 Hz\n",
+        "Vs30 unit: m/s\n",
+    ] {
+        assert!(
+            read(&(head.to_owned() + rows), g, Some(0.01)).is_ok(),
+            "{head}"
+        );
+    }
+    // Beside times it is a warning, as in other formats.
+    let columns: String = (0..9)
+        .map(|i| format!("{:.2} {}\n", 0.01 * f64::from(i), (i % 4) - 2))
+        .collect();
+    let recording = read(&format!("Sampling rate: 200 Hz\n{columns}"), g, None).unwrap();
+    let warnings = &recording.series[0].origin.warnings;
+    assert!(
+        warnings
+            .iter()
+            .any(|w| w.starts_with("line 1: the header says 200 samples/s")),
+        "{warnings:?}"
+    );
+
+    let own = "time_s,acceleration_g\n0.00,0.1\n0.01,-0.2\n0.02,0.3\n";
+    for (key, wanted) in [
+        ("# UNIT: cm/s2", "contradicts the column header"),
+        ("# Units: cm/s2", "contradicts the column header"),
+        ("# DT: 0.02 s", "follows from dt = 0.02 s"),
+        ("# samples: 4", "4 samples"),
+    ] {
+        let error = read(&format!("{key}\n{own}"), None, None)
+            .unwrap_err()
+            .to_string();
+        assert!(error.contains(wanted), "{key}: {error}");
+    }
+    assert!(read(&format!("# Units: s and g\n{own}"), None, None).is_ok());
+}

@@ -502,3 +502,76 @@ fn network_of_turkey() {
             .any(|w| w.contains("the header's peak is 9"))
     );
 }
+
+/// Pairs of which a row is missing, doubled, out of place or short of a number were read as
+/// accelerations at even steps, times among them, where a step was given or the header has a rate.
+#[test]
+fn smc_pairs_that_are_damaged_are_never_even() {
+    let film = named("usgs_smc", "smc_film");
+    let text = String::from_utf8(film.bytes.clone()).unwrap();
+    let pair = |i: usize| {
+        let time = 20.0 + 0.0015 * i as f64 + 0.0005 * (1.3 * i as f64).sin();
+        [time, 30.0 * (0.7 * i as f64).sin() + 0.01]
+    };
+    let field = |value: f64| {
+        let plain = format!("{value:.4e}");
+        let (mantissa, exponent) = plain.split_once('e').unwrap();
+        format!("{mantissa}E{:+}", exponent.parse::<i32>().unwrap())
+    };
+    let numbers: Vec<String> = (0..400).flat_map(pair).map(field).collect();
+    let rows = |numbers: &[String]| -> Vec<String> {
+        let row = |row: &[String]| row.iter().map(|n| format!("{n:>10}")).collect();
+        numbers.chunks(8).map(row).collect()
+    };
+    let whole = rows(&numbers);
+    let old = format!("{:>10}", 2 * COUNT);
+    let head = &text[..text.rfind('|').unwrap()];
+    let head = format!("{head}| film\n");
+    let first = head.lines().count() + 1;
+    let file = |rows: &[String], count: usize| {
+        let head = head.replacen(&old, &format!("{count:>10}"), 1);
+        head + &rows.join("\n") + "\n"
+    };
+    let read = |text: &str, time_step: Option<f64>| {
+        let options = ReadOptions {
+            time_step,
+            lenient: true,
+            ..ReadOptions::default()
+        };
+        read_all_bytes("f", text.as_bytes(), &options)
+    };
+    let sound = read(&file(&whole, 800), None).unwrap();
+    assert_eq!(sound.series[0].samples.len(), 400);
+
+    let mut swapped = whole.clone();
+    swapped.swap(50, 51);
+    let mut doubled = whole.clone();
+    doubled.insert(30, whole[20].clone());
+    let mut without = numbers.clone();
+    without.remove(301);
+    for (damaged, count, row) in [
+        (&swapped, 800, 51),
+        (&doubled, 808, 30),
+        (&rows(&without), 799, 37),
+    ] {
+        for (rate, step) in [
+            ("1.7000000E+38", None),
+            ("1.7000000E+38", Some(0.005)),
+            ("2.0000000E+02", None),
+        ] {
+            let mut text = file(damaged, count);
+            let second = text.match_indices("1.7000000E+38").nth(1).unwrap().0;
+            text.replace_range(second..second + rate.len(), rate);
+            let error = read(&text, step).unwrap_err();
+            let place = format!("f:{}:1: nearly every other number is a time", first + row);
+            assert!(error.to_string().starts_with(&place), "{place}: {error}");
+            assert!(!error.help().unwrap().contains("time_step"));
+        }
+    }
+    // A slow motion that rises is no time.
+    let slow: Vec<String> = (0..400)
+        .map(|i| field(1.0 + (0.01 * f64::from(i)).sin()))
+        .collect();
+    let even = read(&file(&rows(&slow), 400), Some(0.005)).unwrap();
+    assert_eq!(even.series[0].samples.len(), 400);
+}

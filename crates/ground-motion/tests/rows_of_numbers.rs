@@ -192,3 +192,171 @@ fn true_units_of_files_that_state_another() {
         }
     }
 }
+
+/// Pairs of time and value that follow one another along the rows are read in their order; three of
+/// four samples were lost, or times were read as accelerations.
+#[test]
+fn pairs_along_rows() {
+    let pair = |i: usize| format!("{:.3} {:.5} ", 0.01 * i as f64, value(i));
+    for along in [2, 4] {
+        let text: String = (0..400)
+            .map(|i| pair(i) + if i % along + 1 == along { "\n" } else { "" })
+            .collect();
+        for layout in [None, Some("t,a")] {
+            let record = read(&text, layout, None).unwrap();
+            assert_eq!((record.samples().len(), record.time_step()), (400, 0.01));
+            for (i, a) in record.samples().iter().enumerate() {
+                assert!((a - value(i) * G).abs() < 1e-3, "{i}");
+            }
+        }
+        // They are no series along the rows, also with a row out of its place.
+        let mut lines: Vec<&str> = text.lines().collect();
+        lines.swap(20, 21);
+        for (text, layout) in [
+            (text.clone(), Some("a")),
+            (lines.join("\n"), Some("a")),
+            (lines.join("\n"), None),
+        ] {
+            let error = read(&text, layout, Some(0.01)).unwrap_err().to_string();
+            assert!(error.contains("as times do"), "{layout:?}: {error}");
+        }
+    }
+    // Two components, each with times of its own.
+    let twice: String = (0..100).map(|i| pair(i) + &pair(i) + "\n").collect();
+    let error = read(&twice, None, None).unwrap_err().to_string();
+    assert!(error.contains("so do those of column 3"), "{error}");
+    // Columns beside times, read along the rows.
+    let three: String = (0..100)
+        .map(|i| format!("{} {:.5}\n", pair(i), value(i + 50)))
+        .collect();
+    let error = read(&three, Some("a"), Some(0.01)).unwrap_err().to_string();
+    assert!(error.contains("one of every 3 numbers"), "{error}");
+    // A slow motion in one series is one.
+    let slow: String = (0..400)
+        .map(|i| {
+            format!(
+                "{:.5}{}",
+                (0.01 * i as f64).sin(),
+                if i % 4 == 3 { "\n" } else { " " }
+            )
+        })
+        .collect();
+    assert_eq!(
+        read(&slow, Some("a"), Some(0.01)).unwrap().samples().len(),
+        400
+    );
+}
+
+/// Numbers of the rows beside times are passed over; the times were offered as an acceleration.
+#[test]
+fn row_numbers_beside_times() {
+    let row =
+        |first: usize, i: usize| format!("{} {:.2} {:.5}\n", i + first, 0.02 * i as f64, value(i));
+    for first in [0, 1] {
+        let text: String = (0..50).map(|i| row(first, i)).collect();
+        let record = read(&text, None, None).unwrap();
+        assert_eq!((record.samples().len(), record.time_step()), (50, 0.02));
+        assert!((record.samples()[7] - value(7) * G).abs() < 1e-3);
+        let warnings = &record.origin().unwrap().warnings;
+        assert!(
+            warnings
+                .iter()
+                .any(|w| w.contains("column 1 counts the rows"))
+        );
+    }
+    let last: String = (0..50)
+        .map(|i| format!("{:.2} {:.5} {}\n", 0.02 * i as f64, value(i), i + 1))
+        .collect();
+    let record = read(&last, None, None).unwrap();
+    assert_eq!((record.samples().len(), record.time_step()), (50, 0.02));
+}
+
+/// A count before the values, with the step or alone, was the first sample.
+#[test]
+fn counts_in_lines_of_their_own() {
+    let rows = |along: usize| -> String {
+        let end = |i: usize| if i % along + 1 == along { "\n" } else { " " };
+        (0..120)
+            .map(|i| format!("{:.5}{}", value(i), end(i)))
+            .collect()
+    };
+    for (head, step) in [
+        ("120\n", Some(0.01)),
+        ("120\n0.01\n", None),
+        ("0.01\n120\n", None),
+        ("120\n0.01\n", Some(0.01)),
+        ("120 0.01\n", None),
+    ] {
+        for (along, layout) in [(1, None), (1, Some("a")), (8, None), (8, Some("a"))] {
+            if along == 8 && head.lines().count() == 2 {
+                continue;
+            }
+            let record = read(&(head.to_owned() + &rows(along)), layout, step)
+                .unwrap_or_else(|e| panic!("{head} {along} {layout:?}: {e}"));
+            assert_eq!(
+                (record.samples().len(), record.time_step()),
+                (120, 0.01),
+                "{head}"
+            );
+            assert!((record.samples()[0] - value(0) * G).abs() < 1e-3);
+        }
+    }
+    // Another count.
+    let error = read(&("121\n".to_owned() + &rows(1)), None, Some(0.01)).unwrap_err();
+    assert!(
+        matches!(error, GroundMotionError::TooFewSamples { .. }),
+        "{error}"
+    );
+    // The step alone, or a first sample that is the same number.
+    let text = "0.01\n".to_owned() + &rows(1);
+    let error = read(&text, None, Some(0.01)).unwrap_err();
+    assert!(
+        error.to_string().contains("is the time step that is given"),
+        "{error}"
+    );
+    assert!(error.help().unwrap().contains("--skip-lines 1"), "{error}");
+    assert_eq!(
+        read(&text, Some("a"), Some(0.01)).unwrap().samples().len(),
+        121
+    );
+    // Whole numbers that are samples.
+    for text in ["3\n1\n-2\n4\n", "2.0\n1.5\n-0.5\n", "7\n1.5\n-0.5\n"] {
+        let record = read(text, None, Some(0.01)).unwrap();
+        assert_eq!(record.samples().len(), text.lines().count(), "{text}");
+    }
+}
+
+/// Units that headers may state, a fill and a repeat count in their own words.
+#[test]
+fn units_fills_and_repeat_counts() {
+    let with = |text: &str, unit: &str| {
+        let options = ReadOptions {
+            unit: Some(unit.parse().unwrap()),
+            time_step: Some(0.01),
+            ..ReadOptions::default()
+        };
+        read_bytes("f", text.as_bytes(), &options)
+    };
+    for (unit, each) in [("mg", 1.0e-3), ("g/10", 0.1)] {
+        let record = with("1.0\n-2.0\n0.5\n", unit).unwrap();
+        assert!(
+            (record.samples()[1] + 2.0 * each * G).abs() < 1e-12,
+            "{unit}"
+        );
+        let origin = record.origin().unwrap();
+        assert_eq!(origin.unit, format!("{unit} (given by the user)"));
+    }
+    let filled = with("1.0\n9999\n0.5\n", "g").unwrap();
+    let warnings = &filled.origin().unwrap().warnings;
+    assert!(
+        warnings[0].contains("sample 2 is exactly 9999"),
+        "{warnings:?}"
+    );
+    let error = with("1.0\n2*0.5\n", "g").unwrap_err().to_string();
+    assert!(
+        error.contains("repeat count of Fortran, 2 times 0.5"),
+        "{error}"
+    );
+    let error = with("1.0\n****\n", "g").unwrap_err().to_string();
+    assert!(error.contains("Fortran overflow"), "{error}");
+}

@@ -435,3 +435,27 @@ fn a_component_is_not_turned_against_itself() {
         refused(2, arguments, &["rotation: "]);
     }
 }
+
+/// What the program's own messages say to type: a layout whose first column is passed over.
+#[test]
+fn layouts_that_begin_with_a_hyphen() {
+    let folder = Folder::new();
+    let (file, out) = (folder.name("rows.txt"), folder.name("o.csv"));
+    let rows: String = (1..30)
+        .map(|i| format!("{i} {}.5\n", (i * 7) % 5 - 2))
+        .collect();
+    std::fs::write(&file, rows).unwrap();
+    let given = [
+        "convert",
+        &file,
+        "--unit",
+        "g",
+        "--time-step",
+        "0.01 s",
+        "-o",
+        &out,
+    ];
+    refused(2, &given, &["--layout \"-,a\""]);
+    let output = run(&[&given[..], &["--layout", "-,a"]].concat());
+    assert!(output.status.success(), "{output:?}");
+}

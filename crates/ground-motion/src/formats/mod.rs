@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 use crate::accelerogram::Accelerogram;
 use crate::error::GroundMotionError;
 use crate::options::ReadOptions;
+use crate::quantity::Quantity;
 use crate::recording::{Recording, Series};
 use crate::select;
 use crate::source::Source;
@@ -177,6 +178,20 @@ fn every_series(
         });
     }
     unused(&source, format)?;
+    if let (Some(unit), Some(first)) = (options.unit, series.first())
+        && series.iter().all(|s| s.quantity != Quantity::Acceleration)
+    {
+        return Err(GroundMotionError::Unsupported {
+            file: file.to_owned(),
+            what: format!(
+                "the unit {} is given, which is of accelerations, but the values are {} in {}",
+                unit.symbol(),
+                first.quantity,
+                first.unit
+            ),
+            remedy: "leave `unit` out to see what is in the file; for an excitation use the acceleration file of the same record (AT2 beside VT2 and DT2)",
+        });
+    }
     let own = Sha256::new().chain_update(bytes);
     for s in &mut series {
         s.origin.format = format.name.into();

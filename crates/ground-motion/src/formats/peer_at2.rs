@@ -9,7 +9,7 @@ use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::number::{self, Bare};
-use crate::quantity::{Quantity, SeriesUnit};
+use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
 use crate::recording::Series;
 use crate::source::Source;
 use crate::stated_step::{StatedStep, state_step};
@@ -207,13 +207,14 @@ fn component(header: &Header) -> String {
 }
 
 /// The quantities of the lines on the unit and on the kind of series, such as `VELOCITY TIME
-/// HISTORY IN UNITS OF CM/S`.
+/// HISTORY IN UNITS OF CM/S` and `VELOCITY (CM/S)`.
 fn quantities(text: &[String]) -> Vec<NamedQuantity> {
     let named = |(i, line): (usize, &String)| {
         let lower = line.to_ascii_lowercase();
         let says = ["units", "time history", "time series"];
         let says = says.iter().any(|words| lower.contains(words));
-        says.then(|| NamedQuantity::of(i + 1, line))?
+        let with_unit = || named_with_unit(&lower);
+        (says || with_unit().is_some()).then(|| NamedQuantity::of(i + 1, line))?
     };
     text.iter().enumerate().filter_map(named).collect()
 }
@@ -380,6 +381,13 @@ fn is_of_something_else(unit: SeriesUnit, rest: &str) -> bool {
     }
 }
 
+/// Whether what stands behind a unit begins with a factor or another unit.
+fn may_change_unit(rest: &str) -> bool {
+    let rest = rest.trim_start();
+    let mut words = rest.split(|c: char| !c.is_ascii_alphabetic());
+    rest.starts_with(['*', '/', '^']) || words.next().is_some_and(|w| OF_UNIT.contains(&w))
+}
+
 /// Unit from the header's text: that of the line that names the quantity of the values, such as
 /// `ACCELERATION TIME SERIES IN UNITS OF G`, before those of others.
 fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionError> {
@@ -400,6 +408,16 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
     if units.is_empty() {
         // Words may go on in the next line.
         units.extend(unit_in(&lines).map(|unit| (header.line, unit)));
+    }
+    if units.is_empty() {
+        // `ACCELERATION (GAL)`. What follows such a unit may be of a title, unless it changes it.
+        let beside = lower.iter().enumerate().filter_map(|(i, line)| {
+            let named = named_with_unit(line)?;
+            Some((i + 1, (named.unit, named.rest)))
+        });
+        units.extend(beside.filter(|(_, (unit, rest))| {
+            is_of_something_else(*unit, rest) || may_change_unit(rest)
+        }));
     }
     if let Some((line, (unit, rest))) = units
         .iter()

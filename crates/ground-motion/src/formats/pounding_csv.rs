@@ -26,6 +26,27 @@ pub(crate) const SAMPLES: &str = "Samples";
 pub(crate) const INITIAL_VELOCITY: &str = "Initial velocity";
 pub(crate) const INITIAL_DISPLACEMENT: &str = "Initial displacement";
 
+/// Keys that mean something.
+const KEYS: [&str; 17] = [
+    "Event",
+    "Station",
+    "Component",
+    AZIMUTH,
+    DIP,
+    START_TIME,
+    "Source",
+    "Step",
+    "Read",
+    "Note",
+    "Stage",
+    "Unit",
+    "Units",
+    "dt",
+    SAMPLES,
+    INITIAL_VELOCITY,
+    INITIAL_DISPLACEMENT,
+];
+
 /// `# Key: value` lines that mean something.
 #[derive(Default)]
 pub(super) struct Keys {
@@ -210,7 +231,10 @@ impl Keys {
             return Ok(());
         };
         let value = value.trim();
-        match key.trim() {
+        // Other programs write the keys in other letters.
+        let key = key.trim();
+        let key = KEYS.into_iter().find(|k| k.eq_ignore_ascii_case(key));
+        match key.unwrap_or_default() {
             "Event" | "Station" => self.title.push(value.to_owned()),
             "Component" => value.clone_into(&mut self.component),
             AZIMUTH => self.azimuth = degrees(value),
@@ -241,6 +265,10 @@ impl Keys {
                 self.stage = Some(stage);
             }
             "Unit" => self.units.push((line.number, value.to_owned())),
+            // Not of this layout: it may speak of the units of both columns.
+            "Units" if SeriesUnit::parse(value).is_some() => {
+                self.units.push((line.number, value.to_owned()));
+            }
             "dt" => {
                 let number = value.strip_suffix('s').unwrap_or(value);
                 self.step = Some((line.number, source.number(line, 0, number.as_bytes())?));

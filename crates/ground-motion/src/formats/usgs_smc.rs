@@ -13,7 +13,7 @@ use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::{HeaderNumbers, Source};
 use crate::text::{Line, Lines};
-use crate::time_column::{part_ties, tied_times};
+use crate::time_column::{mostly_times, part_ties, tied_times};
 
 const TEXT_LINES: usize = 11;
 /// Rates from which a header's rate is nonsense, as some are.
@@ -97,7 +97,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let rate = known(reals.positive(RATE)).filter(|rate| *rate < MOST_SAMPLES_A_SECOND);
     let places = (reals.line_of(RATE), first, lines.number());
     let unit = DraftUnit::Stated(kind.unit);
-    let mut draft = if is_film(source, &kind.stage, rate, &numbers, count, places.0)? {
+    let rows = (places.0, first, layout.per_line);
+    let mut draft = if is_film(source, &kind.stage, rate, &numbers, count, rows)? {
         pairs(source, numbers, unit, places, (&integers, count))?
     } else {
         let mut draft = Draft::new(numbers, unit, places);
@@ -281,38 +282,53 @@ fn factor_in(line: Line<'_>) -> Option<NamedQuantity> {
 }
 
 /// Whether the numbers are pairs of time and value, as of digitised film: times are known by
-/// their order, whatever the header says.
+/// their order, whatever the header says. `rows`: lines of the rate and of the first row, numbers
+/// a row.
 ///
 /// # Errors
-/// An uncorrected record without a rate, of which every other number is no time.
+/// Pairs of which a time goes back; an uncorrected record without a rate, of which every other
+/// number is no time.
 fn is_film(
     source: &Source<'_>,
     stage: &Processing,
     rate: Option<f64>,
     numbers: &[f64],
     count: usize,
-    line: usize,
+    (line, first, per_line): (usize, usize, usize),
 ) -> Result<bool, GroundMotionError> {
     if *stage == Processing::Corrected {
         return Ok(false);
     }
-    let back = times_go_back(numbers, count);
     let unrated = *stage == Processing::Raw && rate.is_none();
     let used = numbers.len().min(count);
-    match back {
-        None => Ok(unrated || used >= FEW_NUMBERS && numbers[0] >= 0.0 && increases(numbers, used)),
-        Some(_) if !unrated || source.options.time_step.is_some() => Ok(false),
-        Some((value, before, time)) => Err(source.error(
-            line,
+    let Some((value, before, time)) = times_go_back(numbers, count) else {
+        return Ok(unrated || used >= FEW_NUMBERS && numbers[0] >= 0.0 && increases(numbers, used));
+    };
+    if mostly_times(&numbers[..used], 2) {
+        return Err(source.error(
+            first + 2 * (value - 1) / per_line,
             0,
             format!(
-                "the header has no sampling rate (real {RATE}), and every other number is no time: {} of value {value} is not after {}",
+                "nearly every other number is a time, but that of value {value}, {}, is not after {}: a row is missing, doubled or out of its place, here or before",
                 bound(time),
                 bound(before)
             ),
-            "give the step: `time_step = \"0.005 s\"` in [ground_motion] of a case, `--time-step \"0.005 s\"` with `pounding motion`; or get the record again",
-        )),
+            "the file is damaged: get the record again; no time step mends it",
+        ));
     }
+    if !unrated || source.options.time_step.is_some() {
+        return Ok(false);
+    }
+    Err(source.error(
+        line,
+        0,
+        format!(
+            "the header has no sampling rate (real {RATE}), and every other number is no time: {} of value {value} is not after {}",
+            bound(time),
+            bound(before)
+        ),
+        "give the step: `time_step = \"0.005 s\"` in [ground_motion] of a case, `--time-step \"0.005 s\"` with `pounding motion`; or get the record again",
+    ))
 }
 
 /// Where every other number does not go forward, as times do: value (from 1), the number before

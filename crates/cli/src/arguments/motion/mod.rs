@@ -43,10 +43,10 @@ pub struct ReadArguments {
     #[arg(long)]
     pub unit: Option<String>,
     /// Plain columns: "a", or names such as "t,ns,ew"
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub layout: Option<String>,
     /// Component to use: its name in the file, azimuth or channel number
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     pub component: Option<String>,
     /// Plain columns: lines to skip at the start
     #[arg(long, default_value_t = 0)]
@@ -135,7 +135,12 @@ pub struct SpectrumArguments {
     #[arg(long, conflicts_with = "fourier")]
     pub rotated: bool,
     /// The other component, for --rotated
-    #[arg(long, requires = "rotated", conflicts_with = "code")]
+    #[arg(
+        long,
+        requires = "rotated",
+        conflicts_with = "code",
+        allow_hyphen_values = true
+    )]
     pub second_component: Option<String>,
     /// File of the other component [default: the same file]
     #[arg(long, requires = "rotated", conflicts_with = "code")]
@@ -264,7 +269,7 @@ pub struct ProcessArguments {
     #[arg(long, requires = "second_component", allow_hyphen_values = true)]
     pub rotate: Option<f64>,
     /// The other component, for --rotate
-    #[arg(long, requires = "rotate")]
+    #[arg(long, requires = "rotate", allow_hyphen_values = true)]
     pub second_component: Option<String>,
     /// Steps
     #[command(flatten)]

@@ -1,7 +1,7 @@
 //! Names and units of columns in the line before the rows: `time (s),acceleration (m/s2)`,
 //! `t [s];a [g]`, `time_s acceleration_g`.
 
-use crate::quantity::{Quantity, SeriesUnit};
+use crate::quantity::{NamedWithUnit, Quantity, SeriesUnit, named_with_unit};
 use crate::text::Line;
 
 /// What a column holds.
@@ -184,6 +184,9 @@ pub(super) enum Fault {
 /// names no column with a unit.
 pub(super) fn fault(line: &Line<'_>) -> Option<(String, Fault)> {
     let cells = cells(line)?;
+    if let Some(fault) = of_values(&cells) {
+        return Some((cells.text, fault));
+    }
     let names = &cells.names;
     let roles: Vec<Option<Role>> = names.iter().map(|c| role(c)).collect();
     let unknown_unit = names.iter().zip(&roles).find_map(|(name, role)| {
@@ -209,7 +212,13 @@ pub(super) fn fault(line: &Line<'_>) -> Option<(String, Fault)> {
     let with_unit = names.iter().zip(&roles).any(|(name, role)| {
         role.is_some() && (divided(name).is_some() || cells.separator.is_some() && bare(name))
     });
-    if names.len() < 2 || !(with_unit || unknown_unit.is_some()) {
+    // Unless all are names of columns, of which one is the time.
+    let all_named = roles.iter().all(Option::is_some)
+        && roles.iter().any(|r| matches!(r, Some(Role::Time(_))))
+        && !roles
+            .iter()
+            .any(|r| matches!(r, Some(Role::Acceleration(..))));
+    if names.len() < 2 || !(with_unit || all_named || unknown_unit.is_some()) {
         return None;
     }
     let fault = if let Some(fault) = unknown_unit {
@@ -229,6 +238,50 @@ pub(super) fn fault(line: &Line<'_>) -> Option<(String, Fault)> {
         Fault::NoAcceleration(quantity, name)
     };
     Some((cells.text, fault))
+}
+
+/// The velocity or displacement that a line names as the quantity of the values below it: alone,
+/// `Velocity (cm/s)`, at the end of a title, `EL CENTRO NS VELOCITY CM/SEC`, or as a series,
+/// `VELOCITY TIME HISTORY`. Titles of accelerations may speak of velocities, too: `shear wave
+/// velocity 200 m/s`.
+fn of_values(cells: &Cells) -> Option<Fault> {
+    if let [name] = cells.names.as_slice() {
+        let (known, unit) = divided(name).unwrap_or_else(|| (plain(name), String::new()));
+        let moves = MOTION.contains(&known.as_str()) || is_component(&known);
+        // A letter alone is no name of a quantity.
+        let says = moves && !unit.is_empty() || MOTION.contains(&known.as_str()) && known.len() > 1;
+        if let Some(quantity) = quantity(name).filter(|_| says) {
+            return Some(Fault::NoAcceleration(quantity, name.trim().to_owned()));
+        }
+    }
+    let lower = cells.text.to_ascii_lowercase();
+    let series = ["time history", "time series"];
+    let of_series = || {
+        let found = Quantity::in_words(&lower)?;
+        series
+            .iter()
+            .any(|words| lower.contains(words))
+            .then_some(found)
+    };
+    let by_unit = || {
+        let NamedWithUnit {
+            quantity,
+            unit,
+            rest,
+        } = named_with_unit(&lower)?;
+        let rest = rest.trim_matches([' ', '\t', '.', ',', ';']);
+        let key = rest.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+        let ends = rest.is_empty() || key.len() < rest.len() && key.trim_start().starts_with('=');
+        let both = [quantity, unit.quantity];
+        let other = both.into_iter().find(|q| *q != Quantity::Acceleration);
+        other.filter(|_| ends)
+    };
+    // An acceleration may stand beside it under a name of its own.
+    let beside = |name: &String| matches!(role(name), Some(Role::Acceleration(..)));
+    let columns = cells.names.len() > 1 && cells.names.iter().any(beside);
+    let found = of_series().or_else(|| by_unit().filter(|_| !columns));
+    let other = found.filter(|quantity| *quantity != Quantity::Acceleration)?;
+    Some(Fault::NoAcceleration(other, cells.text.clone()))
 }
 
 /// Name, in lower case, and unit of a cell that has both.

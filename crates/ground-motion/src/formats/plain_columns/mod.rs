@@ -4,23 +4,24 @@
 //! the columns with their units.
 
 use crate::draft::{Draft, DraftUnit, Times};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
 use crate::fortran::Layout;
-use crate::recording::Series;
+use crate::recording::{Sampling, Series};
 use crate::source::Source;
+use crate::stated_step::STEP_TOLERANCE;
 use crate::text::Line;
-use crate::time_column::TimeColumn;
+use crate::time_column::{TimeColumn, mostly_times};
 
 mod decimal;
 mod header;
 mod survey;
 
 use header::{Fault, Header, Role};
-use survey::{Arrangement, Survey};
+use survey::{Arrangement, Head, Survey};
 
 use super::pounding_csv::Keys;
-use crate::quantity::SeriesUnit;
+use crate::quantity::{Quantity, SeriesUnit};
 
 const COMMENTS: [&[u8]; 6] = [b"#", b"%", b"*", b"!", b"//", b"$"];
 /// Names of columns that are not accelerations.
@@ -62,7 +63,8 @@ struct Faulty {
     fault: Fault,
 }
 
-/// The last such line before the rows, if no header follows it.
+/// The last such line before the rows, if no header follows it; one of another quantity before
+/// others.
 fn fault(source: &Source<'_>, header: Option<&Header>) -> Option<Faulty> {
     let first = rows(source).next()?.number;
     let after = header.map_or(0, |h| h.line);
@@ -78,7 +80,7 @@ fn fault(source: &Source<'_>, header: Option<&Header>) -> Option<Faulty> {
                 fault,
             })
         })
-        .last()
+        .max_by_key(|f| matches!(f.fault, Fault::NoAcceleration(..)))
 }
 
 impl Faulty {
@@ -99,7 +101,7 @@ impl Faulty {
         let (message, remedy) = match fault {
             Fault::NoAcceleration(quantity, name) => (
                 format!("the header \"{text}\" names no acceleration: \"{name}\" is a {quantity}"),
-                "give the accelerations of the same record: no unit makes an excitation of another quantity",
+                "give the accelerations of the same record: no unit makes an excitation of another quantity; if the line says nothing of the values, take it out, or pass it over by `skip_lines`",
             ),
             Fault::TimeUnit(name, unit) => (
                 format!("the unit \"{unit}\" of the column \"{name}\" is not known"),
@@ -163,11 +165,91 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         ) => return Err(faulty.error(source)),
         (series, _) => series?,
     };
+    agrees(source, &series)?;
     for warning in pointed.warnings() {
         source.warn(&warning);
     }
     source.uses(pointed.used());
     Ok(series)
+}
+
+/// Holds the unit and the sampling rate that lines before the rows state, `Units: cm/s2`, `Sampling
+/// rate: 200 Hz`, against those of the series.
+///
+/// # Errors
+/// Another unit, or another step than the user gives.
+fn agrees(source: &Source<'_>, series: &[Series]) -> Result<(), GroundMotionError> {
+    let (Some(first), Some(one)) = (rows(source).next(), series.first()) else {
+        return Ok(());
+    };
+    let before = || {
+        let lines = source.all_lines().skip(source.options.skip_lines);
+        lines.take_while(|l| l.number < first.number)
+    };
+    let contradicts = |quantity: &'static str, stated: String, given: String| {
+        Err(GroundMotionError::Contradiction {
+            file: source.file.to_owned(),
+            quantity,
+            stated,
+            given,
+        })
+    };
+    for line in before() {
+        let Some(unit) = stated_unit(&line) else {
+            continue;
+        };
+        if unit.quantity != Quantity::Acceleration {
+            let fault = Fault::NoAcceleration(unit.quantity, unit.symbol.to_owned());
+            let (line, text) = (line.number, line.text().trim().to_owned());
+            return Err(Faulty { line, text, fault }.error(source));
+        }
+        if series.iter().any(|s| s.unit != unit.symbol) {
+            let stated = format!("{} (line {})", unit.symbol, line.number);
+            return contradicts("unit", stated, one.unit.to_owned());
+        }
+    }
+    let Sampling::Even { time_step } = one.sampling else {
+        return Ok(());
+    };
+    let rates = || {
+        before().flat_map(|l| {
+            crate::number::rates(&l.text())
+                .into_iter()
+                .map(move |r| (l.number, r.0))
+        })
+    };
+    let same = |step: f64| (step - time_step).abs() <= STEP_TOLERANCE * time_step;
+    // A rate before the record was resampled may stand beside its own.
+    if rates().any(|(_, step)| same(step)) {
+        return Ok(());
+    }
+    let Some((line, step)) = rates().next() else {
+        return Ok(());
+    };
+    if source.options.time_step.is_some() {
+        let stated = format!("{} s (line {line})", bound(step));
+        return contradicts("time_step", stated, format!("{time_step} s"));
+    }
+    source.warn(&format!(
+        "line {line}: the header says {} samples/s, but the values are {time_step} s apart, which is used",
+        bound(1.0 / step)
+    ));
+    Ok(())
+}
+
+/// The unit that a line states under a key, `# Unit: g`, `Units = cm/s2`, `acceleration units: gal`.
+fn stated_unit(line: &Line<'_>) -> Option<SeriesUnit> {
+    let lower = line.lower();
+    let (key, value) = lower.split_once([':', '='])?;
+    let key = key.trim_start_matches(|c: char| !c.is_ascii_alphanumeric());
+    let is_unit = ["unit", "units"].contains(&key.trim());
+    let mut words = key.split_whitespace();
+    let of_values = words
+        .next()
+        .is_some_and(|w| w.starts_with("accel") || w == "data")
+        && words.next().is_some_and(|w| ["unit", "units"].contains(&w))
+        && words.next().is_none();
+    (is_unit || of_values).then(|| SeriesUnit::parse(value.trim()))?
 }
 
 /// Reads numbers with decimal points.
@@ -187,7 +269,8 @@ fn numbers(source: &Source<'_>, header: Option<&Header>) -> Result<Vec<Series>, 
         let names: Vec<String> = text.split(',').map(|n| n.trim().to_owned()).collect();
         if names == ["a"] {
             let survey = Survey::new(source, true)?;
-            return wrapped(source, &survey, None);
+            let head = survey.head(source, true)?;
+            return wrapped(source, &survey, head);
         }
         let survey = Survey::new(source, true)?;
         return columns(
@@ -204,7 +287,7 @@ fn numbers(source: &Source<'_>, header: Option<&Header>) -> Result<Vec<Series>, 
     let survey = Survey::new(source, false)?;
     match survey.arrangement(source)? {
         Arrangement::Wrapped => wrapped(source, &survey, None),
-        Arrangement::CountAndStep(count, step) => wrapped(source, &survey, Some((count, step))),
+        Arrangement::Headed(head) => wrapped(source, &survey, Some(head)),
         Arrangement::Columns(names) => {
             let columns = Columns::new(names, None);
             match self::columns(source, &survey, &columns, &Keys::default()) {
@@ -329,6 +412,7 @@ fn headed(
     if let ([name], [Role::Acceleration(..)]) = (columns.names.as_slice(), &*header.columns) {
         // Values may follow one another along the rows.
         let samples = along(source, survey, 0)?;
+        without_times(source, survey.first, &samples, survey.width())?;
         let unit = columns.units[0].map_or(DraftUnit::Unstated, DraftUnit::Stated);
         let mut draft = Draft::new(samples, unit, (survey.first, survey.first, survey.last));
         draft.times = Times::Step(keys.step(source, None)?);
@@ -385,6 +469,7 @@ fn fixed(source: &Source<'_>, layout: Layout) -> Result<Vec<Series>, GroundMotio
         }
         source.row(Line { bytes, ..line }, layout, &mut samples)?;
     }
+    without_times(source, first, &samples, layout.per_line)?;
     let draft = Draft::new(samples, DraftUnit::Unstated, (first, first, last));
     Ok(vec![draft.finish(source)?])
 }
@@ -421,23 +506,47 @@ fn counted_card(
     ))
 }
 
-/// A series along the rows, after a row of count and step if there is one.
+/// A series along the rows, after rows of count and step if there are any.
 fn wrapped(
     source: &Source<'_>,
     survey: &Survey,
-    head: Option<(usize, f64)>,
+    head: Option<Head>,
 ) -> Result<Vec<Series>, GroundMotionError> {
-    let samples = along(source, survey, usize::from(head.is_some()))?;
+    let samples = along(source, survey, head.map_or(0, |head| head.rows))?;
+    without_times(source, survey.first, &samples, survey.width())?;
     let mut draft = Draft::new(
         samples,
         DraftUnit::Unstated,
         (survey.first, survey.first, survey.last),
     );
-    if let Some((count, step)) = head {
-        draft.header_count = Some(count);
-        draft.times = Times::Step(Some(step));
+    if let Some(head) = head {
+        draft.header_count = Some(head.count);
+        draft.times = Times::Step(head.step);
     }
     Ok(vec![draft.finish(source)?])
+}
+
+/// Refuses a series along the rows with times among its values, whoever says that it is one.
+fn without_times(
+    source: &Source<'_>,
+    line: usize,
+    samples: &[f64],
+    width: usize,
+) -> Result<(), GroundMotionError> {
+    let among = |every: &usize| mostly_times(samples, *every);
+    let Some(every) = [2, width].into_iter().filter(|n| *n > 1).find(among) else {
+        return Ok(());
+    };
+    let which = match every {
+        2 => "every other number increases".to_owned(),
+        every => format!("one of every {every} numbers increases"),
+    };
+    Err(source.error(
+        line,
+        0,
+        format!("{which} as times do, all along the rows: they are no series of one quantity"),
+        "say what the columns are with `layout`, such as \"t,a\", which also reads pairs that follow one another along a row, or \"t,ns,ew\" (`-` passes one over); if times go back, the file is damaged: get it again",
+    ))
 }
 
 /// All numbers of the rows after the first few.
@@ -468,6 +577,7 @@ fn cards(source: &Source<'_>, survey: &Survey) -> Result<Vec<Series>, GroundMoti
             samples.pop();
         }
     }
+    without_times(source, survey.first, &samples, survey.width() - 1)?;
     let mut draft = Draft::new(
         samples,
         DraftUnit::Unstated,

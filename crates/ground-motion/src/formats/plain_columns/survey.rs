@@ -20,13 +20,26 @@ const COMPONENTS: std::ops::RangeInclusive<usize> = 2..=3;
 pub(super) enum Arrangement {
     /// One series along the rows.
     Wrapped,
-    /// As `Wrapped`, after a row of count and step.
-    CountAndStep(usize, f64),
+    /// As `Wrapped`, after rows of count and step.
+    Headed(Head),
     /// A column each; `t` is the time.
     Columns(Vec<String>),
     /// Rows that end in their own number.
     Cards,
 }
+
+/// Rows of a count, or of a count and a step, before the values.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Head {
+    pub rows: usize,
+    pub count: usize,
+    /// Step (s).
+    pub step: Option<f64>,
+}
+
+/// Counts from which on a whole number that is the number of the values behind it is no chance,
+/// also among whole numbers.
+const SURE_COUNT: usize = 20;
 
 /// What was seen.
 pub(super) struct Survey {
@@ -108,8 +121,8 @@ impl Survey {
         &self,
         source: &Source<'_>,
     ) -> Result<Arrangement, GroundMotionError> {
-        if let Some((count, step)) = self.count_and_step(source)? {
-            return Ok(Arrangement::CountAndStep(count, step));
+        if let Some(head) = self.head(source, false)? {
+            return Ok(Arrangement::Headed(head));
         }
         let short_last = self.last_length < self.second_length;
         let odd = if self.first_length != self.second_length && !(self.rows == 2 && short_last) {
@@ -132,20 +145,46 @@ impl Survey {
         if width < 2 || self.rows < 2 {
             return Ok(Arrangement::Wrapped);
         }
-        if !short_last && self.first_is_time(source)? {
-            return Ok(Arrangement::Columns(named(width, 0)));
+        if self.pairs_follow(source, width)? {
+            return Ok(Arrangement::Columns(named(2, 0, &[])));
         }
-        let counts = self.rows > 2 && last_counts(source);
+        let first_is_time = !short_last && self.first_is_time(source)?;
+        if first_is_time && width == 2 {
+            return Ok(Arrangement::Columns(named(width, 0, &[])));
+        }
+        let last_counts = self.rows > 2 && counts(source, None, 1);
         let mut times = Vec::new();
         for k in 0..width.min(TIME_AMONG) {
-            if !(counts && k + 1 == width) && self.is_time(source, k)? {
+            let is_last_counter = last_counts && k + 1 == width;
+            let is_first = first_is_time && k == 0;
+            if is_first || !is_last_counter && self.is_time(source, k)? {
                 times.push(k);
             }
         }
-        match (times.as_slice(), counts) {
+        // `1 0.000 0.204`: the row, the time and the value.
+        let mut passed = Vec::new();
+        let first_counts = || counts(source, Some(0), 0) || counts(source, Some(0), 1);
+        if times.len() == 2 && times[0] == 0 && first_counts() {
+            passed.push(times.remove(0));
+        }
+        if last_counts && first_is_time && !times.is_empty() {
+            passed.push(width - 1);
+        }
+        if let ([k], false) = (times.as_slice(), passed.is_empty())
+            && passed.len() + 1 < width
+        {
+            for passed in &passed {
+                source.warn(&format!(
+                    "column {} counts the rows and is not data",
+                    passed + 1
+                ));
+            }
+            return Ok(Arrangement::Columns(named(width, *k, &passed)));
+        }
+        match (times.as_slice(), last_counts) {
             ([], true) => Ok(Arrangement::Cards),
             ([], false) => self.components(source, width),
-            ([k], false) => Ok(Arrangement::Columns(named(width, *k))),
+            ([k], false) => Ok(Arrangement::Columns(named(width, *k, &[]))),
             ([k, ..], _) => Err(source.error(
                 self.first,
                 0,
@@ -157,6 +196,41 @@ impl Survey {
                 "say what the columns are with `layout`, such as \"t,a\" or \"-,t,a\"; \"a\" if the values follow one another along the rows",
             )),
         }
+    }
+
+    /// Numbers of a row, where they are as many in each.
+    pub(super) fn width(&self) -> usize {
+        self.second_length.min(TIME_AMONG)
+    }
+
+    /// Whether pairs of time and value follow one another along the rows: `t a t a`, of which each
+    /// time is after the one before it, in the row and from row to row, and the values are not.
+    fn pairs_follow(&self, source: &Source<'_>, width: usize) -> Result<bool, GroundMotionError> {
+        if width < 4 || !width.is_multiple_of(2) {
+            return Ok(false);
+        }
+        let mut times = TimeColumn::with_capacity(0);
+        let mut before = [f64::NEG_INFINITY; 2];
+        let mut values_rise = true;
+        let mut count = 0;
+        for line in rows(source) {
+            for (k, (column, field)) in line.fields().enumerate() {
+                let column = column + source.options.skip_columns;
+                let value = source.number(line, column, field)?;
+                let rises = value > before[k % 2];
+                before[k % 2] = value;
+                match k % 2 {
+                    0 if !rises => return Ok(false),
+                    0 => {
+                        count += 1;
+                        times.push(line, value, field);
+                    }
+                    _ => values_rise &= rises,
+                }
+            }
+        }
+        let many = count >= INCREASING_ROWS || count >= 2 * EVEN_ROWS && times.is_even();
+        Ok(many && !values_rise)
     }
 
     /// One series along the rows, unless the rows may be those of several components.
@@ -204,30 +278,98 @@ impl Survey {
         Ok(count >= INCREASING_ROWS || count >= EVEN_ROWS && times.is_even())
     }
 
-    /// A first row of count and step, if the other rows bear it out.
-    fn count_and_step(
+    /// First rows of a count and a step, or of a count, if the other rows bear them out. `declared`:
+    /// the user has said that the values follow one another along the rows.
+    ///
+    /// # Errors
+    /// A first number alone that is the step which the user gives.
+    pub(super) fn head(
         &self,
         source: &Source<'_>,
-    ) -> Result<Option<(usize, f64)>, GroundMotionError> {
-        if self.first_length != 2 || self.rows < 2 {
-            return Ok(None);
-        }
-        let Some(line) = rows(source).next() else {
+        declared: bool,
+    ) -> Result<Option<Head>, GroundMotionError> {
+        let mut lines = rows(source);
+        let (Some(line), Some(next)) = (lines.next(), lines.next()) else {
             return Ok(None);
         };
         let mut fields = line.fields();
-        let (Some((at, count)), Some((_, step))) = (fields.next(), fields.next()) else {
+        let Some((at, first)) = fields.next() else {
             return Ok(None);
         };
-        if count.contains(&b'.') {
+        let column = at + source.options.skip_columns;
+        let value = source.number(line, column, first)?;
+        let whole = |field: &[u8]| {
+            let count = number::parse(field)
+                .ok()
+                .filter(|_| !field.contains(&b'.'))?;
+            let is_count = count.fract() == 0.0 && (2.0..1.0e9).contains(&count);
+            is_count.then_some(count as usize)
+        };
+        let is_step = |step: f64| step > 0.0 && step <= 1.0;
+        let step_in = |field: &[u8]| number::parse(field).ok().filter(|step| is_step(*step));
+        if self.first_length == 2 {
+            let step = fields.next().and_then(|(_, field)| step_in(field));
+            let rest = self.numbers - 2;
+            return Ok(whole(first).zip(step).and_then(|(count, step)| {
+                let unlike = self.second_length != 2 && !declared;
+                (unlike || rest == count).then_some(Head {
+                    rows: 1,
+                    count,
+                    step: Some(step),
+                })
+            }));
+        }
+        if self.first_length != 1 {
             return Ok(None);
         }
-        let count = source.number(line, at, count)?;
-        let step = number::parse(step).unwrap_or(0.0);
-        let plausible = count.fract() == 0.0 && (2.0..1.0e9).contains(&count);
-        let rest = self.numbers - 2;
-        let borne_out = self.second_length != 2 || rest == count as usize;
-        Ok((plausible && step > 0.0 && step <= 1.0 && borne_out).then_some((count as usize, step)))
+        // A whole number may be the first of samples that are whole numbers.
+        let pointed = |skipped: usize| {
+            let mut others = rows(source).skip(skipped).flat_map(|l| l.fields());
+            others.all(|(_, field)| field.contains(&b'.'))
+        };
+        let sure = |count: usize, skipped: usize| count >= SURE_COUNT || pointed(skipped);
+        let second = next.fields().next().filter(|_| self.second_length == 1);
+        if let Some((_, second)) = second {
+            let either = [(first, second), (second, first)];
+            let both = |(count, step): (&[u8], &[u8])| whole(count).zip(step_in(step));
+            let fits = |(count, _): &(usize, f64)| count + 2 == self.numbers && sure(*count, 2);
+            if let Some((count, step)) = either.into_iter().filter_map(both).find(fits) {
+                return Ok(Some(Head {
+                    rows: 2,
+                    count,
+                    step: Some(step),
+                }));
+            }
+        }
+        let alone = |count: &usize| {
+            let fits = count + 1 == self.numbers && sure(*count, 1);
+            // Another count of samples is said of them.
+            let along = self.second_length == 1 || self.second_length > 3;
+            fits || along && *count >= SURE_COUNT && pointed(1)
+        };
+        if let Some(count) = whole(first).filter(alone) {
+            return Ok(Some(Head {
+                rows: 1,
+                count,
+                step: None,
+            }));
+        }
+        let given = |step: f64| (value - step).abs() <= 1.0e-9 * step;
+        let said = declared && self.second_length == 1;
+        if source.options.time_step.is_some_and(given) && !said {
+            return Err(source.error(
+                line.number,
+                column,
+                format!(
+                    "the first value, {value}, stands alone and is the time step that is given: the step, or the first sample?"
+                ),
+                &format!(
+                    "pass it over if it is the step: `skip_lines = {0}` in [ground_motion] of a case, `--skip-lines {0}` with `pounding motion`; if it is the first sample of one value a row, say so by `layout = \"a\"`",
+                    line.number
+                ),
+            ));
+        }
+        Ok(None)
     }
 
     /// Whether the first column increases from row to row, as times do, and starts
@@ -255,11 +397,13 @@ impl Survey {
     }
 }
 
-/// Names of so many columns, of which one (from 0) holds the times.
-fn named(width: usize, time: usize) -> Vec<String> {
-    let name = |k: usize| match (k == time, width) {
+/// Names of so many columns, of which one (from 0) holds the times and some are passed over.
+fn named(width: usize, time: usize, passed: &[usize]) -> Vec<String> {
+    let values = width - 1 - passed.len();
+    let name = |k: usize| match (k == time, values) {
         (true, _) => "t".to_owned(),
-        (false, 2) => "a".to_owned(),
+        (false, _) if passed.contains(&k) => "-".to_owned(),
+        (false, 1) => "a".to_owned(),
         (false, _) => format!("column_{}", k + 1),
     };
     (0..width).map(name).collect()
@@ -275,11 +419,16 @@ fn none_touch(source: &Source<'_>) -> Result<(), GroundMotionError> {
     Ok(())
 }
 
-/// Whether the last column counts 1, 2, 3, ...
-fn last_counts(source: &Source<'_>) -> bool {
+/// Whether a column (from 0; `None`: the last of each row) counts on from a number: 1, 2, 3, ...
+fn counts(source: &Source<'_>, k: Option<usize>, from: usize) -> bool {
     rows(source).enumerate().all(|(i, line)| {
-        line.fields().last().is_some_and(|(_, f)| {
-            !f.contains(&b'.') && number::parse(f).is_ok_and(|n| n == (i + 1) as f64)
+        let mut fields = line.fields();
+        let field = match k {
+            Some(k) => fields.nth(k),
+            None => fields.last(),
+        };
+        field.is_some_and(|(_, f)| {
+            !f.contains(&b'.') && number::parse(f).is_ok_and(|n| n == (i + from) as f64)
         })
     })
 }

@@ -289,6 +289,148 @@ fn widths_are_those_of_gap() {
     }
 }
 
+/// The README's pair with a building on its left, as stiff as the heavy one and as near to it as is
+/// said (mm).
+fn row_of_three(left: f64) -> String {
+    let case =
+        std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml")).unwrap();
+    let first = "[[building]]\nname = \"first\"\nstoreys = 3\nmass = \"1000 t\"\nstiffness = \"1800 MN/m\"\nheight = \"3 m\"\ndamping = { stiffness_proportional = 0.05 }\n\n";
+    let gap = format!(
+        "[[gap]]\nname = \"first, light\"\nbetween = [\"first\", \"light\"]\nwidth = \"{left} mm\"\nmodel = \"stereomechanical\"\nrestitution = 0.65\n\n"
+    );
+    case.replacen("[[building]]", &format!("{first}[[building]]"), 1)
+        .replacen("[[gap]]", &format!("{gap}[[gap]]"), 1)
+        .replacen("31 s", "8 s", 1)
+}
+
+/// What a sweep says of a gap in a row is what `run` says of that gap at these widths, whatever
+/// happens in the others. Velocity jumps have no force, also where a contact lasts in between.
+#[test]
+fn sweeps_of_a_row_are_of_their_gap() {
+    let widths = [0.0, 0.03, 0.4];
+    let mut requests = of_the_pair(vec![
+        json!({ "do": "open", "name": "case.toml", "$text": row_of_three(20.0) }),
+    ]);
+    for gap in [0, 1] {
+        requests.push(json!({ "do": "sweep", "changes": [], "gap": gap, "widths": widths }));
+        requests.extend(widths.map(|width| {
+            let change = json!({ "path": format!("gap.{gap}.width"), "value": width });
+            json!({ "do": "run", "changes": [change], "frames": 0 })
+        }));
+    }
+    let answers = natively(&requests);
+    let mut counts = Vec::new();
+    for (gap, of_gap) in answers[3..].chunks(4).enumerate() {
+        let columns = &of_gap[0]["columns"];
+        for (i, run) in of_gap[1..].iter().enumerate() {
+            let levels = run["summary"]["gaps"][gap]["levels"].as_array().unwrap();
+            let sum = |of: &str| -> f64 { levels.iter().filter_map(|l| l[of].as_f64()).sum() };
+            let forces = levels
+                .iter()
+                .filter_map(|l| l["peak_force"]["peak"].as_f64());
+            assert_eq!(columns["impacts"][i].as_f64(), Some(sum("impacts")));
+            assert_eq!(
+                columns["impact_energy"][i].as_f64(),
+                Some(sum("energy_dissipated"))
+            );
+            let jumps = gap == 0 && sum("impacts") > 0.0;
+            let force = forces.reduce(f64::max).filter(|_| !jumps);
+            assert_eq!(columns["peak_force"][i].as_f64(), force, "{gap} {i}");
+            counts.push(sum("impacts"));
+        }
+    }
+    // The other gap of the row goes on as it was.
+    assert!(
+        counts[1] > 0.0 && counts[2] == 0.0 && counts[5] == 0.0,
+        "{counts:?}"
+    );
+    if let Some(module) = under_node(&requests) {
+        for (ours, theirs) in answers.iter().zip(&module).skip(3) {
+            same(&theirs["columns"], &ours["columns"], "columns");
+        }
+    }
+}
+
+/// What a page of a case says to expressions of JavaScript, once it has run the case and the widths
+/// of its gap; `None` where nothing opens pages.
+fn asked_of_page(case: &str, expressions: &[&str]) -> Option<Vec<Value>> {
+    let named = ["POUNDING_PYTHON", "POUNDING_CHROMIUM"].map(std::env::var_os);
+    let [Some(python), Some(_)] = named else {
+        eprintln!(
+            "skipped: POUNDING_PYTHON or POUNDING_CHROMIUM names no program, no page was opened"
+        );
+        return None;
+    };
+    if !has_module() {
+        return None;
+    }
+    let bench = Bench::with(&case.replace("../../ground_motions", "MOTIONS"));
+    bench.text("explore case.toml -o page.html");
+    let output = Command::new(python)
+        .arg(root().join("tests/python/ask_page.py"))
+        .arg(bench.folder().join("page.html"))
+        .args(expressions)
+        .output()
+        .unwrap();
+    let told = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{told}");
+    Some(serde_json::from_slice(&output.stdout).unwrap())
+}
+
+/// The text of a part of the page.
+fn part(name: &str) -> String {
+    format!("document.querySelector('[data-part={name}]').textContent")
+}
+
+/// Chooses what the curves are of, and waits until they are drawn.
+fn choose(quantity: &str) -> String {
+    format!(
+        "(async () => {{ const {{ dataset }} = document.documentElement; const before = dataset.runs;\
+         const select = document.querySelector('[data-part=quantity]'); select.value = '{quantity}'; select.dispatchEvent(new Event('change'));\
+         while (dataset.runs === before) await new Promise((next) => setTimeout(next, 50));\
+         await new Promise((next) => requestAnimationFrame(next)); }})()"
+    )
+}
+
+/// The curve and the file of a gap in a row name it.
+#[test]
+fn page_names_the_gap_of_its_curve() {
+    let heading = part("heading-sweep");
+    let file = "(async () => { let given = null; const made = URL.createObjectURL.bind(URL); URL.createObjectURL = (blob) => { given = blob; return made(blob); };\
+                document.querySelector('[data-part=sweep-csv]').click(); return (await given.text()).split('\\n'); })()";
+    let choose = choose("amplification");
+    let chart = part("sweep");
+    let Some(told) = asked_of_page(
+        &row_of_three(20.0),
+        &["@print", &heading, &chart, file, &choose, &chart],
+    ) else {
+        return;
+    };
+    assert_eq!(told[0], "All widths of gap first, light");
+    let chart = told[1].as_str().unwrap();
+    assert!(
+        chart.starts_with("impacts of gap first, light alone"),
+        "{chart}"
+    );
+    assert!(chart.contains("width of gap first, light (mm)"), "{chart}");
+    let lines = told[2].as_array().unwrap();
+    let head = lines[0].as_str().unwrap();
+    assert!(
+        head.starts_with("gap,model,width,impacts,peak_force,"),
+        "{head}"
+    );
+    let line = lines[1].as_str().unwrap();
+    assert!(
+        line.starts_with("\"first, light\",stereomechanical,"),
+        "{line}"
+    );
+    let chart = told[4].as_str().unwrap();
+    assert!(
+        chart.starts_with("amplification of the displacement (-), largest of the whole row"),
+        "{chart}"
+    );
+}
+
 /// Four things are wrong in it: a unit, a ratio, the name of a model, and the record is missing.
 const BROKEN_CASE: &str = "[[building]]\nname = \"a\"\nstoreys = 1\nmass = \"25 t\"\nstiffness = \"3 MN\"\nheight = \"3 m\"\ndamping = { ratio = 2 }\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = \"20 mm\"\nmodel = \"jankowsky_2005\"\n[ground_motion]\nfile = \"missing.csv\"\n";
 

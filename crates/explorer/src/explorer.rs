@@ -69,7 +69,7 @@ impl Explorer {
     /// - `run`: run it, with at most so many `frames` of its motion;
     /// - `widths`: the widths that records, codes and combination rules ask for;
     /// - `calibrate`: the parameters with which `model` is like the model of `gap`;
-    /// - `sweep`: runs at `widths` (m) of `gap`, or of all gaps.
+    /// - `sweep`: runs at `widths` (m) of `gap`, with what happens in it, or of all gaps together.
     ///
     /// All but the first three take `changes` of the case, each `{path, value}`, `{absent}` (the path
     /// of what is left out), `{gap, keys}` or `{record}`; nothing of them is kept. What is wrong is an answer too, see [`Answer::text`].

@@ -26,6 +26,8 @@ const elements = (() => {
     if (size !== 0 && (size < 1e-3 || size >= 1e6)) return x.toExponential(digits - 1).replace("e+", "e");
     return String(rounded);
   };
+  // A text as a value of a table of comma-separated values.
+  const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
   // A number without the noise of a change of units.
   const clean = (x) => Number(x.toPrecision(12));
   // At most this many even steps between two values.
@@ -57,5 +59,5 @@ const elements = (() => {
     link.remove();
     setTimeout(() => URL.revokeObjectURL(address), 60000);
   };
-  return { part, html, svg, shown, clean, ticks, more, save };
+  return { part, html, svg, shown, quoted, clean, ticks, more, save };
 })();

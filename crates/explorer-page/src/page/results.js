@@ -1,7 +1,7 @@
 "use strict";
 // The answer of the run: in numbers, storey by storey, and its impacts over time.
 const resultsOf = (documentation) => {
-  const { part, html, svg, shown, ticks, more } = elements;
+  const { part, html, svg, shown, quoted, ticks, more } = elements;
   const GAP_CHECK = "reference/gap-check.md";
   const RESULT = "reference/result-file.md";
   const most = (values) => values.reduce((m, x) => (x > m ? x : m), 0);
@@ -132,12 +132,11 @@ const resultsOf = (documentation) => {
         .join("; "),
     // Peaks of the run as a table of comma-separated values, in SI.
     csv: (run) => {
-      const quote = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
       const lines = [["building", "storey", ...QUANTITIES.flatMap(([key]) => [key, `${key}_isolated`, `${key}_amplification`])].join(",")];
       run.summary.buildings.forEach((building, b) =>
         building.storeys.forEach((with_, s) => {
           const cells = QUANTITIES.flatMap(([key]) => [with_[key].peak, building.isolated[s][key].peak, run.amplification[b][s][key]]);
-          lines.push([quote(building.name), s + 1, ...cells.map((x) => x ?? "")].join(","));
+          lines.push([quoted(building.name), s + 1, ...cells.map((x) => x ?? "")].join(","));
         }),
       );
       return `${lines.join("\n")}\n`;

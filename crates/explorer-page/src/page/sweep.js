@@ -3,7 +3,9 @@
 // for each model beside it. Widths grow from right to left of what is known: the curve is drawn as
 // it comes.
 const sweepOf = (state, background, dashes, actions) => {
-  const { part, html, svg, shown, clean, ticks, save } = elements;
+  const { part, html, svg, shown, clean, ticks, save, quoted } = elements;
+  // What a quantity is called, what its unit is in SI, its values, and whether it is of the whole
+  // row where one gap of several varies.
   const QUANTITIES = {
     impacts: ["impacts", 1, (columns) => columns.impacts],
     peak_force: ["peak contact force (kN)", 1e-3, (columns) => columns.peak_force],
@@ -14,6 +16,7 @@ const sweepOf = (state, background, dashes, actions) => {
         const buildings = Object.keys(columns).filter((name) => name.startsWith("displacement_"));
         return columns.width.map((_, i) => Math.max(...buildings.map((name) => columns[name][i])));
       },
+      true,
     ],
     impact_energy: ["energy dissipated in contacts (kJ)", 1e-3, (columns) => columns.impact_energy],
   };
@@ -26,6 +29,8 @@ const sweepOf = (state, background, dashes, actions) => {
   let asked = null;
   let finished = null;
   let widths = null;
+  // Names of the gaps, as controls have them.
+  let named = [];
   // Curves by the name of their model, and the case that they are of.
   let curves = new Map();
   let done = [0, 0];
@@ -60,9 +65,22 @@ const sweepOf = (state, background, dashes, actions) => {
     return Object.fromEntries(Object.entries(columns).map(([name, values]) => [name, Float64Array.from(places, (i) => values[i])]));
   };
 
+  // A gap of several is named wherever the curves are: what is chosen is not on paper, and the
+  // largest of a row is not that of the gap.
+  const several = () => named.length > 1;
+  const nameOf = (gap) => (several() ? (named[gap] || "").replace(/^Gap/, "gap") : "the gap");
+  // A text of a picture so wide, whole where it is pointed at.
+  const fitting = (text, width, place) => {
+    const most = Math.max(12, Math.floor(width / 6.6));
+    const short = text.length > most ? `${text.slice(0, most - 1)}…` : text;
+    return svg("text", place, short, short === text ? null : svg("title", {}, text));
+  };
+
   const draw = () => {
     const { quantity, gap } = state.get();
-    const [title, factor, of] = QUANTITIES[quantity] || QUANTITIES.impacts;
+    const [what, factor, of, ofRow] = QUANTITIES[quantity] || QUANTITIES.impacts;
+    const title = several() ? `${what}${ofRow ? ", largest of the whole row" : ` of ${nameOf(gap)} alone`}` : what;
+    part("heading-sweep").textContent = `All widths of ${nameOf(gap)}`;
     const picture = part("sweep");
     const [width, height] = [picture.clientWidth || 640, 380];
     const [left, right, top, bottom] = [64, 14, 24, height - 40];
@@ -82,7 +100,7 @@ const sweepOf = (state, background, dashes, actions) => {
     high = high || 1;
     const across = (x) => left + (x / far) * (width - left - right);
     const up = (y) => bottom - (y / high) * (bottom - top);
-    const drawn = [svg("text", { x: left, y: 14 }, title)];
+    const drawn = [fitting(title, width - left - right, { x: left, y: 14 })];
     for (const y of ticks(0, high, 5)) {
       drawn.push(svg("path", { class: "axis", d: `M${left} ${up(y)}H${width - right}` }));
       drawn.push(svg("text", { x: left - 6, y: up(y) + 4, "text-anchor": "end" }, shown(y)));
@@ -90,7 +108,7 @@ const sweepOf = (state, background, dashes, actions) => {
     for (const x of ticks(0, 1e3 * far, Math.max(3, Math.floor(width / 90)))) {
       drawn.push(svg("text", { x: across(1e-3 * x), y: bottom + 16, "text-anchor": "middle" }, String(x)));
     }
-    drawn.push(svg("text", { x: (left + width) / 2, y: height - 6, "text-anchor": "middle" }, "width of the gap (mm)"));
+    drawn.push(fitting(`width of ${nameOf(gap)} (mm)`, width - left - right, { x: (left + width) / 2, y: height - 6, "text-anchor": "middle" }));
     marks.forEach(([x, name, kind]) => {
       const line = svg("path", { ...mark(kind), d: `M${across(x)} ${top}V${bottom}` });
       drawn.push(svg("g", {}, svg("title", {}, `${name}: ${shown(1e3 * x)} mm`), line));
@@ -112,7 +130,7 @@ const sweepOf = (state, background, dashes, actions) => {
     }
     picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
     picture.replaceChildren(...drawn);
-    picture.setAttribute("aria-label", `${title} over widths of the gap up to ${shown(1e3 * far)} mm, ${lines.length} models`);
+    picture.setAttribute("aria-label", `${title} over widths of ${nameOf(gap)} up to ${shown(1e3 * far)} mm, ${lines.length} models`);
     const legend = lines.map(({ name }, i) => [looks(i), name]);
     if (Number.isFinite(provided)) legend.push([{ class: "now" }, `provided, ${shown(1e3 * provided)} mm`]);
     if (marks.length) {
@@ -290,11 +308,12 @@ const sweepOf = (state, background, dashes, actions) => {
     image.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(new XMLSerializer().serializeToString(whole))}`;
   };
   const csv = () => {
+    const of = (named[state.get().gap] || "").replace(/^Gap /, "");
     const lines = [];
     for (const [name, columns] of curves) {
       const names = Object.keys(columns);
-      if (!lines.length) lines.push(["model", ...names].join(","));
-      columns.width.forEach((_, i) => lines.push([name, ...names.map((n) => (Number.isFinite(columns[n][i]) ? columns[n][i] : ""))].join(",")));
+      if (!lines.length) lines.push(["gap", "model", ...names].join(","));
+      columns.width.forEach((_, i) => lines.push([quoted(of), name, ...names.map((n) => (Number.isFinite(columns[n][i]) ? columns[n][i] : ""))].join(",")));
     }
     return `${lines.join("\n")}\n`;
   };
@@ -310,6 +329,7 @@ const sweepOf = (state, background, dashes, actions) => {
   // The models that can be drawn beside the gap's own, and the gaps.
   const choices = (models, gaps) => {
     const { overlays, quantity, gap } = state.get();
+    named = gaps;
     const boxes = models.map((model) => {
       const box = html("input", { type: "checkbox", value: model.name });
       box.checked = overlays.includes(model.name);

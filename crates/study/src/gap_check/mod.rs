@@ -37,7 +37,10 @@ pub use spectra::{SuiteSpectra, SuiteTarget};
 pub use statistics::binomial_bounds;
 pub use suite::SuiteStatistics;
 pub use suite_spectrum::{MeanSpectrum, SuiteSpectrum};
-pub use sweep::{GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_widths, widest};
+pub use sweep::{
+    GapRun, GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_widths, gaps_at_width,
+    widest,
+};
 
 #[cfg(feature = "results")]
 pub(crate) use demand::closes;

@@ -3,7 +3,8 @@
 use std::sync::Arc;
 
 use pounding_time_history::{
-    BuildingOutcome, Recorder, RelativeDisplacement, RunOptions, System, run,
+    BuildingOutcome, ContactLevel, Gap, GapOutcome, LevelOutcome, Recorder, RelativeDisplacement,
+    RunOptions, System, run,
 };
 
 use super::collapse::collapsed_building;
@@ -333,6 +334,60 @@ pub fn at_width(
     (width, gap): (f64, Option<usize>),
     recorders: &mut [&mut dyn Recorder],
 ) -> Result<SweepRun, String> {
+    let run = gaps_at_width((system, options), isolated, (width, gap), recorders);
+    run.map(|(whole, _)| whole)
+}
+
+/// What happened in one gap of a run.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapRun {
+    /// Impacts at all levels.
+    pub impacts: usize,
+    /// Maximum contact force (N); NaN where velocities jump at impacts: what rigid floors have
+    /// is the force that holds them together where contact lasts.
+    pub peak_force: f64,
+    /// Energy dissipated in its contacts (J).
+    pub impact_energy: f64,
+}
+
+impl GapRun {
+    fn of(system: &System, gap: &Gap, outcome: &GapOutcome) -> Self {
+        let hit = outcome.levels.iter().zip(system.levels_of(gap));
+        let hit = hit.filter(|(outcome, _)| outcome.impacts > 0);
+        let force = |(outcome, level): (&LevelOutcome, &ContactLevel)| {
+            let jumps = level.model.rigid_restitution().is_some();
+            if jumps {
+                f64::NAN
+            } else {
+                outcome.peak_force.value
+            }
+        };
+        // Of a force and none there is no largest.
+        let largest = |m: f64, f: f64| {
+            if f.is_nan() || m.is_nan() {
+                f64::NAN
+            } else {
+                m.max(f)
+            }
+        };
+        Self {
+            impacts: outcome.levels.iter().map(|l| l.impacts).sum(),
+            peak_force: hit.map(force).fold(0.0, largest),
+            impact_energy: outcome.levels.iter().map(|l| l.energy_dissipated).sum(),
+        }
+    }
+}
+
+/// The same as [`at_width`], with what happened in each gap.
+///
+/// # Errors
+/// Why it failed, in words.
+pub fn gaps_at_width(
+    (system, options): (&System, &RunOptions),
+    isolated: &[BuildingOutcome],
+    (width, gap): (f64, Option<usize>),
+    recorders: &mut [&mut dyn Recorder],
+) -> Result<(SweepRun, Vec<GapRun>), String> {
     let system = rebuilt(system, |index, level| {
         let varies = gap.is_none_or(|g| g == index);
         let width = if varies { width } else { level.width };
@@ -347,7 +402,10 @@ pub fn at_width(
         .map(|l| l.peak_force.value);
     let jumps = levels().any(|l| l.impacts > 0 && l.peak_force.value.is_nan());
     let peak_force = forces.fold(0.0, f64::max);
-    Ok(SweepRun {
+    let of_gaps = system.gaps().iter().zip(&outcome.gaps);
+    let of_gaps = of_gaps.map(|(gap, outcome)| GapRun::of(&system, gap, outcome));
+    let of_gaps = of_gaps.collect();
+    let whole = SweepRun {
         amplification: amplification(&outcome.buildings, isolated),
         impacts: levels().map(|l| l.impacts).sum(),
         peak_force: if jumps && peak_force == 0.0 {
@@ -356,5 +414,6 @@ pub fn at_width(
             peak_force
         },
         impact_energy: levels().map(|l| l.energy_dissipated).sum(),
-    })
+    };
+    Ok((whole, of_gaps))
 }

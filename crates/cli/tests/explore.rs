@@ -431,6 +431,67 @@ fn page_names_the_gap_of_its_curve() {
     );
 }
 
+/// Of a gap whose widths differ by level the page shows the level with the least to spare, and all
+/// of them, also on paper; its curves are of one width, so that the widths of the case have no line
+/// among them.
+#[test]
+fn page_shows_the_governing_level() {
+    let case =
+        std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml")).unwrap();
+    let [equal, by_level] = ["\"20 mm\"", "[\"60 mm\", \"100 mm\", \"130 mm\"]"].map(|width| {
+        case.replacen("\"20 mm\"", width, 1)
+            .replacen("31 s", "12 s", 1)
+    });
+    let open = |text: &str| json!({ "do": "open", "name": "case.toml", "$text": text });
+    let run = json!({ "do": "run", "changes": [], "frames": 0 });
+    let answers = natively(&of_the_pair(vec![open(&equal), open(&by_level), run]));
+    let width = |answer: &Value| answer["controls"][0].clone();
+    assert_eq!(width(&answers[2])["kind"], "number");
+    assert_eq!(width(&answers[3])["kind"], "fixed");
+    assert_eq!(width(&answers[3])["value"], json!([0.06, 0.1, 0.13]));
+    assert_eq!(answers[4]["levels"], json!([["1-1", "2-2", "3-3"]]));
+    let result = |name: &str| {
+        format!(
+            "(({{ parentElement }}) => [...parentElement.children].slice(0, 2).map((e) => e.textContent))(document.querySelector('[data-result={name}]'))"
+        )
+    };
+    let [demand, width] = ["demand", "width"].map(result);
+    let levels = "[...document.querySelectorAll('[data-levels] tbody tr')].map((row) => row.checkVisibility() && [...row.children].map((e) => e.textContent))";
+    let fixed = "(({ textContent, clientHeight }) => clientHeight > 0 && textContent)(document.querySelector('[data-fixed] .value'))";
+    let [legend, remarks] = ["legend", "remarks"].map(part);
+    let provided = "document.querySelectorAll('[data-part=sweep] .now').length";
+    let expressions = [
+        &demand, &width, "@print", levels, fixed, &remarks, &legend, provided,
+    ];
+    let Some(told) = asked_of_page(&by_level, &expressions) else {
+        return;
+    };
+    assert_eq!(told[0], json!(["Gap demand at level 2-2", "91.81 mm"]));
+    assert_eq!(told[1], json!(["Provided width at level 2-2", "100 mm"]));
+    let rows = json!([
+        ["1-1", "60", "49.45", "0"],
+        ["2-2", "100", "91.81", "0"],
+        ["3-3", "130", "117.2", "0"],
+    ]);
+    assert_eq!(told[2], rows);
+    assert_eq!(told[3], "60, 100, 130 mm");
+    assert!(
+        told[4]
+            .as_str()
+            .unwrap()
+            .contains("one width at all levels")
+    );
+    assert!(!told[5].as_str().unwrap().contains("provided"));
+    assert_eq!(told[6], 0);
+    let told = asked_of_page(&equal, &[&demand, &width, levels, &remarks, provided]).unwrap();
+    assert_eq!(told[0], json!(["Gap demand", "117.2 mm"]));
+    assert_eq!(told[1], json!(["Provided width", "20 mm"]));
+    assert_eq!(
+        [&told[2], &told[3], &told[4]],
+        [&json!([]), &json!(""), &json!(1)]
+    );
+}
+
 /// Four things are wrong in it: a unit, a ratio, the name of a model, and the record is missing.
 const BROKEN_CASE: &str = "[[building]]\nname = \"a\"\nstoreys = 1\nmass = \"25 t\"\nstiffness = \"3 MN\"\nheight = \"3 m\"\ndamping = { ratio = 2 }\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = \"20 mm\"\nmodel = \"jankowsky_2005\"\n[ground_motion]\nfile = \"missing.csv\"\n";
 

@@ -28,7 +28,8 @@ struct Control {
     label: String,
     /// Where it stands in the case.
     path: String,
-    /// `number`, `list` of one number a storey, `model`, `record` or `component` of it.
+    /// `number`, `list` of one number a storey, `model`, `record` or `component` of it; `fixed`
+    /// for values that the page shows and does not move.
     kind: &'static str,
     /// Unit that it is shown and written in; empty for SI.
     unit: String,
@@ -122,16 +123,18 @@ fn of_gap(schema: &Value, index: usize, gap: &Gap) -> Vec<Control> {
     let mut controls = Vec::new();
     let first = gap.levels.first().map(|level| level.width);
     let same = gap.levels.iter().all(|level| Some(level.width) == first);
-    if let Some(width) = first.filter(|_| same) {
+    if let Some(width) = first {
+        let all: Vec<f64> = gap.levels.iter().map(|level| level.width).collect();
         controls.push(Control {
             group: group.clone(),
             label: "width".to_owned(),
             path: format!("{path}.width"),
-            kind: "number",
+            // One slider is of one width.
+            kind: if same { "number" } else { "fixed" },
             unit: "mm".to_owned(),
             factor: 1.0e-3,
-            value: json!(width),
-            slider: Some([0.0, (3.0 * width).max(0.05)]),
+            value: if same { json!(width) } else { json!(all) },
+            slider: same.then_some([0.0, (3.0 * width).max(0.05)]),
             logarithmic: false,
             optional: false,
             default: None,

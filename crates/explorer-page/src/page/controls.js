@@ -171,9 +171,20 @@ const controlsOf = (state, documentation, actions) => {
     );
   };
 
+  // Values that the page shows and does not move.
+  const fixed = (control) =>
+    html(
+      "div",
+      { class: "control", "data-fixed": control.path },
+      html("span", {}, `${control.label}, by level`),
+      html("span", { class: "value" }, `${control.value.map((x) => clean(x / control.factor)).join(", ")} ${control.unit}`),
+      html("p", { class: "note" }, "Widths that differ by level are not moved here, the case file says them. ", more(documentation, control.page)),
+    );
+
   const made = {
     number,
     list,
+    fixed,
     model: (control) => {
       const options = actions.models().map((model) => [model.name, model.recommended ? `${model.name} (recommended)` : model.name]);
       const chosen = actions.models().find((model) => model.name === control.value);

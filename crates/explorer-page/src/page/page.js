@@ -276,10 +276,12 @@
   }
   sweep = sweepOf(state, solver.background, data.dashes, {
     changed: downloads,
+    // The width of all levels of a gap; none where they differ.
     provided: (gap) => {
-      if (!run || !run.summary.gaps[gap]) return NaN;
-      return Math.min(...run.summary.gaps[gap].levels.map((level) => level.width));
+      const [first, ...others] = (run && run.summary.gaps[gap]?.levels) || [];
+      return first && others.every((level) => level.width === first.width) ? first.width : NaN;
     },
+    differ: (gap) => run !== null && results.differ(run.summary.gaps[gap]?.levels || []),
     model: modelOf,
     opened: () => opened.number,
     demanded: (gaps) =>

@@ -6,20 +6,49 @@ const resultsOf = (documentation) => {
   const RESULT = "reference/result-file.md";
   const most = (values) => values.reduce((m, x) => (x > m ? x : m), 0);
 
+  const differ = (levels) => levels.some((level) => level.width !== levels[0].width);
+  // The level of a gap with the least to spare: its demand and its width are those that say whether
+  // the gap is wide enough.
+  const governing = (run, index) => {
+    const spare = run.summary.gaps[index].levels.map((level, i) => level.width - (run.demand[index][i].peak ?? NaN));
+    return spare.reduce((least, x, i) => (least < 0 || x < spare[least] ? i : least), -1);
+  };
+
   // The numbers of a gap, each with what it is.
   const numbersOf = (run, index) => {
     const gap = run.summary.gaps[index];
     const levels = gap.levels;
-    const demand = most(run.demand[index].map((peak) => peak.peak));
-    const width = Math.min(...levels.map((level) => level.width));
+    const at = governing(run, index);
+    const demand = at < 0 ? NaN : run.demand[index][at].peak ?? NaN;
+    const width = at < 0 ? NaN : levels[at].width;
+    const level = run.levels[index][at];
+    const name = differ(levels) ? ` at level ${level}` : "";
+    const where = levels.length > 1 ? `, at level ${level}${differ(levels) ? ", which has the least to spare" : ""}` : "";
+    const widthOf = differ(levels) ? `the width at rest of level ${level}; those of the others are below` : "the width of the gap at rest";
     const force = most(levels.map((level) => level.peak_force.peak ?? NaN));
     const impacts = levels.reduce((sum, level) => sum + level.impacts, 0);
     return [
-      ["demand", "Gap demand", `${shown(1e3 * demand)} mm`, "the width that the buildings without contact would just not close", GAP_CHECK],
-      ["width", "Provided width", `${shown(1e3 * width)} mm`, "the width of the gap at rest, at its narrowest level", "reference/case-file.md"],
+      ["demand", `Gap demand${name}`, `${shown(1e3 * demand)} mm`, `the width that the buildings without contact would just not close${where}`, GAP_CHECK],
+      ["width", `Provided width${name}`, `${shown(1e3 * width)} mm`, widthOf, "reference/case-file.md"],
       ["impacts", "Impacts", String(impacts), "how often floors came into contact, at all levels", RESULT],
       ["force", "Peak contact force", force > 0 ? `${shown(1e-3 * force)} kN` : impacts ? "none: velocities jump" : "none", "the largest force of all impacts", RESULT],
     ];
+  };
+  // Widths that differ by level, each with what its level demands and how often it closed.
+  const levelsOf = (run, index) => {
+    const { levels } = run.summary.gaps[index];
+    if (!differ(levels)) return null;
+    const head = ["level", "width (mm)", "demand (mm)", "impacts"].map((word) => html("th", { scope: "col" }, word));
+    const rows = levels.map((level, i) =>
+      html(
+        "tr",
+        {},
+        html("th", { scope: "row" }, run.levels[index][i]),
+        ...[shown(1e3 * level.width), shown(1e3 * (run.demand[index][i].peak ?? NaN)), String(level.impacts)].map((text) => html("td", {}, text)),
+      ),
+    );
+    const table = html("table", {}, html("thead", {}, html("tr", {}, ...head)), html("tbody", {}, ...rows));
+    return html("div", { class: "wide", "data-levels": index, tabindex: 0, role: "region", "aria-label": "Levels of the gap" }, table);
   };
   const whole = (run) => {
     const all = run.amplification.flat();
@@ -112,13 +141,15 @@ const resultsOf = (documentation) => {
   };
 
   return {
+    // Whether levels of a gap have not all the same width.
+    differ,
     // For a window of another size.
     redraw: () => last && impacts(last),
     show: (run) => {
       last = run;
       const gaps = run.summary.gaps.map((gap, i) => {
         const cards = numbersOf(run, i).map((number) => card(number, i));
-        return html("div", {}, run.summary.gaps.length > 1 ? html("h3", {}, `Gap ${gap.name}`) : null, html("dl", { class: "numbers" }, ...cards));
+        return html("div", {}, run.summary.gaps.length > 1 ? html("h3", {}, `Gap ${gap.name}`) : null, html("dl", { class: "numbers" }, ...cards), levelsOf(run, i));
       });
       part("numbers").replaceChildren(...gaps, html("dl", { class: "numbers" }, ...whole(run).map((number) => card(number))));
       part("storeys").replaceChildren(storeys(run));

@@ -138,6 +138,9 @@ const sweepOf = (state, background, dashes, actions) => {
         legend.push([mark(kind), text]);
       }
     }
+    const remarks = [];
+    if (actions.differ(gap)) remarks.push("The levels of this gap have different widths: a curve is of one width at all levels, and the widths of the case have no place on it.");
+    part("remarks").replaceChildren(...remarks.map((text) => html("p", { class: "note" }, text)));
     part("legend").replaceChildren(...legend.map(([look, text]) => html("li", {}, sample(look), text)));
     part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${done[1]} runs` : done[1] ? `${done[1]} runs` : "";
     picture.dataset.done = String(done[0]);

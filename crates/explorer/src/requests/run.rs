@@ -43,6 +43,7 @@ pub(crate) fn answer(prepared: &Prepared, frames: usize) -> Result<Answer, Refus
     answer.say("summary", json!(summary));
     answer.say("scene", scene(system, &outcome));
     answer.say("demand", demands(system, demand.peaks()));
+    answer.say("levels", levels(system));
     answer.say("amplification", amplifications(&outcome, &isolated));
     answer.say("case", case.source.as_str());
     answer.say("excitation", json!(assembly.excitation()));
@@ -119,6 +120,16 @@ fn demands(system: &System, peaks: &[Peak]) -> Value {
     let gaps = system.gaps().iter();
     let levels = gaps.map(|g| &peaks[g.first_level..g.first_level + g.levels]);
     json!(levels.collect::<Vec<_>>())
+}
+
+/// What the levels of every gap are called.
+fn levels(system: &System) -> Value {
+    let gaps = system.gaps().iter();
+    let labels = gaps.map(|gap| {
+        let levels = system.levels_of(gap).iter();
+        levels.map(|level| level.place.label()).collect::<Value>()
+    });
+    labels.collect()
 }
 
 /// Peaks with contact over those without, of each building and storey.

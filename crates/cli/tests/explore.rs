@@ -492,6 +492,66 @@ fn page_shows_the_governing_level() {
     );
 }
 
+/// Where velocities jump the page says once that accelerations leave the jumps out, in the words of
+/// the page of `run`, and shows no force of impacts: that of floors that stay in touch is none.
+#[test]
+fn page_of_rigid_impacts() {
+    let rigid = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"))
+        .unwrap()
+        .replacen("\"20 mm\"", "\"0 mm\"", 1)
+        .replacen("jankowski_2005", "stereomechanical", 1)
+        .replacen("stiffness = \"2.75e9 N/m^1.5\"\n", "", 1)
+        .replacen("damping_ratio = 0.35", "restitution = 0.5", 1)
+        .replacen("31 s", "6 s", 1);
+    let open = json!({ "do": "open", "name": "case.toml", "$text": rigid });
+    let run = |changes: Value| json!({ "do": "run", "changes": changes, "frames": 0 });
+    let wide = json!([{ "path": "gap.0.width", "value": 1 }]);
+    let answers = natively(&of_the_pair(vec![open, run(json!([])), run(wide)]));
+    let said = answers[3]["jumps"][0].as_str().unwrap();
+    assert_eq!(answers[4]["jumps"], json!([null]));
+    let levels = answers[3]["summary"]["gaps"][0]["levels"]
+        .as_array()
+        .unwrap();
+    let held = levels
+        .iter()
+        .filter_map(|l| l["peak_force"]["peak"].as_f64());
+    let held = held.reduce(f64::max).unwrap();
+    assert!(held > 0.0, "{levels:?}");
+    let bench = Bench::with(&rigid.replace("../../ground_motions", "MOTIONS"));
+    bench.text("run case.toml -o case.h5");
+    bench.text("report case.h5 -o run.html");
+    assert!(bench.read("run.html").contains(said), "{said}");
+    let jumps = "[...document.querySelectorAll('[data-jumps]')].map((e) => e.textContent)";
+    let force = "(({ parentElement }) => [...parentElement.children].slice(1).map((e) => e.textContent))(document.querySelector('[data-result=force]'))";
+    let choose = choose("peak_force");
+    // Heights of the curve over the axis.
+    let curve = "document.querySelector('[data-part=sweep] .curve').getAttribute('d').match(/[ML][0-9.]+ [0-9.]+/g).map((place) => Number(place.split(' ')[1]))";
+    let remarks = part("remarks");
+    let Some(told) = asked_of_page(&rigid, &[jumps, force, &remarks, &choose, curve, &remarks])
+    else {
+        return;
+    };
+    assert_eq!(told[0], json!([said]));
+    assert_eq!(told[1][0], "none: velocities jump");
+    let note = told[1][1].as_str().unwrap();
+    assert!(
+        note.contains("held together by") && note.contains("kN at most"),
+        "{note}"
+    );
+    assert_eq!(told[2], "");
+    // Where nothing is hit there is no force, and nowhere else is a curve.
+    let heights: Vec<f64> = serde_json::from_value(told[4].clone()).unwrap();
+    assert!(
+        heights.windows(2).all(|pair| pair[0] == pair[1]),
+        "{heights:?}"
+    );
+    let told = told[5].as_str().unwrap();
+    assert!(
+        told.starts_with("With stereomechanical velocities jump"),
+        "{told}"
+    );
+}
+
 /// Four things are wrong in it: a unit, a ratio, the name of a model, and the record is missing.
 const BROKEN_CASE: &str = "[[building]]\nname = \"a\"\nstoreys = 1\nmass = \"25 t\"\nstiffness = \"3 MN\"\nheight = \"3 m\"\ndamping = { ratio = 2 }\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = \"20 mm\"\nmodel = \"jankowsky_2005\"\n[ground_motion]\nfile = \"missing.csv\"\n";
 

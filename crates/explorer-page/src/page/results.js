@@ -14,6 +14,19 @@ const resultsOf = (documentation) => {
     return spare.reduce((least, x, i) => (least < 0 || x < spare[least] ? i : least), -1);
   };
 
+  // Where velocities jump the largest force is none of an impact.
+  const forceOf = (force, jumps, impacts) => {
+    const kilonewtons = `${shown(1e-3 * force)} kN`;
+    const held = force > 0 ? `; floors that stay in touch are held together by ${kilonewtons} at most` : "";
+    return [
+      "force",
+      "Peak contact force",
+      jumps ? "none: velocities jump" : impacts && force > 0 ? kilonewtons : "none",
+      jumps ? `impacts are jumps of the velocity, which have no force${held}` : "the largest force of all impacts",
+      RESULT,
+    ];
+  };
+
   // The numbers of a gap, each with what it is.
   const numbersOf = (run, index) => {
     const gap = run.summary.gaps[index];
@@ -31,7 +44,7 @@ const resultsOf = (documentation) => {
       ["demand", `Gap demand${name}`, `${shown(1e3 * demand)} mm`, `the width that the buildings without contact would just not close${where}`, GAP_CHECK],
       ["width", `Provided width${name}`, `${shown(1e3 * width)} mm`, widthOf, "reference/case-file.md"],
       ["impacts", "Impacts", String(impacts), "how often floors came into contact, at all levels", RESULT],
-      ["force", "Peak contact force", force > 0 ? `${shown(1e-3 * force)} kN` : impacts ? "none: velocities jump" : "none", "the largest force of all impacts", RESULT],
+      forceOf(force, run.jumps[index] !== null, impacts),
     ];
   };
   // Widths that differ by level, each with what its level demands and how often it closed.
@@ -153,7 +166,11 @@ const resultsOf = (documentation) => {
       });
       part("numbers").replaceChildren(...gaps, html("dl", { class: "numbers" }, ...whole(run).map((number) => card(number))));
       part("storeys").replaceChildren(storeys(run));
-      part("warnings").replaceChildren(...run.summary.warnings.map((text) => html("p", { class: "warning" }, `Warning: ${text}`)));
+      const jumps = [...new Set(run.jumps.filter((text) => text !== null))];
+      part("warnings").replaceChildren(
+        ...jumps.map((text) => html("p", { class: "warning", "data-jumps": true }, text)),
+        ...run.summary.warnings.map((text) => html("p", { class: "warning" }, `Warning: ${text}`)),
+      );
       part("excitation").textContent = run.excitation.join("; ");
       impacts(run);
     },

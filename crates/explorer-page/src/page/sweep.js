@@ -140,6 +140,10 @@ const sweepOf = (state, background, dashes, actions) => {
     }
     const remarks = [];
     if (actions.differ(gap)) remarks.push("The levels of this gap have different widths: a curve is of one width at all levels, and the widths of the case have no place on it.");
+    const jump = [...curves].filter(([, columns]) => columns.impacts.some((count, i) => count > 0 && Number.isNaN(columns.peak_force[i])));
+    if (quantity === "peak_force" && jump.length) {
+      remarks.push(`With ${jump.map(([name]) => name).join(", ")} velocities jump at impacts, which have no force: no curve is drawn where there are some.`);
+    }
     part("remarks").replaceChildren(...remarks.map((text) => html("p", { class: "note" }, text)));
     part("legend").replaceChildren(...legend.map(([look, text]) => html("li", {}, sample(look), text)));
     part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${done[1]} runs` : done[1] ? `${done[1]} runs` : "";

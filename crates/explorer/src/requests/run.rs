@@ -44,6 +44,7 @@ pub(crate) fn answer(prepared: &Prepared, frames: usize) -> Result<Answer, Refus
     answer.say("scene", scene(system, &outcome));
     answer.say("demand", demands(system, demand.peaks()));
     answer.say("levels", levels(system));
+    answer.say("jumps", jumps(system, &outcome));
     answer.say("amplification", amplifications(&outcome, &isolated));
     answer.say("case", case.source.as_str());
     answer.say("excitation", json!(assembly.excitation()));
@@ -130,6 +131,21 @@ fn levels(system: &System) -> Value {
         levels.map(|level| level.place.label()).collect::<Value>()
     });
     labels.collect()
+}
+
+/// What readers of accelerations have to know where velocities jump: the words of other pages.
+const JUMPS: &str = "Rigid impacts are jumps of the velocity: floor accelerations leave them out.";
+
+/// For each gap in which velocities jumped at impacts what that means; `null` for the others.
+fn jumps(system: &System, outcome: &Outcome) -> Value {
+    let gaps = system.gaps().iter().zip(&outcome.gaps);
+    let words = gaps.map(|(gap, outcome)| {
+        let levels = system.levels_of(gap).iter().zip(&outcome.levels);
+        let mut hit = levels.filter(|(_, outcome)| outcome.impacts > 0);
+        let jumped = hit.any(|(level, _)| level.model.rigid_restitution().is_some());
+        jumped.then_some(JUMPS)
+    });
+    json!(words.collect::<Vec<_>>())
 }
 
 /// Peaks with contact over those without, of each building and storey.

@@ -552,6 +552,39 @@ fn page_of_rigid_impacts() {
     );
 }
 
+/// On paper masses and stiffnesses stand in a line, as they are moved, and the picture of the
+/// buildings says its time and its factor.
+#[test]
+fn page_prints_the_values_of_the_case() {
+    let case =
+        std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml")).unwrap();
+    let case = case
+        .replacen("\"25 t\"", "[\"25 t\", \"20 t\", \"15 t\"]", 1)
+        .replacen("31 s", "6 s", 1);
+    let shown = "[...document.querySelectorAll('[data-printed]')].map((e) => e.checkVisibility() && e.textContent)";
+    let halve = "(() => { const slider = document.querySelector('[data-control=\"building.1.mass\"]'); slider.value = '250'; slider.dispatchEvent(new Event('input')); slider.dispatchEvent(new Event('change')); })()";
+    let moved = "document.querySelector('[data-printed=\"building.1.mass\"]').textContent";
+    let figure = "(({ innerText, clientHeight }) => clientHeight > 0 && innerText)(document.querySelector('figcaption'))";
+    let choose = "(() => { document.querySelector('[data-part=play]').click(); const [bar, factor] = ['time', 'magnification'].map((name) => document.querySelector(`[data-part=${name}]`));\
+                  bar.value = '2.5'; bar.dispatchEvent(new Event('input')); factor.value = '20'; factor.dispatchEvent(new Event('change')); })()";
+    let expressions = [shown, choose, "@print", shown, figure, halve, moved];
+    let Some(told) = asked_of_page(&case, &expressions) else {
+        return;
+    };
+    assert_eq!(told[0], json!([false, false, false, false]));
+    let values = [
+        "mass (t), storeys from the bottom: 25, 20, 15",
+        "stiffness (MN/m), each of 3 storeys: 3.46",
+        "mass (t), each of 3 storeys: 1000",
+        "stiffness (MN/m), each of 3 storeys: 2215",
+    ];
+    assert_eq!(told[2], json!(values));
+    let figure = told[3].as_str().unwrap();
+    assert!(figure.starts_with("Elevation at 2.500 s."), "{figure}");
+    assert!(figure.contains("drawn 20 times as wide"), "{figure}");
+    assert_eq!(told[5], "mass (t), each of 3 storeys: 500");
+}
+
 /// Four things are wrong in it: a unit, a ratio, the name of a model, and the record is missing.
 const BROKEN_CASE: &str = "[[building]]\nname = \"a\"\nstoreys = 1\nmass = \"25 t\"\nstiffness = \"3 MN\"\nheight = \"3 m\"\ndamping = { ratio = 2 }\n[[gap]]\nbetween = [\"a\", \"wall\"]\nwidth = \"20 mm\"\nmodel = \"jankowsky_2005\"\n[ground_motion]\nfile = \"missing.csv\"\n";
 

@@ -122,7 +122,19 @@ const controlsOf = (state, documentation, actions) => {
       });
       return field;
     });
-    const tell = () => state.set(control.path, values.map((x) => word(control, x)));
+    // On paper, where nothing opens, the values stand in a line.
+    const printed = html("p", { class: "printed", "data-printed": control.path });
+    const print = () => {
+      const all = values.map((x) => clean(x / control.factor));
+      const same = all.length > 1 && all.every((x) => x === all[0]);
+      const where = all.length === 1 ? "storey 1" : same ? `each of ${all.length} storeys` : "storeys from the bottom";
+      printed.textContent = `${control.label} (${control.unit}), ${where}: ${same ? all[0] : all.join(", ")}`;
+    };
+    print();
+    const tell = () => {
+      print();
+      state.set(control.path, values.map((x) => word(control, x)));
+    };
     const all = slider({ factor: 1, logarithmic: true, unit: "times" }, control.slider, start, {
       id,
       "aria-describedby": note,
@@ -152,6 +164,7 @@ const controlsOf = (state, documentation, actions) => {
       html("span", { class: "value" }, factor),
       all.input,
       html("details", { class: "storeys" }, html("summary", {}, `${control.label} of each storey (${control.unit})`), ...storeys),
+      printed,
       line(control, note),
     );
   };

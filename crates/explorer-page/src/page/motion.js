@@ -53,7 +53,10 @@ const motion = (() => {
       const end = Number.isNaN(opens[i]) ? Infinity : opens[i];
       if (time <= Math.max(end, closes[i] + lasting)) closed.add(levels[i]);
     }
-    scene.draw(magnification(), closed);
+    const factor = magnification();
+    scene.draw(factor, closed);
+    part("instant").textContent = time.toFixed(3);
+    part("factor").textContent = shown(factor);
     part("elevation").dataset.time = String(time);
     part("time").value = String(time);
     part("time").setAttribute("aria-valuetext", `${time.toFixed(2)} s`);

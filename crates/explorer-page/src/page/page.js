@@ -348,15 +348,6 @@
   part("case").addEventListener("click", () => saveOfRun(opened.name, "text/plain", (run) => run.case));
   part("peaks-csv").addEventListener("click", () => saveOfRun("peaks.csv", "text/csv", results.csv));
   addEventListener("resize", results.redraw);
-  // On paper the values of storeys can be read, and cannot be opened.
-  let shut = [];
-  addEventListener("beforeprint", () => {
-    shut = [...document.querySelectorAll(".storeys:not([open])")];
-    for (const details of shut) details.open = true;
-  });
-  addEventListener("afterprint", () => {
-    for (const details of shut) details.open = false;
-  });
   addEventListener("hashchange", () => {
     if (location.hash !== written) restore(location.hash);
   });

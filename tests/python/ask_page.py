@@ -17,7 +17,7 @@ from chromium import Chromium
 READY = (
     "(() => { const { ready, runs } = document.documentElement.dataset;"
     "const { done, all } = document.querySelector('[data-part=sweep]').dataset;"
-    "return ready === 'true' && Number(runs) > 0 && (done === all && Number(all) > 0 || document.querySelector('[data-part=progress]').dataset.none === 'true'); })()"
+    "return ready === 'true' && Number(runs) > 0 && (done === all && Number(all) > 0 || document.querySelector('[data-part=widths-section]')?.hidden || document.querySelector('[data-part=progress]').textContent.includes('no widths')); })()"
 )
 
 

@@ -354,6 +354,12 @@ fn sweeps_of_a_row_are_of_their_gap() {
 /// What a page of a case says to expressions of JavaScript, once it has run the case and the widths
 /// of its gap; `None` where nothing opens pages.
 fn asked_of_page(case: &str, expressions: &[&str]) -> Option<Vec<Value>> {
+    let bench = Bench::with(&case.replace("../../ground_motions", "MOTIONS"));
+    asked_of(&bench, expressions)
+}
+
+/// The same of the case in a folder.
+fn asked_of(bench: &Bench, expressions: &[&str]) -> Option<Vec<Value>> {
     let named = ["POUNDING_PYTHON", "POUNDING_CHROMIUM"].map(std::env::var_os);
     let [Some(python), Some(_)] = named else {
         eprintln!(
@@ -364,7 +370,6 @@ fn asked_of_page(case: &str, expressions: &[&str]) -> Option<Vec<Value>> {
     if !has_module() {
         return None;
     }
-    let bench = Bench::with(&case.replace("../../ground_motions", "MOTIONS"));
     bench.text("explore case.toml -o page.html");
     let output = Command::new(python)
         .arg(root().join("tests/python/ask_page.py"))
@@ -583,6 +588,45 @@ fn page_prints_the_values_of_the_case() {
     assert!(figure.starts_with("Elevation at 2.500 s."), "{figure}");
     assert!(figure.contains("drawn 20 times as wide"), "{figure}");
     assert_eq!(told[5], "mass (t), each of 3 storeys: 500");
+}
+
+/// Where nothing moves no ratio is shown; large numbers keep their digits; and a case without gap
+/// has no curves over widths.
+#[test]
+fn page_shows_no_digits_that_are_none() {
+    let case =
+        std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml")).unwrap();
+    let case = case.replacen("31 s", "6 s", 1);
+    let (before, rest) = case.split_once("[[gap]]").unwrap();
+    let (_, after) = rest.split_once("[ground_motion]").unwrap();
+    let open = format!("{before}[ground_motion]{after}");
+    let amplification = "document.querySelector('[data-result=amplification]').textContent";
+    let ratios = "[...new Set([...document.querySelectorAll('[data-amplification]')].map((e) => e.textContent))]";
+    let shear =
+        "[...document.querySelectorAll('[data-part=storeys] tbody tr')][3].children[5].textContent";
+    let peaks = "document.querySelector('[data-part=peaks-csv]').checkVisibility()";
+    let charts = "['widths-section', 'impacts', 'sweep'].map((name) => document.querySelector(`[data-part=${name}]`).checkVisibility())";
+    let expressions = [amplification, ratios, shear, charts, peaks];
+    let Some(told) = asked_of_page(&open, &expressions) else {
+        return;
+    };
+    assert_eq!(told[0], "1");
+    // Four figures would be 20590.
+    assert_eq!(told[2], "20591");
+    assert_eq!(told[3], json!([false, false, false]));
+    assert_eq!(told[4], true);
+    let told = asked_of_page(&case, &expressions).unwrap();
+    assert_eq!(told[3], json!([true, true, true]));
+    let zeros: String = (0..100)
+        .map(|i| format!("{},0\n", 0.02 * f64::from(i)))
+        .collect();
+    let still = Bench::with(&case.replace(RECORD, "still.csv"));
+    still.write(
+        "still.csv",
+        &format!("# Unit: g\n# dt: 0.02 s\ntime_s,acceleration_g\n{zeros}"),
+    );
+    let told = asked_of(&still, &expressions).unwrap();
+    assert_eq!([&told[0], &told[1]], [&json!("–"), &json!(["–"])]);
 }
 
 /// Four things are wrong in it: a unit, a ratio, the name of a model, and the record is missing.

@@ -22,8 +22,9 @@ const elements = (() => {
   const shown = (x, digits = 4) => {
     if (!Number.isFinite(x)) return "–";
     const size = Math.abs(x);
-    const rounded = Number(x.toPrecision(digits));
-    if (size !== 0 && (size < 1e-3 || size >= 1e6)) return x.toExponential(digits - 1).replace("e+", "e");
+    // Digits before the point are never rounded: zeros would stand for what is known.
+    const rounded = Number(x.toPrecision(Math.max(digits, Math.floor(Math.log10(size)) + 1 || 1)));
+    if (size !== 0 && (size < 1e-3 || size >= 1e7)) return x.toExponential(digits - 1).replace("e+", "e");
     return String(rounded);
   };
   // A text as a value of a table of comma-separated values.

@@ -63,9 +63,12 @@ const resultsOf = (documentation) => {
     const table = html("table", {}, html("thead", {}, html("tr", {}, ...head)), html("tbody", {}, ...rows));
     return html("div", { class: "wide", "data-levels": index, tabindex: 0, role: "region", "aria-label": "Levels of the gap" }, table);
   };
+  // With contact over without; null where nothing moves without, which is no 1.
+  const ratioOf = (run, building, storey, key) =>
+    run.summary.buildings[building].isolated[storey][key].peak !== 0 ? run.amplification[building][storey][key] : null;
   const whole = (run) => {
-    const all = run.amplification.flat();
-    const amplified = most(all.map((storey) => storey.displacement ?? NaN));
+    const ratios = run.amplification.flatMap((storeys, b) => storeys.map((_, s) => ratioOf(run, b, s, "displacement")));
+    const amplified = Math.max(...ratios.filter((ratio) => ratio !== null));
     const input = run.summary.energy.input ?? NaN;
     const sum = run.columns.impact_energy_dissipated.reduce((sum, x) => sum + x, 0);
     // Less than the ledger resolves is round-off, of either sign.
@@ -114,8 +117,8 @@ const resultsOf = (documentation) => {
           html("th", { scope: "row" }, `${building.name} ${s + 1}`),
           ...QUANTITIES.flatMap(([key, , , factor]) => {
             const without = building.isolated[s];
-            const ratio = run.amplification[b][s][key];
-            const cell = html("td", { "data-amplification": key, class: ratio > 1.005 ? "more" : ratio < 0.995 ? "less" : null }, shown(ratio ?? NaN, 3));
+            const ratio = ratioOf(run, b, s, key);
+            const cell = html("td", { "data-amplification": key, class: ratio > 1.005 ? "more" : ratio !== null && ratio < 0.995 ? "less" : null }, shown(ratio ?? NaN, 3));
             return [html("td", {}, shown(factor * (with_[key].peak ?? NaN))), html("td", {}, shown(factor * (without[key].peak ?? NaN))), cell];
           }),
         ),
@@ -172,6 +175,7 @@ const resultsOf = (documentation) => {
         ...run.summary.warnings.map((text) => html("p", { class: "warning" }, `Warning: ${text}`)),
       );
       part("excitation").textContent = run.excitation.join("; ");
+      part("impacts").closest(".chart").hidden = !run.summary.gaps.length;
       impacts(run);
     },
     words: (run) =>
@@ -183,7 +187,7 @@ const resultsOf = (documentation) => {
       const lines = [["building", "storey", ...QUANTITIES.flatMap(([key]) => [key, `${key}_isolated`, `${key}_amplification`])].join(",")];
       run.summary.buildings.forEach((building, b) =>
         building.storeys.forEach((with_, s) => {
-          const cells = QUANTITIES.flatMap(([key]) => [with_[key].peak, building.isolated[s][key].peak, run.amplification[b][s][key]]);
+          const cells = QUANTITIES.flatMap(([key]) => [with_[key].peak, building.isolated[s][key].peak, ratioOf(run, b, s, key)]);
           lines.push([quoted(building.name), s + 1, ...cells.map((x) => x ?? "")].join(","));
         }),
       );

@@ -34,6 +34,8 @@ const sweepOf = (state, background, dashes, actions) => {
   // Curves by the name of their model, and the case that they are of.
   let curves = new Map();
   let done = [0, 0];
+  // Whether there is no width to run, as no gap is demanded.
+  let undemanded = false;
 
   // Dashes and spaces as figures have them (pt), on the screen.
   const pixels = dashes.map((dash) => dash.split(" ").map((length) => length && clean((length * 4) / 3)).join(" "));
@@ -146,7 +148,7 @@ const sweepOf = (state, background, dashes, actions) => {
     }
     part("remarks").replaceChildren(...remarks.map((text) => html("p", { class: "note" }, text)));
     part("legend").replaceChildren(...legend.map(([look, text]) => html("li", {}, sample(look), text)));
-    part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${done[1]} runs` : done[1] ? `${done[1]} runs` : "";
+    part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${done[1]} runs` : done[1] ? `${done[1]} runs` : undemanded ? "the record demands no gap: no widths are run" : "";
     picture.dataset.done = String(done[0]);
     picture.dataset.all = String(done[1]);
   };
@@ -210,11 +212,18 @@ const sweepOf = (state, background, dashes, actions) => {
     actions.changed();
     const mine = ++job;
     const stopped = () => mine !== job;
+    // Nothing has a width.
+    if (!named.length) {
+      [done, curves, widths] = [[0, 0], new Map(), null];
+      finished = wanted;
+      return;
+    }
     const told = (answer) => {
       if (answer.faults && !stopped()) part("progress").textContent = answer.faults[0].message;
       return answer.faults || stopped();
     };
     done = [0, 0];
+    undemanded = false;
     const answer = await background.ask({ do: "widths", changes: state.changes() });
     if (stopped()) return;
     curves = new Map();
@@ -226,6 +235,7 @@ const sweepOf = (state, background, dashes, actions) => {
     actions.demanded(answer.gaps);
     const laws = [[null, actions.model(gap)], ...overlays.filter((name) => name !== actions.model(gap)).map((name) => [name, name])];
     done = [0, laws.length * all.length];
+    undemanded = !all.length;
     for (const [model, name] of laws) {
       let keys = null;
       if (model) {
@@ -337,6 +347,7 @@ const sweepOf = (state, background, dashes, actions) => {
   const choices = (models, gaps) => {
     const { overlays, quantity, gap } = state.get();
     named = gaps;
+    part("widths-section").hidden = !gaps.length;
     const boxes = models.map((model) => {
       const box = html("input", { type: "checkbox", value: model.name });
       box.checked = overlays.includes(model.name);

@@ -118,7 +118,7 @@ pub(crate) fn named_with_unit(lower: &str) -> Option<NamedWithUnit<'_>> {
                 ends.filter_map(|(end, _)| {
                     Some((SeriesUnit::parse(&inside[..end])?, &inside[end + 1..]))
                 })
-                .last()?
+                .next_back()?
             }
             None => {
                 let ends = [&[',', ';', '\t'][..], &[' ', ',', ';', '\t']];

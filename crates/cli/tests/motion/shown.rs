@@ -160,7 +160,7 @@ fn components_of_unequal_length_are_named() {
         2,
         &arguments,
         &[
-            "error: rotation: the first component",
+            "rotation: the first component",
             "59 samples in 1.16 s",
             "--trim",
         ],

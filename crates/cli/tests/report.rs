@@ -130,21 +130,24 @@ fn gaps_of_a_row() {
     assert!(places.len() == 11 && places.is_sorted(), "{places:?}");
 }
 
+/// The page of a sweep over these variables of an example, under a name of its own.
+fn page_of_sweep(folder: &Path, name: &str, of: &str, variables: &str) -> String {
+    let study = folder.join(format!("{name}.toml"));
+    std::fs::write(&study, format!("case = {:?}\n\n{variables}", example(of))).unwrap();
+    let page = folder.join(format!("{name}.html"));
+    let result = folder.join(format!("{name}.h5"));
+    let [study, result, output] = [study, result, page.clone()].map(|p| p.display().to_string());
+    text("sweep", &format!("{study} -o {result} --report {output}"));
+    std::fs::read_to_string(page).unwrap()
+}
+
 /// The page of a sweep says what rigid impacts do not have, and only theirs.
 #[test]
 fn sweeps_of_rigid_impacts() {
     let folder = tempfile::tempdir().unwrap();
+    let variable = "[[variable]]\npath = \"gap.0.width\"\nvalues = [\"20 mm\", \"300 mm\"]\n";
     for (name, rigid) in [("rigid_impacts", true), ("three_storey_pair", false)] {
-        let study = folder.path().join("study.toml");
-        let variable = "[[variable]]\npath = \"gap.0.width\"\nvalues = [\"20 mm\", \"300 mm\"]\n";
-        let of_case = format!("case = {:?}\n\n{variable}", example(name));
-        std::fs::write(&study, of_case).unwrap();
-        let page = folder.path().join(format!("{name}.html"));
-        let result = folder.path().join(format!("{name}.h5"));
-        let [study, result, output] =
-            [study, result, page.clone()].map(|p| p.display().to_string());
-        text("sweep", &format!("{study} -o {result} --report {output}"));
-        let html = std::fs::read_to_string(page).unwrap();
+        let html = page_of_sweep(folder.path(), name, name, variable);
         assert_eq!(
             html.contains("They have no contact force."),
             rigid,
@@ -159,15 +162,7 @@ fn sweeps_of_rigid_impacts() {
 fn sweeps_of_what_has_no_force() {
     let folder = tempfile::tempdir().unwrap();
     let page_of = |name: &str, variables: &str| {
-        let study = folder.path().join(format!("{name}.toml"));
-        let of_case = format!("case = {:?}\n\n{variables}", example("three_storey_pair"));
-        std::fs::write(&study, of_case).unwrap();
-        let page = folder.path().join(format!("{name}.html"));
-        let result = folder.path().join(format!("{name}.h5"));
-        let [study, result, output] =
-            [study, result, page.clone()].map(|p| p.display().to_string());
-        text("sweep", &format!("{study} -o {result} --report {output}"));
-        std::fs::read_to_string(page).unwrap()
+        page_of_sweep(folder.path(), name, "three_storey_pair", variables)
     };
     // At 95 mm the roof alone is hit.
     let widths = "[[variable]]\npath = \"gap.0.width\"\nvalues = [\"90 mm\", \"95 mm\"]\n";

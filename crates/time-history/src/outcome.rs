@@ -303,6 +303,10 @@ pub struct LevelOutcome {
     pub clearance: Option<f64>,
 }
 
+/// What readers of accelerations have to know where velocities jumped at impacts.
+pub const VELOCITY_JUMPS: &str =
+    "Rigid impacts are jumps of the velocity: floor accelerations leave them out.";
+
 /// Responses of levels that are the shear of a hit column, below and above the hit.
 pub const COLUMN_SHEARS: [&str; 2] = ["column_shear_below", "column_shear_above"];
 

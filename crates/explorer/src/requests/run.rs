@@ -4,7 +4,7 @@ use pounding_elevation::{Neighbour, Row, RowGap, Scene};
 use pounding_study::gap_check::amplification;
 use pounding_time_history::{
     ContactLevel, Energy, GridRecorder, History, Impact, Outcome, Peak, Recorder,
-    RelativeDisplacement, Summary, System, TimeHistoryError, run,
+    RelativeDisplacement, Summary, System, TimeHistoryError, VELOCITY_JUMPS, run,
 };
 use serde_json::{Value, json};
 
@@ -133,9 +133,6 @@ fn levels(system: &System) -> Value {
     labels.collect()
 }
 
-/// What readers of accelerations have to know where velocities jump: the words of other pages.
-const JUMPS: &str = "Rigid impacts are jumps of the velocity: floor accelerations leave them out.";
-
 /// For each gap in which velocities jumped at impacts what that means; `null` for the others.
 fn jumps(system: &System, outcome: &Outcome) -> Value {
     let gaps = system.gaps().iter().zip(&outcome.gaps);
@@ -143,7 +140,7 @@ fn jumps(system: &System, outcome: &Outcome) -> Value {
         let levels = system.levels_of(gap).iter().zip(&outcome.levels);
         let mut hit = levels.filter(|(_, outcome)| outcome.impacts > 0);
         let jumped = hit.any(|(level, _)| level.model.rigid_restitution().is_some());
-        jumped.then_some(JUMPS)
+        jumped.then_some(VELOCITY_JUMPS)
     });
     json!(words.collect::<Vec<_>>())
 }

@@ -2,10 +2,11 @@
 
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::wording::{agreeing, counted};
+use pounding_time_history::VELOCITY_JUMPS;
 use serde_json::Value;
 
 use super::answer::Answer;
-use super::html::{JUMPS, escaped, note, section, sentences, warnings};
+use super::html::{escaped, note, section, sentences, warnings};
 use super::studies::{Inputs, Picture, collapsed, pictures, rows};
 use super::table::Column;
 
@@ -538,7 +539,7 @@ fn provided(answer: Answer<'_>) -> String {
         .iter()
         .map(|b| b["name"].as_str().unwrap_or_default());
     let jumps = match answer.at("/rigid_impacts").as_bool() {
-        Some(true) => note(JUMPS),
+        Some(true) => note(VELOCITY_JUMPS),
         _ => String::new(),
     };
     jumps

@@ -1,9 +1,5 @@
 //! Pieces of HTML.
 
-/// What readers of accelerations have to know where velocities jump.
-pub(super) const JUMPS: &str =
-    "Rigid impacts are jumps of the velocity: floor accelerations leave them out.";
-
 /// A text with what HTML would take for its own written otherwise.
 #[must_use]
 pub fn escaped(text: &str) -> String {

@@ -2,11 +2,12 @@
 
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError, fractile};
+use pounding_time_history::VELOCITY_JUMPS;
 
 use super::answer::{in_parentheses, unit_of};
 use super::document::Document;
 use super::document::listing;
-use super::html::{JUMPS, escaped, figure, note, number, section, sentences, warnings};
+use super::html::{escaped, figure, note, number, section, sentences, warnings};
 use super::numbers::figures;
 use super::table::{Column, Row, facts, table};
 use crate::error::ReportError;
@@ -56,7 +57,10 @@ pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
     body.push_str(&section("What varied", &variables(result, &runs)));
     let mut peaks = statistics(result, &runs);
     if has_rigid_impacts(result, &runs) {
-        peaks.insert_str(0, &note(&format!("{JUMPS} They have no contact force.")));
+        peaks.insert_str(
+            0,
+            &note(&format!("{VELOCITY_JUMPS} They have no contact force.")),
+        );
     }
     body.push_str(&section("Peaks over the runs", &peaks));
     let drawn = figures_of(result, &runs)?;

@@ -1,11 +1,12 @@
 //! The answers in sentences.
 
 use super::figures::governing_level;
-use crate::page::html::{JUMPS, escaped, number, sentences, warnings};
+use crate::page::html::{escaped, number, sentences, warnings};
 use crate::page::numbers::{figures, percent, ratio as times};
 use crate::result::{BuildingResult, GapResult, ImpactResult, LevelResult, RunResult, StoreyPeaks};
 use pounding_catalogue::wording::counted;
 use pounding_elevation::WALL;
+use pounding_time_history::VELOCITY_JUMPS;
 
 /// The summary: warnings, how hard they hit, what it did to the buildings, the ledger.
 pub(super) fn summary(result: &RunResult) -> String {
@@ -32,7 +33,7 @@ pub(super) fn summary(result: &RunResult) -> String {
         }
     }
     if result.gaps.iter().any(GapResult::jumps) {
-        points.push(JUMPS.to_owned());
+        points.push(VELOCITY_JUMPS.to_owned());
     }
     points.push(ledger(result));
     sentences(&points) + &warnings(&result.warnings)

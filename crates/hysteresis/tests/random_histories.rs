@@ -2,15 +2,30 @@
 #![allow(clippy::unwrap_used)]
 
 use crate::common::example;
-use pounding_hysteresis::descriptors;
 use pounding_hysteresis::laboratory::history;
+use pounding_hysteresis::{LawDescriptor, descriptors};
 use proptest::prelude::*;
+
+/// Energy (J) that an element may give back beyond what it was given, each time that its
+/// motion turns: none, but of the friction pendulum, whose published law builds its force up
+/// with one coefficient of friction and takes it down with another.
+fn given_back_at_a_turning(descriptor: &LawDescriptor) -> f64 {
+    if descriptor.name != "friction_pendulum" {
+        return 0.0;
+    }
+    let example = |name| {
+        let mut parameters = descriptor.example.iter();
+        parameters.find(|(n, _)| *n == name).unwrap().1
+    };
+    let spread = example("friction_fast") - example("friction_slow");
+    0.5 * spread * example("weight") * example("yield_displacement")
+}
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]
 
-    /// No element gives back more than it was given, whatever happens to it, and the
-    /// force stays finite.
+    /// No element gives back more than it was given, whatever happens to it (the friction
+    /// pendulum by no more than its traps say), and the force stays finite.
     #[test]
     fn work_is_never_negative(shares in prop::collection::vec(-2.0..2.0_f64, 1..60)) {
         for descriptor in descriptors() {
@@ -18,7 +33,7 @@ proptest! {
             let mut committed = law.virgin();
             let mut candidate = committed.clone();
             let mut maximum = 0.0_f64;
-            let mut from = 0.0;
+            let (mut from, mut direction, mut turnings) = (0.0, 1.0, 0.0);
             for share in &shares {
                 let x = share * descriptor.example_amplitude;
                 let end = pounding_hysteresis::Motion {
@@ -31,11 +46,15 @@ proptest! {
                 let stored = law.stored_energy(&committed, end, variables);
                 let dissipated = law.dissipated_energy(&committed, end, variables);
                 maximum = maximum.max((force * (x - from)).abs());
+                if direction * (x - from) < 0.0 {
+                    (direction, turnings) = (-direction, turnings + 1.0);
+                }
                 prop_assert!(force.is_finite() && stored.is_finite(), "{}", descriptor.name);
                 // The mean of two damper forces is not its work over a long step.
                 if descriptor.name != "viscous_damper" {
                     let least = -1e-11 * maximum;
-                    prop_assert!(stored + dissipated >= least, "{}: {}", descriptor.name, stored + dissipated);
+                    let least_work = least - turnings * given_back_at_a_turning(descriptor);
+                    prop_assert!(stored + dissipated >= least_work, "{}: {}", descriptor.name, stored + dissipated);
                     prop_assert!(stored >= least, "{}: {}", descriptor.name, stored);
                 }
                 from = x;

@@ -1032,6 +1032,62 @@ fn ownership_and_missing_inputs_decide() {
     );
 }
 
+/// What the sweep of one gap in a row says of impacts is of that gap, as `run` counts them; what
+/// happens in the others stands beside it.
+#[test]
+fn a_sweep_of_one_gap_counts_its_own_impacts() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("x.csv").display().to_string();
+    // At its own width first.
+    let one = ["--gap", "R2-R3", "--from", "20 mm", "--to", "40 mm"];
+    let mut arguments = one.to_vec();
+    arguments.extend(["--points", "2", "--csv", &csv]);
+    let shown = text(&gap("row_of_five", &arguments).stdout);
+    assert!(shown.contains("impacts in"), "{shown}");
+    arguments.push("--json");
+    let told = json(&gap("row_of_five", &arguments));
+    let ran = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .args(["run", "--json"])
+        .arg(root().join("examples/row_of_five/case.toml"))
+        .current_dir(root())
+        .output()
+        .unwrap();
+    let ran = json(&ran);
+    let swept = &told["sweep"]["runs"][0][0];
+    let ours = ["impacts", "peak_force", "impact_energy"];
+    let mut all = 0;
+    for (index, of_gap) in ran["gaps"].as_array().unwrap().iter().enumerate() {
+        let levels = of_gap["levels"].as_array().unwrap();
+        let of = |path: &'static str| levels.iter().filter_map(move |l| l.pointer(path)?.as_f64());
+        let here = &swept["gaps"][index];
+        assert_eq!(here["impacts"].as_f64(), Some(of("/impacts").sum()));
+        assert_eq!(
+            here["peak_force"].as_f64(),
+            of("/peak_force/peak").reduce(f64::max)
+        );
+        assert_eq!(
+            here["impact_energy"].as_f64(),
+            Some(of("/energy_dissipated").sum())
+        );
+        all += here["impacts"].as_u64().unwrap();
+        if index == 1 {
+            assert!(ours.iter().all(|key| swept[key] == here[key]), "{swept}");
+        }
+    }
+    let impacts = swept["impacts"].as_u64().unwrap();
+    assert!(impacts > 0 && all > impacts, "{swept}");
+    let rows = std::fs::read_to_string(csv).unwrap();
+    let first: Vec<&str> = rows.lines().nth(1).unwrap().split(',').collect();
+    let expected = ours.map(|key| swept[key].as_f64().unwrap());
+    let written = [7, 8, 9].map(|i| first[i].parse::<f64>().unwrap());
+    assert_eq!(written, expected);
+    let together = [
+        "--from", "20 mm", "--to", "40 mm", "--points", "2", "--json",
+    ];
+    let together = json(&gap("row_of_five", &together));
+    assert_eq!(together["sweep"]["runs"][0][0]["impacts"], all);
+}
+
 #[test]
 fn mistakes() {
     for (arguments, says) in [

@@ -1,7 +1,7 @@
 //! Runs at several widths.
 
 use pounding_assembly::Assembly;
-use pounding_study::gap_check::{GapRun, GapSweep, SweepRun, gaps_at_width};
+use pounding_study::gap_check::{GapRun, GapSweep, SweepRun, at_width};
 use pounding_time_history::{BuildingOutcome, Recorder, isolated_demand};
 use serde_json::json;
 
@@ -60,44 +60,29 @@ pub(crate) fn answer(
         }
         let run = (*width, gap);
         let recorders: &mut [&mut dyn Recorder] = &mut [&mut deadline];
-        let made = gaps_at_width(system, &swept.isolated, run, recorders);
-        runs.push(made.map(|(whole, gaps)| Run {
-            contact: gap.map_or_else(|| of_all(&whole), |gap| gaps[gap]),
-            whole,
-        }));
+        runs.push(at_width(system, &swept.isolated, run, recorders));
     }
-    Ok(of_runs(&widths[..runs.len()], &runs, swept.isolated.len()))
+    let widths = &widths[..runs.len()];
+    Ok(of_runs((widths, gap), &runs, swept.isolated.len()))
 }
 
-/// One run.
-struct Run {
-    /// Of the gap whose width varies: what happens in the others of the row is not its own.
-    contact: GapRun,
-    whole: SweepRun,
-}
-
-/// Where all gaps vary they count together.
-fn of_all(run: &SweepRun) -> GapRun {
-    GapRun {
-        impacts: run.impacts,
-        peak_force: run.peak_force,
-        impact_energy: run.impact_energy,
-    }
-}
-
-fn of_runs(widths: &[f64], runs: &[Result<Run, String>], buildings: usize) -> Answer {
+fn of_runs(
+    (widths, gap): (&[f64], Option<usize>),
+    runs: &[Result<SweepRun, String>],
+    buildings: usize,
+) -> Answer {
     let mut answer = Answer::default();
     let value = |of: fn(&GapRun) -> f64| {
         let values = runs.iter();
-        values.map(move |run| run.as_ref().map_or(f64::NAN, |run| of(&run.contact)))
+        values.map(move |run| run.as_ref().map_or(f64::NAN, |run| of(&run.contact(gap))))
     };
     answer.add_column("width", widths.iter().copied());
     answer.add_column("impacts", value(|run| run.impacts as f64));
     answer.add_column("peak_force", value(|run| run.peak_force));
     answer.add_column("impact_energy", value(|run| run.impact_energy));
     for building in 0..buildings {
-        let most = |run: &Result<Run, String>| {
-            let run = &run.as_ref().ok()?.whole;
+        let most = |run: &Result<SweepRun, String>| {
+            let run = run.as_ref().ok()?;
             Some(GapSweep::of_building(run, building, |a| a.displacement)?.1)
         };
         let column = runs.iter().map(|run| most(run).unwrap_or(f64::NAN));

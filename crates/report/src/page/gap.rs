@@ -576,10 +576,14 @@ fn swept(answer: Answer<'_>) -> String {
             columns.push(Column::of(heading, from, 1.0).below(format!("{name}, {RATIO}")));
         }
     }
+    // Of the gap whose width varies: what happens in the others of a row is not of this width.
+    let of_records = match answer.text("/sweep/gap") {
+        "" => "maximum over records".to_owned(),
+        gap => format!("{gap}, maximum over records"),
+    };
     columns.extend([
-        Column::of("impacts", "maximum /sweep/runs/*/+/impacts", 1.0).below("maximum over records"),
-        Column::of("force (kN)", "maximum /sweep/runs/*/+/peak_force", 1.0e-3)
-            .below("maximum over records"),
+        Column::of("impacts", "maximum /sweep/runs/*/+/impacts", 1.0).below(of_records.clone()),
+        Column::of("force (kN)", "maximum /sweep/runs/*/+/peak_force", 1.0e-3).below(of_records),
     ]);
     let every = widths.div_ceil(ROWS);
     let shown = (0..widths).step_by(every);

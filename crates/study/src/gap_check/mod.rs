@@ -38,8 +38,7 @@ pub use statistics::binomial_bounds;
 pub use suite::SuiteStatistics;
 pub use suite_spectrum::{MeanSpectrum, SuiteSpectrum};
 pub use sweep::{
-    GapRun, GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_widths, gaps_at_width,
-    widest,
+    GapRun, GapSweep, SweepOptions, SweepRun, WorstWidth, at_width, even_widths, widest,
 };
 
 #[cfg(feature = "results")]

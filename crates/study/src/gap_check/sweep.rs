@@ -79,12 +79,63 @@ impl SweepOptions {
 pub struct SweepRun {
     /// Amplification of each building and storey.
     pub amplification: Vec<Vec<Amplification>>,
-    /// Impacts in all gaps.
+    /// What happened in each gap of the case.
+    pub gaps: Vec<GapRun>,
+}
+
+impl SweepRun {
+    /// What happened in the gap of this number, or in all of them together.
+    ///
+    /// # Panics
+    /// Where the case has no gap of this number.
+    #[must_use]
+    pub fn contact(&self, gap: Option<usize>) -> GapRun {
+        gap.map_or_else(|| GapRun::together(&self.gaps), |gap| self.gaps[gap])
+    }
+}
+
+/// What happened in one gap of a run, or in several.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct GapRun {
+    /// Impacts at all levels.
     pub impacts: usize,
-    /// Maximum contact force (N); NaN where there were only velocity jumps.
+    /// Maximum contact force (N); NaN where velocities jump at impacts: what rigid floors have
+    /// is the force that holds them together where contact lasts.
     pub peak_force: f64,
-    /// Energy dissipated in all contacts (J).
+    /// Energy dissipated in its contacts (J).
     pub impact_energy: f64,
+}
+
+impl GapRun {
+    fn of(system: &System, gap: &Gap, outcome: &GapOutcome) -> Self {
+        let levels = outcome.levels.iter().zip(system.levels_of(gap));
+        let level = |(outcome, level): (&LevelOutcome, &ContactLevel)| Self {
+            impacts: outcome.impacts,
+            peak_force: match outcome.impacts {
+                0 => 0.0,
+                _ if level.model.rigid_restitution().is_some() => f64::NAN,
+                _ => outcome.peak_force.value,
+            },
+            impact_energy: outcome.energy_dissipated,
+        };
+        Self::together(&levels.map(level).collect::<Vec<_>>())
+    }
+
+    /// The sum of what happened, and the maximum force: of a force and none there is no maximum.
+    fn together(several: &[Self]) -> Self {
+        let forces = several.iter().map(|run| run.peak_force);
+        Self {
+            impacts: several.iter().map(|run| run.impacts).sum(),
+            peak_force: forces.fold(0.0, |m: f64, f| {
+                if f.is_nan() || m.is_nan() {
+                    f64::NAN
+                } else {
+                    m.max(f)
+                }
+            }),
+            impact_energy: several.iter().map(|run| run.impact_energy).sum(),
+        }
+    }
 }
 
 /// The width at which pounding does most harm to one quantity of a building. A width of
@@ -110,9 +161,18 @@ pub struct GapSweep {
     pub widths: Vec<f64>,
     /// A run for each width and record, or why it failed.
     pub runs: Vec<Vec<Result<SweepRun, String>>>,
+    /// Number of the gap whose width varies.
+    number: Option<usize>,
 }
 
 impl GapSweep {
+    /// What happened in the gap whose width varies, or in all gaps where all vary: what happens
+    /// in the others of a row is not of this width.
+    #[must_use]
+    pub fn contact(&self, run: &SweepRun) -> GapRun {
+        run.contact(self.number)
+    }
+
     /// Maximum over records of what [`of_building`](Self::of_building) finds, at one width.
     #[must_use]
     pub fn over_records(
@@ -208,15 +268,24 @@ pub(crate) struct Shared<'s> {
 
 impl Stored for SweepRun {
     fn to_numbers(&self, numbers: &mut Vec<f64>) {
-        numbers.extend([self.impacts as f64, self.peak_force, self.impact_energy]);
+        numbers.push(self.gaps.len() as f64);
+        for gap in &self.gaps {
+            numbers.extend([gap.impacts as f64, gap.peak_force, gap.impact_energy]);
+        }
         Amplification::to_numbers(&self.amplification, numbers);
     }
 
     fn from_numbers(numbers: &mut Numbers<'_>) -> Option<Self> {
+        let count = numbers.take()? as usize;
+        let gap = |_| {
+            Some(GapRun {
+                impacts: numbers.take()? as usize,
+                peak_force: numbers.take()?,
+                impact_energy: numbers.take()?,
+            })
+        };
         Some(Self {
-            impacts: numbers.take()? as usize,
-            peak_force: numbers.take()?,
-            impact_energy: numbers.take()?,
+            gaps: (0..count).map(gap).collect::<Option<_>>()?,
             amplification: Amplification::from_numbers(numbers)?,
         })
     }
@@ -246,6 +315,7 @@ pub(crate) fn sweep(
             gap: asked.gap.clone(),
             widths: Vec::new(),
             runs: Vec::new(),
+            number: gap,
         });
     }
     let widths = even_widths(asked.from, to, asked.points);
@@ -270,6 +340,7 @@ pub(crate) fn sweep(
         gap: asked.gap.clone(),
         runs: runs.collect(),
         widths,
+        number: gap,
     })
 }
 
@@ -334,60 +405,6 @@ pub fn at_width(
     (width, gap): (f64, Option<usize>),
     recorders: &mut [&mut dyn Recorder],
 ) -> Result<SweepRun, String> {
-    let run = gaps_at_width((system, options), isolated, (width, gap), recorders);
-    run.map(|(whole, _)| whole)
-}
-
-/// What happened in one gap of a run.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct GapRun {
-    /// Impacts at all levels.
-    pub impacts: usize,
-    /// Maximum contact force (N); NaN where velocities jump at impacts: what rigid floors have
-    /// is the force that holds them together where contact lasts.
-    pub peak_force: f64,
-    /// Energy dissipated in its contacts (J).
-    pub impact_energy: f64,
-}
-
-impl GapRun {
-    fn of(system: &System, gap: &Gap, outcome: &GapOutcome) -> Self {
-        let hit = outcome.levels.iter().zip(system.levels_of(gap));
-        let hit = hit.filter(|(outcome, _)| outcome.impacts > 0);
-        let force = |(outcome, level): (&LevelOutcome, &ContactLevel)| {
-            let jumps = level.model.rigid_restitution().is_some();
-            if jumps {
-                f64::NAN
-            } else {
-                outcome.peak_force.value
-            }
-        };
-        // Of a force and none there is no largest.
-        let largest = |m: f64, f: f64| {
-            if f.is_nan() || m.is_nan() {
-                f64::NAN
-            } else {
-                m.max(f)
-            }
-        };
-        Self {
-            impacts: outcome.levels.iter().map(|l| l.impacts).sum(),
-            peak_force: hit.map(force).fold(0.0, largest),
-            impact_energy: outcome.levels.iter().map(|l| l.energy_dissipated).sum(),
-        }
-    }
-}
-
-/// The same as [`at_width`], with what happened in each gap.
-///
-/// # Errors
-/// Why it failed, in words.
-pub fn gaps_at_width(
-    (system, options): (&System, &RunOptions),
-    isolated: &[BuildingOutcome],
-    (width, gap): (f64, Option<usize>),
-    recorders: &mut [&mut dyn Recorder],
-) -> Result<(SweepRun, Vec<GapRun>), String> {
     let system = rebuilt(system, |index, level| {
         let varies = gap.is_none_or(|g| g == index);
         let width = if varies { width } else { level.width };
@@ -396,24 +413,9 @@ pub fn gaps_at_width(
     let system = system.map_err(|e| e.to_string())?;
     let outcome = run(&system, options, recorders, &mut |_| {});
     let outcome = outcome.map_err(|e| e.to_string())?;
-    let levels = || outcome.gaps.iter().flat_map(|g| &g.levels);
-    let forces = levels()
-        .filter(|l| l.impacts > 0)
-        .map(|l| l.peak_force.value);
-    let jumps = levels().any(|l| l.impacts > 0 && l.peak_force.value.is_nan());
-    let peak_force = forces.fold(0.0, f64::max);
-    let of_gaps = system.gaps().iter().zip(&outcome.gaps);
-    let of_gaps = of_gaps.map(|(gap, outcome)| GapRun::of(&system, gap, outcome));
-    let of_gaps = of_gaps.collect();
-    let whole = SweepRun {
+    let gaps = system.gaps().iter().zip(&outcome.gaps);
+    Ok(SweepRun {
         amplification: amplification(&outcome.buildings, isolated),
-        impacts: levels().map(|l| l.impacts).sum(),
-        peak_force: if jumps && peak_force == 0.0 {
-            f64::NAN
-        } else {
-            peak_force
-        },
-        impact_energy: levels().map(|l| l.energy_dissipated).sum(),
-    };
-    Ok((whole, of_gaps))
+        gaps: gaps.map(|(gap, o)| GapRun::of(&system, gap, o)).collect(),
+    })
 }

@@ -24,15 +24,16 @@ pub fn sweep(check: &GapCheck) -> Result<String, Failure> {
                     continue;
                 }
             };
+            let contact = sweep.contact(run);
             for (building, storeys) in record.isolated.iter().zip(&run.amplification) {
                 for (storey, a) in storeys.iter().enumerate() {
                     let mut row = start.to_vec();
                     row.push(building.name.clone());
                     row.push((storey + 1).to_string());
                     row.extend(Amplification::QUANTITIES.map(|(_, of)| of(a).to_string()));
-                    row.push(run.impacts.to_string());
-                    row.push(run.peak_force.to_string());
-                    row.push(run.impact_energy.to_string());
+                    row.push(contact.impacts.to_string());
+                    row.push(contact.peak_force.to_string());
+                    row.push(contact.impact_energy.to_string());
                     row.push(String::new());
                     rows.push(row);
                 }

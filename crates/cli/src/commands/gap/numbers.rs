@@ -2,8 +2,8 @@
 
 use pounding_separation::Requirement;
 use pounding_study::gap_check::{
-    self, CodeGap, CombinationGap, GapCheck, GapReport, GapSweep, MeanSpectrum, RecordDemand,
-    SuiteSpectrum,
+    self, CodeGap, CombinationGap, GapCheck, GapReport, GapRun, GapSweep, MeanSpectrum,
+    RecordDemand, SuiteSpectrum,
 };
 use pounding_time_history::{BuildingOutcome, LevelPlace, NamedPeak};
 use serde::Serialize;
@@ -691,9 +691,11 @@ struct Sweep<'c> {
 enum Run<'c> {
     Made {
         amplification: Vec<Vec<Amplification>>,
-        impacts: usize,
-        peak_force: f64,
-        impact_energy: f64,
+        /// In the gap whose width varies, or in all of them.
+        #[serde(flatten)]
+        contact: Contact,
+        /// In each gap of the case.
+        gaps: Vec<Contact>,
     },
     Failed {
         failure: &'c str,
@@ -703,14 +705,31 @@ enum Run<'c> {
     },
 }
 
+/// What happened in one gap of a run, or in several.
+#[derive(Serialize)]
+struct Contact {
+    impacts: usize,
+    peak_force: f64,
+    impact_energy: f64,
+}
+
+impl Contact {
+    fn of(run: GapRun) -> Self {
+        Self {
+            impacts: run.impacts,
+            peak_force: run.peak_force,
+            impact_energy: run.impact_energy,
+        }
+    }
+}
+
 impl<'c> Sweep<'c> {
     fn of(sweep: &'c GapSweep) -> Self {
         let run = |run: &'c Result<gap_check::SweepRun, String>| match run {
             Ok(run) => Run::Made {
                 amplification: Amplification::of_all(&run.amplification),
-                impacts: run.impacts,
-                peak_force: run.peak_force,
-                impact_energy: run.impact_energy,
+                contact: Contact::of(sweep.contact(run)),
+                gaps: run.gaps.iter().copied().map(Contact::of).collect(),
             },
             Err(failure) => Run::Failed {
                 failure,

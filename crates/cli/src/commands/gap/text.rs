@@ -330,7 +330,10 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
     for name in &buildings {
         header.extend(Amplification::QUANTITIES.map(|(quantity, _)| format!("{name}: {quantity}")));
     }
-    header.push("impacts".to_owned());
+    header.push(match &sweep.gap {
+        Some(gap) => format!("impacts in {gap}"),
+        None => "impacts".to_owned(),
+    });
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let mut table = new_table(&header);
     let every = sweep.widths.len().div_ceil(ROWS);
@@ -347,7 +350,8 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
                 Amplification::QUANTITIES.map(|(_, q)| cell(sweep.over_records(i, building, q))),
             );
         }
-        let impacts = sweep.runs[i].iter().flatten().map(|r| r.impacts).max();
+        let runs = sweep.runs[i].iter().flatten();
+        let impacts = runs.map(|run| sweep.contact(run).impacts).max();
         row.push(impacts.map_or("-".to_owned(), |n| n.to_string()));
         table.add_row(row);
     }

@@ -220,14 +220,24 @@ impl Elements {
         }
     }
 
-    /// Takes a state in that a jump of velocities led to, and passes the guards that it
-    /// left behind.
-    pub(crate) fn settle(&mut self, system: &System, layout: Layout, state: &[f64]) {
+    /// Takes a state in, on the branches on which the elements are.
+    pub(crate) fn take_in(&mut self, system: &System, layout: Layout, state: &[f64]) {
         let n = layout.dofs;
         for (element, history) in system.elements().iter().zip(&mut self.histories) {
             let motion = element.motion(&state[..n], &state[n..2 * n]);
             let variables = &state[element.range(layout)];
             element.law.accept(history, motion, variables);
+        }
+    }
+
+    /// Takes a state in that a jump of velocities led to, and passes the guards that it
+    /// left behind.
+    pub(crate) fn settle(&mut self, system: &System, layout: Layout, state: &[f64]) {
+        self.take_in(system, layout, state);
+        let n = layout.dofs;
+        for (element, history) in system.elements().iter().zip(&mut self.histories) {
+            let motion = element.motion(&state[..n], &state[n..2 * n]);
+            let variables = &state[element.range(layout)];
             for _ in 0..BRANCHES_AT_ONCE {
                 let fired = element
                     .law

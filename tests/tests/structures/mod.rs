@@ -12,4 +12,5 @@ mod general;
 mod isolation;
 mod motions;
 mod reference;
+mod rigid_beside_dampers;
 mod torsion;

@@ -43,12 +43,12 @@ duration = 25
     )
 }
 
-fn assembled(text: &str) -> Assembly {
+pub(super) fn assembled(text: &str) -> Assembly {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("pair.toml");
     assemble(&Case::parse(text, &file).unwrap()).unwrap()
 }
 
-fn go(system: &System, options: &RunOptions) -> Outcome {
+pub(super) fn go(system: &System, options: &RunOptions) -> Outcome {
     run(system, options, &mut [], &mut |_| {}).unwrap()
 }
 

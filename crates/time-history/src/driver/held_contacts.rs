@@ -186,6 +186,10 @@ impl Driver<'_> {
         let moves = work.right.iter().any(|v| *v != 0.0);
         if moves && work.solver.solve(&work.matrix, &mut work.right) {
             self.jump(&work.levels, &work.right);
+            // Round-off leads no element off its branch: what is to be passed is an event.
+            let layout = self.dynamics.layout;
+            let elements = &mut self.contacts.elements;
+            elements.take_in(self.system, layout, &self.state);
         }
         self.held = work;
     }

@@ -39,6 +39,9 @@ const JUMPS_AT_ONCE: usize = 100_000;
 /// Open floors closer than this (m) take part in an impact of their neighbours.
 pub(super) const TOUCHING: f64 = 1.0e-12;
 
+/// Floors that hold no distance worth the name (m).
+const ALL_BUT_IN_TOUCH: f64 = 1.0e-6;
+
 /// Work space of the jumps.
 #[derive(Debug, Default)]
 pub(super) struct RigidImpacts {
@@ -145,6 +148,9 @@ impl Driver<'_> {
             }
             self.begin_impacts(&work, time);
             self.jump(&work.active, &work.impulses);
+            let layout = self.dynamics.layout;
+            let elements = &mut self.contacts.elements;
+            elements.settle(self.system, layout, &self.state);
             for k in 0..work.active.len() {
                 self.settle(&work, k, time);
             }
@@ -160,9 +166,10 @@ impl Driver<'_> {
         Err(self.wedged(time))
     }
 
-    /// Contacts that leave nothing to part with.
+    /// Contacts that leave nothing to part with. A row that is squeezed between two walls is thrown
+    /// to and fro between them: the one that it does not touch at this instant is one of them.
     pub(super) fn wedged(&self, time: f64) -> TimeHistoryError {
-        let place = self.places_in_touch();
+        let place = self.places_closer_than(ALL_BUT_IN_TOUCH);
         TimeHistoryError::Wedged { time, place }
     }
 
@@ -308,7 +315,7 @@ impl Driver<'_> {
         true
     }
 
-    /// Applies impulses (N s) to the floors of levels. The work of an impulse is its mean
+    /// Applies impulses (N s) to the floors of levels; elements are to follow. The work of an impulse is its mean
     /// velocity times itself, which is the kinetic energy lost to the last bit of theory.
     pub(super) fn jump(&mut self, active: &[usize], impulses: &[f64]) {
         let (levels, mass) = (self.system.levels(), self.system.mass());
@@ -336,8 +343,6 @@ impl Driver<'_> {
             let of_ground = levels[l].terms.ground_of(|i| self.state[n + i]);
             self.state[layout.input()] += impulse * of_ground;
         }
-        let elements = &mut self.contacts.elements;
-        elements.settle(self.system, layout, &self.state);
     }
 
     /// Ends the impact of a level whose floors part; leaves the others in lasting

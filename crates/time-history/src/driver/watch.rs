@@ -82,12 +82,19 @@ impl Driver<'_> {
     }
 
     pub(super) fn places_in_touch(&self) -> String {
-        let places: Vec<_> = self
-            .contacts
-            .closed()
-            .iter()
-            .map(|l| self.system.name_of_level(*l))
-            .collect();
+        self.places_closer_than(0.0)
+    }
+
+    /// Levels in contact, and those whose floors are closer than this (m).
+    pub(super) fn places_closer_than(&self, distance: f64) -> String {
+        let n = self.dynamics.layout.dofs;
+        let u = &self.state[..n];
+        let is_close = |l: &usize| {
+            self.contacts.contact(*l).is_some()
+                || self.contacts.penetration(self.system, *l, u) > -distance
+        };
+        let levels = (0..self.dynamics.layout.levels).filter(is_close);
+        let places: Vec<_> = levels.map(|l| self.system.name_of_level(l)).collect();
         if places.is_empty() {
             "none".to_owned()
         } else {

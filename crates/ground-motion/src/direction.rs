@@ -100,7 +100,7 @@ impl Direction {
             "E" | "EW" | "E-W" | "EAST" => Some(Self::Azimuth(90.0)),
             "S" | "SOUTH" => Some(Self::Azimuth(180.0)),
             "W" | "WEST" => Some(Self::Azimuth(270.0)),
-            "V" | "Z" | "U" | "UP" | "UD" | "U-D" | "VERT" | "VERTICAL" => Some(Self::Up),
+            "V" | "Z" | "U" | "UP" | "UD" | "U-D" | "VER" | "VERT" | "VERTICAL" => Some(Self::Up),
             "DOWN" | "DN" | "DWN" => Some(Self::Down),
             _ => None,
         };

@@ -115,8 +115,9 @@ pub(crate) struct Draft {
     pub times: Times,
     pub samples: Vec<f64>,
     pub header_count: Option<usize>,
-    /// Numbers of the last row, where it is known: agencies fill it, and no surplus is longer.
-    pub last_row: Option<usize>,
+    /// Most values that stand in a row, where rows have several or nothing may be too many:
+    /// agencies fill the last row, and no surplus is a row of its own.
+    pub row: Option<usize>,
     /// What the header counts, if not samples, in brackets after a blank.
     pub counted: String,
     /// Other counts that the header states, with their lines.
@@ -148,6 +149,11 @@ pub(crate) struct Draft {
 /// Values that a last row may hold beyond the count of the header: agencies fill it.
 pub(crate) const ROW: usize = 10;
 
+/// The values of a row, of rows that have more than one: one value a row has nothing to fill.
+pub(crate) fn several(values: usize) -> Option<usize> {
+    Some(values).filter(|n| *n > 1)
+}
+
 impl Draft {
     /// A draft with nothing but values: `lines` are those of the header, of the
     /// first and of the last value.
@@ -159,7 +165,7 @@ impl Draft {
             times: Times::Step(None),
             samples,
             header_count: None,
-            last_row: None,
+            row: None,
             counted: String::new(),
             other_counts: Vec::new(),
             header_durations: Vec::new(),
@@ -301,7 +307,7 @@ impl Draft {
             ));
         } else if found > expected {
             let most = self
-                .last_row
+                .row
                 .map_or(ROW, |row| row.saturating_sub(1).min(ROW));
             if found - expected > most && !source.options.lenient {
                 return Err(source.error(

@@ -275,7 +275,7 @@ impl GroundMotionError {
                 "the file is probably truncated: get it again, or set `lenient = true` to use what is there".to_owned()
             }
             Self::NotAcceleration { .. } => {
-                "use the acceleration file of the same record (AT2 beside VT2 and DT2)".to_owned()
+                "use the accelerations of the same record, such as AT2 beside VT2 and DT2".to_owned()
             }
             Self::AmbiguousSeries { .. } => {
                 "choose one with `component` in [ground_motion] of a case, `--component` with `pounding motion`: its name, azimuth or channel number".to_owned()

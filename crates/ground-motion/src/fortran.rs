@@ -141,10 +141,23 @@ impl Layout {
         fits.then_some(layout)
     }
 
-    /// The last format in parentheses in a line of text.
+    /// The last format in parentheses in a line of text, with what repeats it before them:
+    /// `(5(1PE15.6))`.
     pub(crate) fn find(text: &str) -> Option<Self> {
-        text.rmatch_indices('(')
-            .find_map(|(at, _)| Self::parse(text.get(at..)?))
+        let formats = text
+            .rmatch_indices('(')
+            .map(|(at, _)| (at, text.get(at..).and_then(Self::parse)));
+        let mut formats = formats.skip_while(|(_, format)| format.is_none());
+        let (inner, found) = formats.next()?;
+        let repeats = |(at, _): &(usize, Option<Self>)| {
+            let between = text[at + 1..inner].trim();
+            !between.is_empty() && between.bytes().all(|b| b.is_ascii_digit())
+        };
+        formats
+            .next()
+            .filter(repeats)
+            .and_then(|(_, format)| format)
+            .or(found)
     }
 }
 
@@ -228,6 +241,8 @@ mod tests {
             Layout::find(" 42000 acceleration pts, units=cm/sec2(04),Format=(1E15.6)"),
             Layout::parse("1E15.6")
         );
+        let nested = Layout::find("units=cm/sec2(04), Format=(5(1PE15.6))").map(|l| l.per_line);
+        assert_eq!(nested, Some(5));
     }
 
     /// Fortran's rules for input: decimals are implied without a point, and a scale factor

@@ -19,6 +19,7 @@ pub mod spectra;
 pub mod writers;
 
 mod accelerogram;
+mod cut_numbers;
 mod direction;
 mod draft;
 mod error;

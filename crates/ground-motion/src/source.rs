@@ -11,8 +11,6 @@ use crate::quantity::SeriesUnit;
 use crate::recording::WithoutSensitivity;
 use crate::text::{Line, Lines};
 
-/// Values that show how a file writes its values.
-const LIKE_IT: usize = 3;
 /// Lines that detection looks at.
 const HEAD: usize = 30;
 /// Series that any file may hold, and bytes that each further one must bring: no
@@ -338,54 +336,6 @@ impl<'a> Source<'a> {
             "a NUL byte stands in the text: a part of the file was not written",
             "get the record again; if it is UTF-16, save it as UTF-8",
         ))
-    }
-
-    /// Refuses a file that ends in the middle of its last value: without an end of line, and
-    /// without the exponent, or a digit of it, that all other values of the last two lines have,
-    /// with as many decimals. `1.494E-02` cut after `1.494` or `1.494E-0` is a number too.
-    pub(crate) fn ends_whole(&self) -> Result<(), GroundMotionError> {
-        let cut = !matches!(self.bytes.last(), Some(b'\n' | b'\r' | 0x1a) | None);
-        if !cut || self.options.lenient {
-            return Ok(());
-        }
-        let mut ends = [None; 2];
-        for line in self.lines().filter(|line| !line.is_blank()) {
-            ends = [ends[1], Some(line)];
-        }
-        // Numbers as short as they can be have exponents here and there.
-        let decimals_and_exponent = |field: &[u8]| {
-            let exponent = field.iter().position(|b| b"eEdD".contains(b))?;
-            let point = field.iter().position(|b| *b == b'.')?;
-            Some((exponent.checked_sub(point)?, field.len() - exponent))
-        };
-        // One value at a time: a line may be as long as the file.
-        let (mut last, mut before, mut of_first, mut alike) = (None, 0_usize, None, true);
-        for line in ends.into_iter().flatten() {
-            for (column, field) in line.fields() {
-                if let Some((_, _, earlier)) = last.replace((line, column, field)) {
-                    let found = decimals_and_exponent(earlier);
-                    if before == 0 {
-                        of_first = found;
-                    }
-                    alike &= found.is_some() && found == of_first;
-                    before += 1;
-                }
-            }
-        }
-        let Some((line, column, field)) = last else {
-            return Ok(());
-        };
-        let exponent = |of: Option<(usize, usize)>| of.map_or(0, |(_, characters)| characters);
-        let is_short = exponent(decimals_and_exponent(field)) < exponent(of_first);
-        if before >= LIKE_IT && alike && is_short {
-            let shown = number::shown(field);
-            let message = format!(
-                "the file ends within its last value: \"{shown}\" lacks the exponent of the values before it, and no end of line follows"
-            );
-            let remedy = "the file is probably truncated: get it again, or set `lenient = true` to use what is there";
-            return Err(self.error(line.number, column, message, remedy));
-        }
-        Ok(())
     }
 
     /// Appends the numbers of a line of fixed width. A tab in it means that

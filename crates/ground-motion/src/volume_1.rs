@@ -1,7 +1,7 @@
 //! Volume 1, uncorrected: pairs of time and acceleration, or even steps.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, Times, several};
 use crate::error::{GroundMotionError, bound};
 use crate::fortran::Layout;
 use crate::number;
@@ -279,6 +279,7 @@ fn even(
         (label.number, label.number + 1, lines.number()),
     );
     draft.header_count = expected;
+    draft.row = several(layout.per_line);
     draft.other_counts = in_words;
     draft.quantities = NamedQuantity::of(label.number, &text).into_iter().collect();
     draft.warnings = warnings;
@@ -330,6 +331,7 @@ fn pairs(
         None => Times::Each(times),
     };
     draft.header_count = expected;
+    draft.row = several(layout.per_line / 2);
     draft.other_counts = in_words;
     draft.warnings = warnings;
     Ok(draft)

@@ -1,7 +1,7 @@
 //! Volume 2, corrected: acceleration, velocity and displacement of each channel.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftUnit, ROW, Times};
+use crate::draft::{Draft, DraftUnit, ROW, Times, several};
 use crate::error::GroundMotionError;
 use crate::number;
 use crate::quantity::Quantity;
@@ -68,6 +68,7 @@ fn block(
         (line.number, line.number + 1, lines.number()),
     );
     draft.header_count = Some(label.count);
+    draft.row = several(label.layout.per_line);
     draft.times = Times::Step(Some(label.step.0));
     draft.peak = peak_line(header, label.quantity);
     draft.processing = Processing::Corrected;

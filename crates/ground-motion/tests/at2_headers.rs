@@ -112,6 +112,7 @@ fn components_that_are_written_are_found() {
             title: "Quake, Station, 2011".to_owned(),
             component: name.to_owned(),
             initial: None,
+            first_time: None,
             start_time: String::new(),
             orientation: None,
             processing: Processing::Unstated,

@@ -173,6 +173,7 @@ fn titles_of_at2_say_nothing_of_the_values() {
             title: title.to_owned(),
             component: "N10E".to_owned(),
             initial: None,
+            first_time: None,
             start_time: String::new(),
             orientation: None,
             processing: Processing::Unstated,

@@ -9,6 +9,7 @@ mod common;
 mod component_directions;
 mod contradictory_headers;
 mod contradictory_words;
+mod cut_numbers;
 mod damaged_files;
 mod design_spectra;
 mod ensemble;

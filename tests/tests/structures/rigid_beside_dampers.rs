@@ -37,7 +37,7 @@ fn row(random: &mut ChaCha20Rng, yields: bool) -> String {
              damping = {damping}e3\nexponent = {exponent}\n"
         );
     }
-    text + "[ground_motion]\nfile = \"../ground_motions/el_centro_1940_ns.csv\"\n[analysis]\nduration = 5\n"
+    text + "[ground_motion]\nfile = \"../ground_motions/el_centro_1940_ns.csv\"\n[analysis]\nduration = 4\n"
 }
 
 /// The row of a user, in which a damper came to its transition velocity while floors were held.
@@ -144,7 +144,7 @@ fn dampers_at_their_transition_velocity() {
 #[test]
 fn random_rows() {
     let mut random = ChaCha20Rng::seed_from_u64(20_261_126);
-    for number in 0..12 {
+    for number in 0..6 {
         agree(&row(&mut random, number % 2 == 0));
     }
 }

@@ -2,7 +2,7 @@
 //! accelerations at even steps.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftUnit, StatedDuration, Times};
+use crate::draft::{Draft, DraftUnit, StatedDuration, Times, several};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
 use crate::fortran::Layout;
@@ -117,10 +117,12 @@ fn channel<'a>(
     let mut draft = if is_pairs(&numbers, count) {
         let mut draft = Draft::new(every_second(&numbers, 1), unit, places);
         draft.times = Times::Each(every_second(&numbers, 0));
+        draft.row = several(DATA.per_line / 2);
         draft
     } else {
         let mut draft = Draft::new(numbers, unit, places);
         draft.times = Times::Step(step(source, &text, count, &reals)?);
+        draft.row = several(DATA.per_line);
         draft
     };
     draft.header_count = Some(count);

@@ -3,7 +3,7 @@
 
 use crate::accelerogram::Processing;
 use crate::direction::Direction;
-use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, Times, several};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
@@ -135,6 +135,7 @@ fn channel(
         (reals.first, announcement.number + 1, lines.number()),
     );
     draft.header_count = Some(expected);
+    draft.row = several(layout.per_line);
     without_unknown(source, &text, &draft, layout)?;
     draft.times = Times::Step(step(source, &integers, &reals)?);
     draft.processing = match stage_agrees(source, first, &integers)? {

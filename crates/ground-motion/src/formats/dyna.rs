@@ -64,6 +64,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             samples.push(source.number(line, column, field)?);
         }
     }
+    if !source.ends_whole()? {
+        samples.pop();
+    }
     let unit = header.unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
     if let (Some(unit), Some(quantity)) = (header.unit, header.quantity)
         && unit.quantity != quantity

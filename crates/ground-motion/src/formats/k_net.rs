@@ -2,7 +2,7 @@
 //! Disaster Resilience, Japan): 17 lines `name value`, then counts, eight per line.
 
 use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, Times, several};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
@@ -80,14 +80,27 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         ));
     }
     let mut samples = Vec::with_capacity(lines.remaining() / 5 + 1);
+    let mut rows = 0;
+    let mut last = None;
     for line in lines.by_ref() {
+        last = Some(line);
         if in_columns(line) {
             fixed_row(source, line, &mut samples)?;
+            rows += 1;
         } else {
             for (column, field) in line.fields() {
                 samples.push(count(source, line, column, field)?);
             }
         }
+    }
+    // Counts end at the last column but one of theirs.
+    if let Some(line) = last.filter(|line| !in_columns(*line) && !source.ends_in_a_line_end())
+        && rows > LIKE_IT
+        && line.bytes.trim_ascii_end().len() % COUNTS.width != COUNTS.width - 1
+        && let Some((column, field)) = line.fields().last()
+    {
+        source.is_cut_off(line, column, field, "digits in the last columns")?;
+        samples.pop();
     }
     // The count follows from the duration, which the agency prints as whole seconds: what is
     // more than the rest of a second belongs to another rate or duration, and beyond a
@@ -125,6 +138,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         .map(|d| (d * frequency).round())
         .filter(|n| (1.0..1.0e9).contains(n))
         .map(|n| n as usize);
+    draft.row = several(COUNTS.per_line);
     draft.peak = header.peak.map(|value| DraftPeak {
         value,
         time: None,
@@ -138,6 +152,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     draft.start_time = format!("{} JST less 15 s", header.record_time);
     Ok(vec![draft.finish(source)?])
 }
+
+/// Rows that show how a file writes its rows.
+const LIKE_IT: usize = 3;
 
 /// Whether a row has integers of eight columns with a blank after each, of which the last
 /// one is trimmed. Where there are digits in its place, the fields between blanks alone say

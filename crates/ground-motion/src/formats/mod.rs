@@ -189,7 +189,7 @@ fn every_series(
                 first.quantity,
                 first.unit
             ),
-            remedy: "leave `unit` out to see what is in the file; for an excitation use the acceleration file of the same record (AT2 beside VT2 and DT2)",
+            remedy: "leave `unit` out to see what is in the file; for an excitation use the accelerations of the same record, such as AT2 beside VT2 and DT2",
         });
     }
     let own = Sha256::new().chain_update(bytes);

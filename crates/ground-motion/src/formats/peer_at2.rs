@@ -3,8 +3,9 @@
 //! four or seven header lines, and the free header of Peknold's El Centro.
 
 use crate::accelerogram::Processing;
+use crate::cut_numbers::Forms;
 use crate::direction::Direction;
-use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity};
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, several};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
@@ -14,6 +15,7 @@ use crate::recording::Series;
 use crate::source::Source;
 use crate::stated_step::{StatedStep, state_step};
 use crate::text::{Line, Lines};
+use crate::time_column::mostly_times;
 use crate::writers::peer_at2::{OTHER, RAW};
 
 /// Lines looked through for the header.
@@ -50,8 +52,23 @@ pub(super) static FORMAT: Format = Format {
     read,
 };
 
+/// The line that states the count, and the one that states the step: mostly one line.
+fn line_of_counts<'a>(source: &Source<'a>) -> Option<(Line<'a>, usize)> {
+    let lines = || source.lines().take(HEADER_LINES);
+    let in_one = lines().find(is_counts).map(|line| (line, line.number));
+    in_one.or_else(|| {
+        let states = |key: &'static str| {
+            let number = |text: &str| text.starts_with(|c: char| c.is_ascii_digit() || c == '.');
+            move |line: &Line<'_>| behind(&line.lower(), key).any(number)
+        };
+        let count = lines().find(states("npts"))?;
+        let step = lines().find(states("dt"))?;
+        Some((count, count.number.max(step.number)))
+    })
+}
+
 fn matches(source: &Source<'_>) -> bool {
-    source.lines().take(HEADER_LINES).any(|l| is_counts(&l))
+    line_of_counts(source).is_some()
         || source.lines().take(FREE_LINES).any(|l| is_spaced(&l))
 }
 
@@ -64,6 +81,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut samples = Vec::with_capacity((lines.remaining() / 2 + 1).min(header.count + 1));
     let mut last_row = 0;
     let mut decimal_commas = None;
+    let mut forms = Forms::default();
     for line in lines.by_ref() {
         if line.is_text() {
             if line.lower().contains("end data") {
@@ -76,6 +94,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         decimal_commas = decimal_commas.or_else(|| has_commas_alone(line).then_some(line.number));
         for (column, field) in line.fields() {
             samples.push(source.number(line, column, field)?);
+            forms.see(line, column, field);
         }
         last_row = samples.len() - before;
     }
@@ -84,18 +103,21 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             line,
             0,
             format!(
-                "the header says {} samples, and commas without decimal points stand here: they are within the numbers",
+                "the header says {} samples, and commas stand between digits here: they are within the numbers",
                 header.count
             ),
             "write decimal points, `0.0172`, and blanks between the numbers",
         ));
     }
-    source.ends_whole()?;
+    if !source.ends_whole()? {
+        samples.pop();
+    }
+    forms.are_whole(source)?;
+    are_no_pairs(source, &samples, (header.count, first))?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
     state_step(&mut draft, source, &header.steps);
     draft.header_count = Some(header.count);
-    // One value a row has nothing to fill.
-    draft.last_row = Some(last_row).filter(|n| *n > 1);
+    draft.row = several(last_row);
     draft.processing = match header.text.first() {
         // Written by this program, which says so.
         Some(first) if first == RAW => Processing::Raw,
@@ -114,22 +136,41 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     Ok(vec![draft.finish(source)?])
 }
 
-/// Whether commas stand between digits on a line without any point.
+/// Whether commas stand between digits on a line without any point, or on one whose numbers have
+/// blanks between them.
 fn has_commas_alone(line: Line<'_>) -> bool {
     let digits =
         |three: &[u8]| three[1] == b',' && three[0].is_ascii_digit() && three[2].is_ascii_digit();
-    !line.bytes.contains(&b'.') && line.bytes.windows(3).any(digits)
+    let in_blanks = line.bytes.trim_ascii().contains(&b' ');
+    (in_blanks || !line.bytes.contains(&b'.')) && line.bytes.windows(3).any(digits)
+}
+
+/// Refuses times among the values: this format has none.
+fn are_no_pairs(
+    source: &Source<'_>,
+    samples: &[f64],
+    (count, first): (usize, usize),
+) -> Result<(), GroundMotionError> {
+    if samples.len() < 2 * count || !mostly_times(samples, 2) {
+        return Ok(());
+    }
+    Err(source.error(
+        first,
+        0,
+        format!("the header says {count} samples, and every other number is a time"),
+        "this format has no times: take the header off and read the rows as `format = \"plain_columns\"`, `layout = \"t,a\"`",
+    ))
 }
 
 /// Reads the header; `lines` are at the data afterwards.
 fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMotionError> {
-    let position = source.lines().take(HEADER_LINES).find(is_counts);
+    let position = line_of_counts(source);
     let spaced = source.lines().take(FREE_LINES).find(is_spaced);
-    let Some(line) = position.or(spaced) else {
+    let Some(line) = position.map(|(line, _)| line).or(spaced) else {
         return Err(source.error(1, 0, "no line with NPTS and DT", REMEDY));
     };
     let last = match position {
-        Some(line) => line.number,
+        Some((_, last)) => last,
         None => source
             .lines()
             .take(FREE_LINES)
@@ -178,8 +219,8 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
 
 /// Components of which no direction is known: numbered, along and across an instrument, parallel
 /// and normal to a fault.
-const NO_DIRECTION: [&str; 12] = [
-    "H1", "H2", "H3", "L", "T", "LN", "TR", "LONG", "TRAN", "TRANS", "FN", "FP",
+const NO_DIRECTION: [&str; 13] = [
+    "H1", "H2", "H3", "L", "T", "LG", "LN", "TR", "LONG", "TRAN", "TRANS", "FN", "FP",
 ];
 
 /// The component that ends the second line, `EVENT, STATION, 180`: what stands in brackets behind
@@ -196,6 +237,11 @@ fn component(header: &Header) -> String {
         return field.trim().to_owned();
     }
     let name = field.split('(').next().unwrap_or(field).trim();
+    let lower = name.to_ascii_lowercase();
+    let word = ["component", "comp.", "comp"]
+        .into_iter()
+        .find(|word| lower.starts_with(word));
+    let name = word.map_or(name, |word| name[word.len()..].trim());
     let is_name = Direction::parse(name).is_some()
         || Direction::of_name(name).is_some()
         || NO_DIRECTION.iter().any(|n| n.eq_ignore_ascii_case(name));
@@ -219,11 +265,12 @@ fn quantities(text: &[String]) -> Vec<NamedQuantity> {
     text.iter().enumerate().filter_map(named).collect()
 }
 
-/// What stands behind each `KEY =` of a line in lower case.
+/// What stands behind each `KEY =` or `KEY:` of a line in lower case.
 fn behind<'t>(lower: &'t str, key: &'t str) -> impl Iterator<Item = &'t str> {
     lower.match_indices(key).filter_map(move |(at, _)| {
         let is_word = !lower[..at].ends_with(|c: char| c.is_ascii_alphanumeric());
-        let rest = lower[at + key.len()..].trim_start().strip_prefix('=')?;
+        let rest = lower[at + key.len()..].trim_start();
+        let rest = rest.strip_prefix(['=', ':'])?;
         is_word.then(|| rest.trim_start())
     })
 }
@@ -250,6 +297,16 @@ fn count_in(text: &str) -> Result<Option<usize>, String> {
     Ok(number.parse().ok().filter(|_| ends))
 }
 
+/// Whether a line in lower case names both before their numbers: `NPTS, DT= 2000, 0.0100`.
+fn names_both_before(lower: &str) -> bool {
+    let mut behind = lower.split("npts").skip(1);
+    behind.any(|rest| {
+        let names = rest.split(['=', ':']).next().unwrap_or(rest);
+        let names = names.trim_matches([' ', ',', ';', '/', '\t']);
+        names == "dt"
+    })
+}
+
 /// Counts of samples and time steps (s) of a line.
 fn statements(
     source: &Source<'_>,
@@ -257,13 +314,15 @@ fn statements(
 ) -> Result<(Vec<usize>, Vec<f64>), GroundMotionError> {
     let lower = line.lower();
     let mut steps = Vec::new();
-    for text in behind(&lower, "dt") {
-        steps.extend(source.step_or_rate(line, text, Bare::Step)?);
-    }
     let mut counts = Vec::new();
-    for text in behind(&lower, "npts") {
-        let count = count_in(text);
-        counts.extend(count.map_err(|message| source.error(line.number, 0, message, REMEDY))?);
+    if !names_both_before(&lower) {
+        for text in behind(&lower, "dt") {
+            steps.extend(source.step_or_rate(line, text, Bare::Step)?);
+        }
+        for text in behind(&lower, "npts") {
+            let count = count_in(text);
+            counts.extend(count.map_err(|message| source.error(line.number, 0, message, REMEDY))?);
+        }
     }
     if counts.is_empty() && (is_counts(&line) || is_spaced(&line)) {
         let mut numbers = line.fields().filter_map(|(_, f)| number::parse(f).ok());
@@ -304,7 +363,7 @@ fn unit_in(lower: &str) -> Option<UnitAndRest<'_>> {
 }
 
 /// First words that speak of something else where they follow a unit.
-const BEHIND_UNIT: [&str; 17] = [
+const BEHIND_UNIT: [&str; 21] = [
     "acceleration",
     "and",
     "at",
@@ -320,6 +379,10 @@ const BEHIND_UNIT: [&str; 17] = [
     "instrument",
     "number",
     "points",
+    "processed",
+    "recorded",
+    "rotated",
+    "sampled",
     "uncorrected",
     "with",
 ];
@@ -408,6 +471,19 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
     if units.is_empty() {
         // Words may go on in the next line.
         units.extend(unit_in(&lines).map(|unit| (header.line, unit)));
+    }
+    if units.is_empty() {
+        // `ACCELERATION TIME SERIES (G)`, `ACCELERATION TIME HISTORY IN G`.
+        let behind = lower.iter().enumerate().filter_map(|(i, line)| {
+            let rest = OF_VALUES.iter().find_map(|words| line.split_once(words))?.1;
+            let rest = rest.trim_start().trim_start_matches(',').trim_start();
+            let rest = rest.strip_prefix('(').or_else(|| rest.strip_prefix("in "))?;
+            let word = rest.trim_start();
+            let end = word.find([' ', ',', ')', ';', '\t']);
+            let (unit, rest) = word.split_at(end.unwrap_or(word.len()));
+            Some((i + 1, (SeriesUnit::parse(unit.trim_end_matches('.'))?, rest)))
+        });
+        units.extend(behind);
     }
     if units.is_empty() {
         // `ACCELERATION (GAL)`. What follows such a unit may be of a title, unless it changes it.

@@ -20,6 +20,8 @@ pub(crate) const AZIMUTH: &str = "Azimuth";
 pub(crate) const DIP: &str = "Dip";
 /// Key of the time of the first sample.
 pub(crate) const START_TIME: &str = "Start";
+/// Key of the time of the first sample (s) in the column of times of the record that was processed.
+pub(crate) const FIRST_TIME: &str = "First time";
 /// Key of the number of samples.
 pub(crate) const SAMPLES: &str = "Samples";
 /// Keys of velocity and displacement at the first sample.
@@ -27,13 +29,14 @@ pub(crate) const INITIAL_VELOCITY: &str = "Initial velocity";
 pub(crate) const INITIAL_DISPLACEMENT: &str = "Initial displacement";
 
 /// Keys that mean something.
-const KEYS: [&str; 17] = [
+const KEYS: [&str; 18] = [
     "Event",
     "Station",
     "Component",
     AZIMUTH,
     DIP,
     START_TIME,
+    FIRST_TIME,
     "Source",
     "Step",
     "Read",
@@ -53,6 +56,8 @@ pub(super) struct Keys {
     title: Vec<String>,
     component: String,
     start_time: String,
+    /// Time of the first sample (s) in another column of times.
+    first_time: Option<f64>,
     /// Azimuth and dip (degrees).
     azimuth: Option<f64>,
     dip: Option<f64>,
@@ -134,7 +139,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     );
     // Those that follow a step were held against it, from zero on.
     draft.first_time = match step.is_some() || as_given {
-        true => Some(0.0),
+        true => Some(keys.first_time.unwrap_or(0.0)),
         false => times.first(),
     };
     draft.times = match step.is_some() || as_given {
@@ -143,7 +148,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         false => times.finish(source, first, &mut draft.warnings)?,
     };
     draft.header_count = keys.samples;
-    draft.last_row = Some(1);
+    draft.row = Some(1);
     draft.component.clone_from(&keys.component);
     if keys.initial_velocity.is_some() || keys.initial_displacement.is_some() {
         draft.initial = Some((
@@ -240,6 +245,8 @@ impl Keys {
             AZIMUTH => self.azimuth = degrees(value),
             DIP => self.dip = degrees(value),
             START_TIME => value.clone_into(&mut self.start_time),
+            // Other words behind this key mean nothing.
+            FIRST_TIME => self.first_time = seconds(value),
             "Source" | "Step" | "Read" | "Note" => self.history.push(text.trim().to_owned()),
             "Stage" => {
                 let stage = match value.to_ascii_lowercase().as_str() {
@@ -286,6 +293,12 @@ impl Keys {
         }
         Ok(())
     }
+}
+
+/// `-0.25 s`.
+fn seconds(value: &str) -> Option<f64> {
+    let time: f64 = value.strip_suffix('s')?.trim().parse().ok()?;
+    time.is_finite().then_some(time)
 }
 
 /// `120 degrees`; other words behind these keys mean nothing.

@@ -4,7 +4,7 @@
 
 use crate::accelerogram::Processing;
 use crate::direction::Direction;
-use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, ROW, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, ROW, Times, several};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
 use crate::fortran::Layout;
@@ -99,11 +99,13 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let unit = DraftUnit::Stated(kind.unit);
     let rows = (places.0, first, layout.per_line);
     let mut draft = if is_film(source, &kind.stage, rate, &numbers, count, rows)? {
+        // The agency adds rows of pairs.
         pairs(source, numbers, unit, places, (&integers, count))?
     } else {
         let mut draft = Draft::new(numbers, unit, places);
         draft.times = Times::Step(rate.map(|rate| 1.0 / rate));
         draft.header_count = Some(count);
+        draft.row = several(layout.per_line);
         draft
     };
     if let (Some(rate), Times::Each(_)) = (rate, &draft.times) {

@@ -19,9 +19,9 @@ const OFF_RIGHT_ANGLE: f64 = 1.0;
 const STILL_MOVES: f64 = 0.05;
 
 /// What to do about components that do not start together.
-const CUT_BOTH: &str = "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, and use these files";
+const CUT_BOTH: &str = "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, where times count from the first sample of each file, and use these files";
 /// The same where the times may count from anything.
-const CUT_OR_COUNT_ANEW: &str = "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, and use these files; if they do start together and their times alone count otherwise, write both anew from zero, `pounding motion convert FILE -o FILE.csv`";
+const CUT_OR_COUNT_ANEW: &str = "cut both to the time that they have in common, `pounding motion process FILE --trim \"start=3 s, end=60 s\" -o FILE.csv`, where times count from the first sample of each file, and use these files; if they do start together and their times alone count otherwise, write both anew from zero, `pounding motion convert FILE -o FILE.csv`";
 
 /// Two components in other directions.
 #[derive(Debug, Clone, PartialEq)]
@@ -125,17 +125,23 @@ fn starts_together(first: &Accelerogram, second: &Accelerogram) -> Result<(), Gr
     let (Some(a), Some(b)) = (first.origin(), second.origin()) else {
         return Ok(());
     };
-    let refused = |a: &str, b: &str, remedy: &'static str| GroundMotionError::NotPossible {
-        step: STEP,
-        reason: format!(
-            "the components do not start together: their first samples are at {a} and {b}"
-        ),
-        remedy,
+    let refused = |[a, b]: [&str; 2], apart: f64, remedy: &'static str| {
+        let apart = match apart.is_finite() {
+            true => format!(", {} s apart", bound(apart)),
+            false => String::new(),
+        };
+        GroundMotionError::NotPossible {
+            step: STEP,
+            reason: format!(
+                "the components do not start together: their first samples are at {a} and {b}{apart}"
+            ),
+            remedy,
+        }
     };
     let most = 0.5 * first.time_step();
     if let Some(apart) = start_times::apart(&a.start_time, &b.start_time) {
         return match apart > most {
-            true => Err(refused(&a.start_time, &b.start_time, CUT_BOTH)),
+            true => Err(refused([&a.start_time, &b.start_time], apart, CUT_BOTH)),
             false => Ok(()),
         };
     }
@@ -143,7 +149,8 @@ fn starts_together(first: &Accelerogram, second: &Accelerogram) -> Result<(), Gr
         // A millionth: half a step is none, whatever the round-off of the times.
         (Some(a), Some(b)) if (a - b).abs() > most * (1.0 + 1.0e-6) => {
             let shown = |time: f64| format!("{} s of their times", bound(time));
-            Err(refused(&shown(a), &shown(b), CUT_OR_COUNT_ANEW))
+            let apart = (a - b).abs();
+            Err(refused([&shown(a), &shown(b)], apart, CUT_OR_COUNT_ANEW))
         }
         _ => Ok(()),
     }

@@ -34,6 +34,9 @@ pub struct Written {
     pub initial: Option<(f64, f64)>,
     /// Time of the first sample as printed; empty if not known.
     pub start_time: String,
+    /// Time of the first sample (s) in the column of times that a processed record was read with:
+    /// what was cut off before it is known by it. Times of what is written count from zero.
+    pub first_time: Option<f64>,
     /// Where its positive values point, if known in degrees.
     pub orientation: Option<Orientation>,
     /// What the agency did to it, if nothing was done to it since.
@@ -65,6 +68,7 @@ impl Written {
             initial: record.initial(),
             orientation: origin.and_then(|o| o.orientation),
             start_time: origin.map_or(String::new(), |o| o.start_time.clone()),
+            first_time: origin.and_then(|o| o.first_time),
             processing: as_read.map_or(Processing::Unstated, |o| o.processing),
             remarks,
         }
@@ -95,6 +99,7 @@ impl Written {
             initial: series.initial,
             orientation: origin.orientation,
             start_time: origin.start_time.clone(),
+            first_time: None,
             processing: origin.processing,
             remarks: origin
                 .history

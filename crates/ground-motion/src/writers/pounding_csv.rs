@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use crate::accelerogram::Processing;
 use crate::error::GroundMotionError;
 use crate::formats::pounding_csv::{
-    AZIMUTH, DIP, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, SAMPLES, START_TIME,
+    AZIMUTH, DIP, FIRST_TIME, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, SAMPLES, START_TIME,
 };
 use crate::writers::{Written, acceleration_only, line, number, readable, time};
 
@@ -31,6 +31,9 @@ pub fn write_pounding_csv(series: &Written) -> Result<String, GroundMotionError>
     }
     if !series.start_time.is_empty() {
         let _ = writeln!(text, "# {START_TIME}: {}", line(&series.start_time));
+    }
+    if let Some(first) = series.first_time.filter(|first| *first != 0.0) {
+        let _ = writeln!(text, "# {FIRST_TIME}: {} s", number(first));
     }
     match series.processing {
         Processing::Raw => text.push_str("# Stage: raw\n"),

@@ -48,7 +48,11 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
         if let Some(origin) = record.origin() {
             warnings.clone_from(&origin.warnings);
         }
-        Written::of(&record)
+        Written {
+            // Times of what is written anew count from its first sample.
+            first_time: None,
+            ..Written::of(&record)
+        }
     } else {
         Written::of_series(&series)?
     };

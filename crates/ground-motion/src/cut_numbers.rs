@@ -1,0 +1,199 @@
+//! Numbers that lost their end: `1.494E-02` cut after `1.494` or `1.494E-0` is a number too.
+
+use std::collections::VecDeque;
+
+use crate::error::GroundMotionError;
+use crate::number;
+use crate::source::Source;
+use crate::text::Line;
+
+/// Values that show how a file writes its values.
+const LIKE_IT: usize = 3;
+/// Values without exponents that show how many decimals a file prints: one that leaves out zeros
+/// at the end prints as many in all of them by chance only.
+const LIKE_IT_IN_DECIMALS: usize = 30;
+/// Last lines of values in which the form of a number is looked for.
+const LAST_LINES: usize = 60;
+/// Values among which one in another form is damaged.
+const MANY: usize = 20;
+
+/// What a printed number has behind its decimal point.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Form {
+    decimals: usize,
+    /// Characters of the exponent, with its letter.
+    exponent: usize,
+}
+
+impl Form {
+    /// The form of a field; `None` of a number without a point or an exponent without a letter.
+    fn of(field: &[u8]) -> Option<Self> {
+        let end = field.iter().position(|b| b"eEdD".contains(b));
+        let mantissa = &field[..end.unwrap_or(field.len())];
+        let point = mantissa.iter().position(|b| *b == b'.')?;
+        let decimals = &mantissa[point + 1..];
+        decimals.iter().all(u8::is_ascii_digit).then_some(Self {
+            decimals: decimals.len(),
+            exponent: field.len() - mantissa.len(),
+        })
+    }
+}
+
+/// Forms of all values of a series, as far as they show one that was cut off among them.
+#[derive(Debug, Default)]
+pub(crate) struct Forms {
+    count: usize,
+    usual: Option<Form>,
+    /// Values with another exponent, and the first of them: line, column, field.
+    others: usize,
+    first: Option<(usize, usize, String)>,
+    /// Whether values of all sizes are printed with an exponent: where a first digit other than
+    /// zero stands before the point, or an exponent is zero. `G` formats print values about 1
+    /// without one.
+    is_always: bool,
+    /// Whether the values show no form: decimals differ, or points are missing.
+    none: bool,
+}
+
+impl Forms {
+    /// Takes one more value into account.
+    pub(crate) fn see(&mut self, line: Line<'_>, column: usize, field: &[u8]) {
+        self.count += 1;
+        let Some(form) = Form::of(field).filter(|_| !self.none) else {
+            self.none = true;
+            return;
+        };
+        let usual = *self.usual.get_or_insert(form);
+        if form.decimals != usual.decimals {
+            self.none = true;
+            return;
+        }
+        if form.exponent < usual.exponent {
+            self.others += 1;
+            let place = || (line.number, column, number::shown(field));
+            self.first.get_or_insert_with(place);
+        } else if form.exponent > usual.exponent {
+            // The values before this one were the others, or the file has two forms.
+            self.none = self.count > 2 || self.others > 0;
+            self.usual = Some(form);
+            self.others = self.count - 1;
+        }
+        if form.exponent > 0 && form.exponent >= usual.exponent {
+            let digits = field.strip_prefix(b"-").unwrap_or(field);
+            let zero = |field: &[u8]| field.ends_with(b"00");
+            self.is_always |= digits.first().is_some_and(|b| (b'1'..=b'9').contains(b))
+                || zero(field) && number::parse(field).is_ok_and(|value| value != 0.0);
+        }
+    }
+
+    /// Refuses a value that alone lacks the exponent, or a digit of it, of the many others.
+    ///
+    /// # Errors
+    /// At that value.
+    pub(crate) fn are_whole(&self, source: &Source<'_>) -> Result<(), GroundMotionError> {
+        let has_exponent = self.usual.is_some_and(|form| form.exponent > 0);
+        let few = self.others <= self.count / 100 + 1;
+        match &self.first {
+            Some((line, column, field))
+                if has_exponent && self.is_always && !self.none && self.count > MANY && few =>
+            {
+                Err(source.error(
+                    *line,
+                    *column,
+                    format!("\"{field}\" lacks the exponent, or a digit of it, that the other values have"),
+                    "the file is damaged: correct the value, or get the record again",
+                ))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl Source<'_> {
+    /// Whether the file ends as a line does, or with the mark of its end.
+    pub(crate) fn ends_in_a_line_end(&self) -> bool {
+        matches!(self.bytes.last(), Some(b'\n' | b'\r' | 0x1a) | None)
+    }
+
+    /// Whether the last value of the file is whole. It is not where the file ends without an end of
+    /// line in a number without the exponent, or a digit of it, or with fewer decimals than all
+    /// values of the lines before it have.
+    ///
+    /// # Errors
+    /// It is cut off, unless the user takes what is there: without it, which is said.
+    pub(crate) fn ends_whole(&self) -> Result<bool, GroundMotionError> {
+        if self.ends_in_a_line_end() {
+            return Ok(true);
+        }
+        let mut ends = VecDeque::with_capacity(LAST_LINES);
+        for line in self.lines().filter(|line| !line.is_blank()) {
+            if line.is_text() {
+                ends.clear();
+                continue;
+            }
+            if ends.len() == LAST_LINES {
+                ends.pop_front();
+            }
+            ends.push_back(line);
+        }
+        // One value at a time: a line may be as long as the file.
+        let (mut last, mut before, mut of_first, mut alike) = (None, 0_usize, None, true);
+        for line in ends {
+            for (column, field) in line.fields() {
+                if let Some((_, _, earlier)) = last.replace((line, column, field)) {
+                    let found = Form::of(earlier);
+                    if before == 0 {
+                        of_first = found;
+                    }
+                    alike &= found.is_some() && found == of_first;
+                    before += 1;
+                }
+            }
+        }
+        let (Some((line, column, field)), Some(usual)) = (last, of_first.filter(|_| alike)) else {
+            return Ok(true);
+        };
+        let form = Form::of(field);
+        let lacks = if form.map_or(0, |form| form.exponent) < usual.exponent && before >= LIKE_IT {
+            "the exponent"
+        } else if usual.exponent == 0
+            && form.map_or(0, |form| form.decimals) < usual.decimals
+            && before >= LIKE_IT_IN_DECIMALS
+        {
+            "decimals"
+        } else {
+            return Ok(true);
+        };
+        self.is_cut_off(line, column, field, lacks)?;
+        Ok(false)
+    }
+
+    /// Says that the last value of the file is cut off.
+    ///
+    /// # Errors
+    /// Unless the user takes what is there, without it.
+    pub(crate) fn is_cut_off(
+        &self,
+        line: Line<'_>,
+        column: usize,
+        field: &[u8],
+        lacks: &str,
+    ) -> Result<(), GroundMotionError> {
+        let shown = number::shown(field.trim_ascii());
+        if self.options.lenient {
+            self.warn(&format!(
+                "line {}: the file ends within its last value, \"{shown}\", which is not used",
+                line.number
+            ));
+            return Ok(());
+        }
+        Err(self.error(
+            line.number,
+            column,
+            format!(
+                "the file ends within its last value: \"{shown}\" lacks {lacks} of the values before it, and no end of line follows"
+            ),
+            "the file is probably truncated: get it again, or set `lenient = true` to use what is there before it",
+        ))
+    }
+}

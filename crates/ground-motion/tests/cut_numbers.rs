@@ -1,0 +1,247 @@
+//! Numbers that lost their end, rows that stand twice, and headers of AT2 in forms that agencies and
+//! colleagues write.
+#![allow(clippy::unwrap_used)]
+
+use std::fmt::Write as _;
+
+use pounding_ground_motion::processing::rotate;
+use pounding_ground_motion::writers::{Written, write_pounding_csv};
+use pounding_ground_motion::{Accelerogram, ReadOptions, Recording, read_all_bytes, read_bytes};
+
+use crate::common::fixtures;
+
+fn lenient() -> ReadOptions {
+    ReadOptions {
+        lenient: true,
+        ..ReadOptions::default()
+    }
+}
+
+fn read(text: &str, options: &ReadOptions) -> Result<Accelerogram, String> {
+    let found = read_bytes("f", text.as_bytes(), options);
+    found.map_err(|e| format!("{e}; {}", e.help().unwrap_or_default()))
+}
+
+/// 40 values (g) of an AT2 file, as `print` writes them, five to a row.
+fn at2(header: &str, print: fn(f64) -> String) -> String {
+    let mut text = format!("PEER\nQUAKE, STATION, 90\n{header}\n");
+    for i in 0..40 {
+        let value = 0.2 * f64::sin(0.7 * f64::from(i) + 0.1);
+        text += &print(value);
+        text += if i % 5 == 4 { "\n" } else { "" };
+    }
+    text
+}
+
+const HEADER: &str = "ACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 40, DT= .01 SEC";
+
+/// As C prints `%15.7E`, and as Fortran prints `E15.7`, with a zero before the point.
+fn of_c(x: f64) -> String {
+    let text = format!("{x:.7e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap();
+    let power: i32 = exponent.parse().unwrap();
+    let sign = if power < 0 { '-' } else { '+' };
+    format!("{:>15}", format!("{mantissa}E{sign}{:02}", power.abs()))
+}
+
+fn of_fortran(x: f64) -> String {
+    let power = x.abs().log10().floor() as i32 + 1;
+    let sign = if power < 0 { '-' } else { '+' };
+    let mantissa = x / 10.0_f64.powi(power);
+    format!(
+        "{:>15}",
+        format!("{mantissa:.7}E{sign}{:02}", power.abs())
+    )
+}
+
+fn plain(x: f64) -> String {
+    format!("{x:10.5}")
+}
+
+/// A value within the file that alone lacks its exponent, or a digit of it, is no value.
+#[test]
+fn exponents_lost_within_a_file() {
+    for print in [of_c, of_fortran] {
+        let text = at2(HEADER, print);
+        let whole = read(&text, &ReadOptions::default()).unwrap();
+        assert_eq!(whole.samples().len(), 40);
+        let line = text.lines().nth(7).unwrap();
+        for lost in ["-02", "E-02", "2"] {
+            let cut = line.strip_suffix(lost);
+            let Some(cut) = cut.or_else(|| line.strip_suffix(&lost.replace('2', "1"))) else {
+                continue;
+            };
+            let damaged = text.replace(line, cut);
+            for options in [ReadOptions::default(), lenient()] {
+                let said = read(&damaged, &options).unwrap_err();
+                let whole = said.starts_with("f:8:") || said.contains("is not a number");
+                assert!(whole, "{lost}: {said}");
+            }
+        }
+    }
+    // Formats that print no exponent of values about 1, as `%G` of Fortran.
+    let general = |x: f64| {
+        if x.abs() >= 0.1 {
+            format!("{x:15.7}")
+        } else {
+            of_fortran(x)
+        }
+    };
+    assert!(read(&at2(HEADER, general), &ReadOptions::default()).is_ok());
+    // As short as they can be.
+    assert!(read(&at2(HEADER, |x| format!(" {x:e}")), &ReadOptions::default()).is_ok());
+}
+
+/// A file that ends within its last value is refused; taken as it is, that value is left out.
+#[test]
+fn files_that_end_within_a_number() {
+    for (print, cuts) in [
+        (of_c as fn(f64) -> String, [1, 4, 7]),
+        (plain as fn(f64) -> String, [1, 2, 5]),
+    ] {
+        let text = at2(HEADER, print);
+        let text = text.trim_end();
+        assert!(read(text, &ReadOptions::default()).is_ok());
+        for cut in cuts {
+            let cut = &text[..text.len() - cut];
+            let said = read(cut, &ReadOptions::default()).unwrap_err();
+            assert!(
+                said.starts_with("f:12:") && said.contains("get it again"),
+                "{said}"
+            );
+            let record = read(cut, &lenient()).unwrap();
+            assert_eq!(record.samples().len(), 39);
+            let warnings = &record.origin().unwrap().warnings;
+            assert!(warnings.iter().any(|w| w.contains("not used")), "{warnings:?}");
+        }
+    }
+}
+
+/// K-NET: integers of eight columns, of which the last one lost digits.
+#[test]
+fn counts_of_k_net_that_are_cut_off() {
+    let fixture = fixtures("k_net", 0).remove(0);
+    let text: String = fixture.bytes.iter().map(|b| char::from(*b)).collect();
+    let text = text.trim_end();
+    let all = |text: &str, options: &ReadOptions| -> Result<Recording, String> {
+        let found = read_all_bytes("f", text.as_bytes(), options);
+        found.map_err(|e| e.to_string())
+    };
+    let whole = all(text, &fixture.options).unwrap().series[0].samples.len();
+    let cut = &text[..text.len() - 1];
+    let said = all(cut, &fixture.options).unwrap_err();
+    assert!(said.contains("ends within its last value"), "{said}");
+    let lenient = ReadOptions {
+        lenient: true,
+        ..fixture.options
+    };
+    let left = all(cut, &lenient).unwrap();
+    assert_eq!(left.series[0].samples.len(), whole - 1);
+}
+
+/// A row of numbers that stands twice shifts all that follow: it is no filling of the last row.
+#[test]
+fn rows_that_stand_twice_are_refused() {
+    let mut tried = 0;
+    for format in ["csmip_v2", "csmip_v1", "k_net", "usgs_smc", "bhrc", "caltech_volume_2"] {
+        for fixture in fixtures(format, 0) {
+            let text: String = fixture.bytes.iter().map(|b| char::from(*b)).collect();
+            let lines: Vec<&str> = text.lines().collect();
+            // The last full row of numbers: its length is the most common one at the end.
+            let is_row = |line: &str| {
+                line.len() > 40 && line.bytes().all(|b| b" .-+0123456789eE".contains(&b))
+            };
+            let Some(last) = lines.iter().rposition(|l| is_row(l)) else {
+                continue;
+            };
+            let Some(row) = (0..last).rev().find(|i| {
+                is_row(lines[*i]) && i + 1 < last && lines[*i].len() == lines[i + 1].len()
+            }) else {
+                continue;
+            };
+            let mut doubled = lines.clone();
+            doubled.insert(row, lines[row]);
+            let doubled: String = doubled.join("\n") + "\n";
+            let bytes: Vec<u8> = doubled.chars().map(|c| c as u8).collect();
+            let found = read_all_bytes("f", &bytes, &fixture.options);
+            if let Ok(found) = &found {
+                // Pairs of time and value, of which the agency adds rows.
+                let pairs = format == "usgs_smc";
+                assert!(pairs, "{format}: {:?}", found.series[0].origin.warnings);
+            }
+            tried += usize::from(found.is_err());
+        }
+    }
+    assert!(tried >= 5, "{tried}");
+}
+
+#[test]
+fn headers_of_at2_in_other_forms() {
+    let of = |header: &str| read(&at2(header, plain), &ReadOptions::default());
+    for header in [
+        HEADER,
+        "ACCELERATION TIME SERIES IN UNITS OF G\nNPTS=40\nDT=.0100 SEC",
+        "ACCELERATION TIME SERIES IN UNITS OF G\nNPTS: 40, DT: .0100",
+        "ACCELERATION TIME SERIES IN UNITS OF G\nNPTS,DT= 40, 0.0100",
+        "ACCELERATION TIME SERIES IN UNITS OF G\nNPTS, DT: 40 0.0100",
+        "ACCELERATION TIME SERIES (G)\nNPTS= 40, DT= .01 SEC",
+        "ACCELERATION TIME HISTORY IN G\nNPTS= 40, DT= .01 SEC",
+        "ACCELERATION TIME SERIES IN UNITS OF G ROTATED TO FAULT NORMAL\nNPTS= 40, DT= .01 SEC",
+    ] {
+        let record = of(header).unwrap_or_else(|e| panic!("{header}: {e}"));
+        assert_eq!(record.samples().len(), 40, "{header}");
+        assert!((record.time_step() - 0.01).abs() < 1e-15, "{header}");
+        let peak = record.samples().iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+        assert!((peak / 9.806_65 - 0.2).abs() < 1e-3, "{header}: {peak}");
+    }
+    // A decimal comma within one number is no separator.
+    let said = read(
+        &at2(HEADER, plain).replacen("0.01997", "0,01997", 1),
+        &ReadOptions::default(),
+    )
+    .unwrap_err();
+    assert!(said.starts_with("f:6:") && said.contains("comma"), "{said}");
+    // Rows of time and value below the header of this format.
+    let mut pairs = format!("PEER\nQUAKE, STATION, 90\n{HEADER}\n");
+    for i in 0..40 {
+        let value = 0.2 * f64::sin(0.7 * f64::from(i));
+        writeln!(pairs, "{:8.3} {value:10.5}", 0.01 * f64::from(i)).unwrap();
+    }
+    for options in [ReadOptions::default(), lenient()] {
+        let said = read(&pairs, &options).unwrap_err();
+        assert!(said.contains("time"), "{said}");
+    }
+}
+
+/// Times of `--trim` count from the first sample of each file. Components that do not start together
+/// stay so in what is written of them.
+#[test]
+fn components_that_were_cut_at_other_times_are_known() {
+    let table = |from: f64| {
+        let mut text = String::from("time (s),acc (m/s2)\n");
+        for i in 0..400 {
+            let time = from + 0.01 * f64::from(i);
+            writeln!(text, "{time:.2},{:.4}", f64::sin(3.0 * time)).unwrap();
+        }
+        text
+    };
+    let [first, second] = [0.0, 1.0].map(|from| read(&table(from), &ReadOptions::default()).unwrap());
+    let said = rotate(&first, &second, 30.0).unwrap_err().to_string();
+    assert!(said.contains("1 s apart"), "{said}");
+    let cut = |record: &Accelerogram, start: f64, end: f64| {
+        let trim = pounding_ground_motion::processing::Trim::Times { start, end };
+        let steps = [pounding_ground_motion::processing::ProcessingStep::Trim(trim)];
+        let cut = pounding_ground_motion::processing::process(record, &steps).unwrap();
+        let text = write_pounding_csv(&Written::of(&cut)).unwrap();
+        read(&text, &ReadOptions::default()).unwrap()
+    };
+    // As if the times were those of the files: one second of the common time is cut off twice.
+    let wrong = (cut(&first, 1.0, 3.0), cut(&second, 1.0, 3.0));
+    assert!(rotate(&wrong.0, &wrong.1, 30.0).is_err());
+    let right = (cut(&first, 1.0, 3.0), cut(&second, 0.0, 2.0));
+    let turned = rotate(&right.0, &right.1, 45.0).unwrap().first;
+    let root = f64::sqrt(2.0);
+    for (a, b) in turned.samples().iter().zip(right.0.samples()) {
+        assert!((a - root * b).abs() < 2e-4 || (a.abs() < 2e-4), "{a} {b}");
+    }
+}

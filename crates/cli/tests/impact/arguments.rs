@@ -168,7 +168,7 @@ fn elastic_laws_do_not_creep() {
         "hertz_1882|-p|stiffness=1e300",
         "linear_elastic|--example|--mass-left|1e-300",
     ] {
-        let output = super::run_in(&super::example(), arguments);
+        let output = super::run_in(&example(), arguments);
         let message = String::from_utf8_lossy(&output.stderr).into_owned();
         assert!(!message.contains("damping"), "{message}");
     }

@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use pounding_case::Case;
+use pounding_catalogue::Parameters;
 use pounding_gap_element::{
     AchievedRestitution, Bodies, CollisionOutcome, GapElementError, ImpactModel, ModelDescriptor,
     ModelParameters, ParameterUnit, SeparationRule, collide, registry,
@@ -180,11 +181,14 @@ pub(super) fn own_parameters(case: &Case, gap: usize, gives_restitution: bool) -
     let descriptor = registry::find(&gap.model.value).ok()?;
     let values = gap.parameters.iter();
     let values = values.map(|p| (p.key.value.clone(), p.value.value.value));
-    let mut parameters = ModelParameters::default();
-    parameters.values = values.collect();
-    parameters.spring = gap.spring.as_ref().map(|table| table.value.clone());
     let rule = gap.separation.as_ref();
-    parameters.separation = rule.and_then(|rule| SeparationRule::from_name(&rule.value));
+    let parameters = ModelParameters {
+        parameters: Parameters {
+            values: values.collect(),
+        },
+        separation: rule.and_then(|rule| SeparationRule::from_name(&rule.value)),
+        spring: gap.spring.as_ref().map(|table| table.value.clone()),
+    };
     Some(OwnLaw {
         model: descriptor.name,
         parameters,

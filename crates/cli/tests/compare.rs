@@ -360,6 +360,27 @@ fn a_record_without_contact_is_left_out_of_the_spread_of_force() {
         assert!(of_seven["values"][0][without].is_null(), "{kind}");
         assert!(!of_seven["ranking"]["models"].as_array().unwrap().is_empty());
     }
+    // Nor do its buildings, which move there as they do without pounding.
+    for kind in ["displacement", "acceleration_absolute"] {
+        let (of_seven, of_six) = (
+            quantity(&seven, "light", kind),
+            quantity(&six, "light", kind),
+        );
+        assert_eq!(of_seven["ranking"], of_six["ranking"], "{kind}");
+        for key in ["between_models", "greatest_ratio", "records"] {
+            let (of_seven, of_six) = (&of_seven["spread"][key], &of_six["spread"][key]);
+            assert_eq!(of_seven, of_six, "{kind} {key}");
+        }
+        assert_eq!(of_seven["spread"]["records_left_out"], 1);
+        let isolated = &of_seven["isolated"][without];
+        assert_eq!(&of_seven["values"][0][without], isolated, "{kind}");
+    }
+    for building in seven["buildings"].as_array().unwrap() {
+        assert_eq!(
+            building["records_without_contact"],
+            serde_json::json!([name])
+        );
+    }
     for kind in ["impacts", "impact_energy"] {
         let values = &quantity(&seven, "light-heavy", kind)["values"];
         assert_eq!(values[0][without], 0.0, "{kind}");
@@ -374,6 +395,35 @@ fn a_record_without_contact_is_left_out_of_the_spread_of_force() {
     let shown = text(&output.stdout);
     let said = "light-heavy: no contact with any model under 1 of 7 records";
     assert!(shown.contains(said) && shown.contains("6 of 7"), "{shown}");
+    let said = "light, heavy: reached by no contact with any model under 1 of 7 records";
+    assert!(shown.contains(said), "{shown}");
+}
+
+/// A row of three, of which the right gap never closes: nothing reaches the right building, unless a link
+/// joins it with its neighbour, which is hit.
+#[test]
+fn contacts_reach_buildings_beside_them_and_those_linked_to_these() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("case.toml");
+    let records = root().join("ground_motions").display().to_string();
+    let example = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+    let example = example.unwrap().replace("../../ground_motions", &records);
+    let (buildings, rest) = example.split_once("[[gap]]").unwrap();
+    let third = "[[building]]\nname = \"third\"\nstoreys = 3\nmass = \"1000 t\"\nstiffness = \"2000 MN/m\"\nheight = \"3 m\"\ndamping = { stiffness_proportional = 0.05 }\n";
+    let wide = "[[gap]]\nbetween = [\"heavy\", \"third\"]\nwidth = \"5 m\"\nmodel = \"exact_hunt_crossley\"\nstiffness = \"2.75e9 N/m^1.5\"\nrestitution = 0.65\n";
+    let link = "[[link]]\nbetween = [\"heavy\", \"third\"]\nmodel = \"linear\"\nstiffness = \"100 MN/m\"\n";
+    for (links, reached) in [("", 0), (link, 1)] {
+        let case = format!("{buildings}{third}\n[[gap]]{rest}\n{wide}\n{links}");
+        std::fs::write(&file, case).unwrap();
+        let models = ["--models", "anagnostopoulos_2004,linear_elastic"];
+        let found = answer("compare", &file, &models);
+        let records = |of: &str| quantity(&found, of, "displacement")["spread"]["records"].clone();
+        assert_eq!([records("light"), records("heavy")], [1, 1]);
+        assert_eq!(records("third"), reached, "{links}");
+        let order = &quantity(&found, "third", "displacement")["ranking"];
+        let same = order["maximum_by"].as_array().unwrap().is_empty();
+        assert_eq!(same, reached == 0, "{order}");
+    }
 }
 
 /// At 20 mm pounding lowers the maximum over the storeys of the light building's

@@ -269,7 +269,7 @@ fn bad_input_is_refused_with_the_remedy() {
     );
     refused(
         &format!("duration --duration=1 --exponent=0.5 {FLOORS}"),
-        &["exponent = 0.5 is outside [1, 10]"],
+        &["exponent = 0.5 is outside [1, 5]"],
     );
     refused(
         &format!("duration --duration=1 --exponent=1 --restitution=2 {FLOORS}"),
@@ -280,4 +280,21 @@ fn bad_input_is_refused_with_the_remedy() {
         &["too large or too small"],
     );
     refused("", &["Usage"]);
+}
+
+/// The lines for a case, on the screen one below the other, with an exponent that laws take.
+#[test]
+fn the_exponent_stands_beside_the_stiffness() {
+    let line = &json(&format!("duration --duration=20ms --exponent=2 {FLOORS}"))["case_line"];
+    assert!(
+        line.as_str().unwrap().ends_with(" N/m^2\"\nexponent = 2"),
+        "{line}"
+    );
+    refused(
+        &format!("duration --duration=20ms --exponent=8 {FLOORS}"),
+        &[
+            "exponent = 8 is outside [1, 5]",
+            "impact models take exponents from 1 to 5",
+        ],
+    );
 }

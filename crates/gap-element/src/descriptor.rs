@@ -13,7 +13,7 @@ pub enum AchievedRestitution {
     /// Always 1.
     Elastic,
     /// The parameters without a unit alone: the same for every mass, stiffness
-    /// and speed.
+    /// and speed, from [`crate::model::APPROACH_VELOCITY_FLOOR`] on of laws that divide by it.
     Constant,
     /// Also mass, stiffness or speed.
     Varies,
@@ -125,6 +125,13 @@ impl ModelDescriptor {
     #[must_use]
     pub fn takes_spring_table(&self) -> bool {
         self.class == "dry friction"
+    }
+
+    /// Whether the law divides by the approach velocity, and so by
+    /// [`crate::model::APPROACH_VELOCITY_FLOOR`] in slower collisions, where it is damped less.
+    #[must_use]
+    pub fn divides_by_approach_velocity(&self) -> bool {
+        self.needs_approach_velocity && self.takes_restitution() && self.family() != "rigid"
     }
 
     /// Whether users may ask for a restitution.

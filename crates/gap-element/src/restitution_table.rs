@@ -69,12 +69,13 @@ impl RestitutionTable {
 impl serde::Serialize for RestitutionRow {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let mut object = serializer.serialize_struct("RestitutionRow", 5)?;
+        let mut object = serializer.serialize_struct("RestitutionRow", 6)?;
         object.serialize_field("requested", &self.requested)?;
         object.serialize_field("achieved", &self.outcome.restitution)?;
         object.serialize_field("error_percent", &self.error_percent())?;
         object.serialize_field("peak_force", &self.outcome.peak_force)?;
-        object.serialize_field("duration", &self.outcome.duration)?;
+        object.serialize_field("duration", &self.outcome.shown_duration())?;
+        object.serialize_field("stays_in_contact", &self.outcome.stays_in_contact)?;
         object.end()
     }
 }

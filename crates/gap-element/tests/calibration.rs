@@ -146,3 +146,25 @@ fn rigid_tolerances_and_impossible_requests_are_located() {
         CalibrationError::FallsBack { .. }
     ));
 }
+
+/// Below 1 mm/s the law divides by 1 mm/s, and is damped so little that no `alpha` shows 0.5: the error
+/// says so, and not that the rebound be read elsewhere. From there on the free optimum is found.
+#[test]
+fn a_drop_test_slower_than_the_law_divides_by() {
+    let slow = DropTest {
+        approach_velocity: 1.0e-4,
+        ..DROP_TEST
+    };
+    let error = calibrate(&slow.free(), 0.5, 1e-10).unwrap_err();
+    assert!(matches!(error, CalibrationError::TooSlow { .. }), "{error}");
+    let help = error.help().unwrap();
+    assert!(help.contains("0.001 m/s or more"), "{help}");
+    assert!(slow.is_below_floor());
+    let least = DropTest {
+        approach_velocity: 1.0e-3,
+        ..DROP_TEST
+    };
+    assert!(!least.is_below_floor());
+    let found = calibrate(&least.free(), 0.5, 1e-10).unwrap();
+    assert!((found.found.alpha - free_alpha(0.5).unwrap()).abs() < 1e-8);
+}

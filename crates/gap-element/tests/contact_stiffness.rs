@@ -423,7 +423,7 @@ fn errors_say_what_to_do() {
     assert_eq!(error, ContactStiffnessError::BothFlat);
     assert!(error.help().contains("stiffness slab"));
     let error = duration(0.02, 0.5, floors(), None).unwrap_err();
-    assert_eq!(error.to_string(), "exponent = 0.5 is outside [1, 10]");
+    assert_eq!(error.to_string(), "exponent = 0.5 is outside [1, 5]");
     assert!(error.help().contains("linear"));
     let error = duration(0.02, 1.0, floors(), Some(1.2)).unwrap_err();
     assert!(error.help().contains("restitution"));
@@ -466,5 +466,37 @@ proptest! {
             prop_assert!(result.value.is_normal() && result.value > 0.0);
             prop_assert!(result.intermediate.iter().all(|i| i.value.is_normal() && i.value > 0.0));
         }
+    }
+}
+
+/// A case line is one that impact models take: exponents up to theirs, and with the exponent where
+/// it is not that of linear laws or of Hertz.
+#[test]
+fn the_line_for_a_case_file_has_the_exponent() {
+    let error = duration(0.02, 8.0, floors(), None).unwrap_err();
+    assert_eq!(error.to_string(), "exponent = 8 is outside [1, 5]");
+    assert!(error.help().contains("from 1 to 5"), "{}", error.help());
+    let result = penetration(5e-3, 2.0, floors(), None, None).unwrap();
+    let line = result.case_line();
+    let (stiffness, exponent) = line.split_once('\n').unwrap();
+    assert!(stiffness.ends_with(" N/m^2\""), "{line}");
+    assert_eq!(exponent, "exponent = 2");
+    let parameters = ModelParameters::from_pairs(&[
+        ("stiffness", result.value),
+        ("exponent", 2.0),
+        ("restitution", 1.0),
+    ]);
+    let model = registry::build("exact_hunt_crossley", &parameters).unwrap();
+    let bodies = Bodies {
+        mass_left: floors().effective_mass,
+        mass_right: None,
+        velocity_left: floors().velocity,
+        velocity_right: 0.0,
+    };
+    let peak = collide(model.as_ref(), &bodies).unwrap().peak_penetration;
+    assert!((peak / 5e-3 - 1.0).abs() < 1e-9, "{peak}");
+    for n in [1.0, 5.0] {
+        let line = duration(0.02, n, floors(), None).unwrap().case_line();
+        assert_eq!(line.contains("exponent"), n == 5.0, "{line}");
     }
 }

@@ -207,3 +207,25 @@ fn histories_without_a_contact_are_refused() {
         assert!(matches!(refused, MeasuredForceError::NoForce { .. }));
     }
 }
+
+/// A history that begins with the force at two thirds of its peak has lost the beginning of its contact; one with zeros
+/// before it, or whose first contact is said to be there, has not.
+#[test]
+fn a_history_that_begins_in_contact_is_warned_of() {
+    let peak = |t: f64| (1.0e6 * (1.0 - (t / 0.01).powi(2))).max(0.0);
+    let rows = |from: i32| -> Vec<(f64, f64)> {
+        let times = (from..=24).map(|i| f64::from(i) * 5.0e-4);
+        times.map(|t| (t, peak(t))).collect()
+    };
+    let warned = |from: i32, shift| {
+        let force = MeasuredForce::align("m".to_owned(), &rows(from), 0.01, shift).unwrap();
+        force
+            .warnings
+            .iter()
+            .any(|w| w.contains("begins in contact"))
+    };
+    assert!(warned(-12, None));
+    assert!(warned(-12, Some(-0.0064)));
+    assert!(!warned(-22, None));
+    assert!(!warned(-12, Some(-0.006)));
+}

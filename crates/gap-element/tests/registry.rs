@@ -424,3 +424,56 @@ fn the_bilinear_law_without_loss_is_a_spring() {
         );
     }
 }
+
+/// Laws whose restitution depends on nothing but their parameters return it at 1 mm/s and above; at
+/// 0.1 mm/s those, and only those, that divide by the approach velocity return more.
+#[test]
+fn which_laws_divide_by_the_approach_velocity() {
+    let mut divide = 0;
+    for descriptor in registry::descriptors() {
+        if descriptor.achieved_restitution != AchievedRestitution::Constant {
+            continue;
+        }
+        let parameters = descriptor.example_parameters(0.5);
+        let model = registry::build(descriptor.name, &parameters).unwrap();
+        let at = |velocity_left: f64| {
+            let bodies = Bodies {
+                mass_left: 25.0e3,
+                mass_right: Some(40.0e3),
+                velocity_left,
+                velocity_right: 0.0,
+            };
+            collide(model.as_ref(), &bodies).unwrap().restitution
+        };
+        let (name, usual) = (descriptor.name, at(0.8));
+        assert!((at(1.0e-3) - usual).abs() < 1.0e-6, "{name}");
+        let slow = at(1.0e-4);
+        let divides = descriptor.divides_by_approach_velocity();
+        assert_eq!(slow > usual + 0.1, divides, "{name}: {slow} {usual}");
+        assert!(divides || (slow - usual).abs() < 1.0e-6, "{name}");
+        divide += usize::from(divides);
+    }
+    assert!(divide > 10, "{divide}");
+}
+
+/// Elastic laws have no damping that could make a contact creep.
+#[test]
+fn what_to_do_about_a_collision_without_end() {
+    let error = |model| GapElementError::Unfinished {
+        model,
+        steps: 100_000,
+        time: 1.0e-9,
+    };
+    for elastic in ["linear_elastic", "hertz_1882"] {
+        let help = error(elastic).help().unwrap();
+        assert!(
+            !help.contains("damping") && help.contains("stiffness"),
+            "{help}"
+        );
+    }
+    let help = error("exact_hunt_crossley").help().unwrap();
+    assert!(
+        help.contains("damping") && help.contains("stiffness"),
+        "{help}"
+    );
+}

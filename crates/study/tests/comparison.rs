@@ -106,13 +106,18 @@ fn one_law_under_two_names() {
             assert!((gap.free_restitution - 0.65).abs() < 1.0e-9);
         }
     }
-    asked.models = vec![
-        "hunt_crossley_1975".to_owned(),
-        "hunt_crossley_1975".to_owned(),
-    ];
-    let same = compared(&case, &asked);
-    assert_eq!(same.models.len(), 1, "a model twice is one model");
-    assert!(same.spreads[0].between_models.is_nan());
+    let records = under_records(&case, &[]).unwrap();
+    // An alias is another name of the same.
+    for twice in [
+        ["hunt_crossley_1975"; 2],
+        ["anagnostopoulos_2004", "kelvin_voigt"],
+    ] {
+        asked.models = twice.map(str::to_owned).to_vec();
+        let error = compare(&case, &records, &asked, UNWATCHED).unwrap_err();
+        let said = format!("model {} is asked for twice", twice[0]);
+        assert_eq!(error.to_string(), said);
+        assert!(error.help().unwrap().contains(twice[1]), "{error:?}");
+    }
 }
 
 /// All models: the light building depends on the model, its acceleration more than its
@@ -255,4 +260,186 @@ fn the_separation_of_the_gap_is_that_of_the_models() {
         .separation_rules
         .contains(&SeparationRule::ZeroPenetration);
     assert_eq!(remarks.contains("does not offer"), !offers, "{remarks}");
+}
+
+/// The case with the lines of this law.
+fn case_of_law(law: &str) -> Case {
+    let file = root().join("examples/three_storey_pair/case.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let (before, after) = text.split_once("model = \"jankowski_2005\"").unwrap();
+    let after = after.split_once("[ground_motion]").unwrap().1;
+    Case::parse(&format!("{before}{law}\n[ground_motion]{after}"), &file).unwrap()
+}
+
+/// Maximum contact force of a run of the case.
+fn force_of_run(case: &Case) -> f64 {
+    let assembly = pounding_assembly::assemble(case).unwrap();
+    let (system, options) = (assembly.system, assembly.options);
+    let outcome = pounding_time_history::run(&system, &options, &mut [], &mut |_| {}).unwrap();
+    let levels = outcome.gaps[0].levels.iter();
+    levels.fold(0.0, |m, l| f64::max(m, l.peak_force.value))
+}
+
+/// Maximum penetration of a model without damping in the reference collision.
+fn undamped_penetration(c: &Comparison, model: usize) -> f64 {
+    let calibrated = &c.models[model].calibrated.as_ref().unwrap()[0];
+    let mut parameters = calibrated.parameters.clone();
+    if parameters.values.remove("restitution").is_some() {
+        parameters.values.insert("restitution".to_owned(), 1.0);
+    }
+    parameters.values.remove("damping_ratio");
+    let model = pounding_gap_element::registry::build(calibrated.descriptor.name, &parameters);
+    let bodies = pounding_gap_element::Bodies {
+        mass_left: c.references[0].effective_mass,
+        mass_right: None,
+        velocity_left: c.references[0].approach_velocity,
+        velocity_right: 0.0,
+    };
+    let outcome = pounding_gap_element::collide(model.unwrap().as_ref(), &bodies);
+    outcome.unwrap().peak_penetration
+}
+
+/// A bumper that is crushed at 1 mm is compared as it is in the case: its force is that of a run. The
+/// others penetrate as deep as it does without damping: where the energies of its two branches,
+/// `k d^(n+1) / (n+1)` up to there and `(F + k_u b / 2) b` beyond, are that of the collision.
+#[test]
+fn the_own_law_keeps_all_its_parameters() {
+    let case = case_of_law(
+        "model = \"polycarpou_2013\"\nstiffness = 3e10\nrestitution = 0.5\ncrush_penetration = 0.001\ncrush_stiffness = 1e9",
+    );
+    let models = ["polycarpou_2013", "linear_elastic", "hertz_1882"];
+    let c = compared(&case, &options(&models));
+    let own = value(&c, models[0], QuantityKind::PeakForce, "light-heavy");
+    let run = force_of_run(&case);
+    assert!((own / run - 1.0).abs() < 1e-9, "{own} {run}");
+    let (k, n, crush, crushed): (f64, f64, f64, f64) = (3e10, 2.65, 1e-3, 1e9);
+    let reference = &c.references[0];
+    let energy = 0.5 * reference.effective_mass * reference.approach_velocity.powi(2);
+    let force = k * crush.powf(n);
+    let left = energy - force * crush / (n + 1.0);
+    let beyond = (-force + (force * force + 2.0 * crushed * left).sqrt()) / crushed;
+    for model in 0..3 {
+        let depth = undamped_penetration(&c, model);
+        assert!(
+            (depth / (crush + beyond) - 1.0).abs() < 1e-6,
+            "{model}: {depth}"
+        );
+    }
+    // And equally long, where that is asked for.
+    let mut asked = options(&models[1..]);
+    asked.stiffness_rule = StiffnessRule::Duration;
+    let c = compared(&case, &asked);
+    let model = c.models[0].calibrated.as_ref().unwrap();
+    let mass = reference.effective_mass;
+    let time = std::f64::consts::PI * (mass / model[0].parameters.values["stiffness"]).sqrt();
+    // Up to crushing between the velocities there and at first; then a spring that is preloaded with F.
+    let omega = (crushed / mass).sqrt();
+    let at_first = reference.approach_velocity;
+    let at_crush = (2.0 * left / mass).sqrt();
+    let spring = (at_crush * omega * mass / force).atan() / omega;
+    let [least, most] = [at_first, at_crush].map(|v| 2.0 * (crush / v + spring));
+    assert!(
+        least < time && time < most && most < 1.1 * least,
+        "{time} {least} {most}"
+    );
+    let restitution = compared(&case, &{
+        let mut asked = options(&["polycarpou_2013"]);
+        asked.restitution = Some(0.8);
+        asked
+    });
+    let parameters = &restitution.models[0].calibrated.as_ref().unwrap()[0].parameters;
+    assert_eq!(parameters.values["crush_penetration"], 0.001);
+    assert_eq!(parameters.values["restitution"], 0.8);
+}
+
+/// An own law that is given by its damping, and one with an exponent, are those of a run too.
+#[test]
+fn the_own_law_is_that_of_a_run() {
+    for (model, law) in [
+        (
+            "jankowski_2005",
+            "stiffness = \"2.75e9 N/m^1.5\"\ndamping_ratio = 0.35",
+        ),
+        (
+            "exact_hunt_crossley",
+            "stiffness = \"9e7 N/m\"\nexponent = 1\nrestitution = 0.5",
+        ),
+        (
+            "kuwabara_kono_1987",
+            "stiffness = \"2.75e9 N/m^1.5\"\ndissipation_time = \"0.001 s\"",
+        ),
+    ] {
+        let case = case_of_law(&format!("model = \"{model}\"\n{law}"));
+        let c = compared(&case, &options(&[model]));
+        let own = value(&c, model, QuantityKind::PeakForce, "light-heavy");
+        let run = force_of_run(&case);
+        assert!((own / run - 1.0).abs() < 1e-9, "{model}: {own} {run}");
+    }
+}
+
+/// In a soft contact, which penetrates more than the 15 mm at which the bumper of the example is crushed,
+/// polycarpou_2013 penetrates as deep as the others.
+#[test]
+fn all_penetrate_equally_deep() {
+    let case = case("anagnostopoulos_2004", "1 MN/m");
+    let c = compared(
+        &case,
+        &options(&["linear_elastic", "hertz_1882", "polycarpou_2013"]),
+    );
+    let linear = undamped_penetration(&c, 0);
+    assert!(linear > 0.03, "{linear}");
+    for model in 1..3 {
+        let depth = undamped_penetration(&c, model);
+        assert!(
+            (depth / linear - 1.0).abs() < 1e-6,
+            "{model}: {depth} {linear}"
+        );
+    }
+}
+
+/// Elastic laws lose no energy, whatever round-off leaves of it: neither those without damping nor
+/// those that are asked for the restitution 1, among them those whose damping is found.
+#[test]
+fn elastic_laws_lose_nothing() {
+    let case = case("exact_hunt_crossley", "2.75e9 N/m^1.5");
+    let models = [
+        "linear_elastic",
+        "hertz_1882",
+        "exact_hunt_crossley",
+        "adams_impact",
+        "kuwabara_kono_1987",
+    ];
+    let mut asked = options(&models);
+    asked.restitution = Some(1.0);
+    let c = compared(&case, &asked);
+    for model in models {
+        let lost = value(&c, model, QuantityKind::ImpactEnergy, "light-heavy");
+        assert_eq!(lost, 0.0, "{model}");
+    }
+    asked.restitution = Some(0.999_99);
+    for model in &compared(&case, &asked).models[3..] {
+        let free = model.calibrated.as_ref().unwrap()[0].free_restitution;
+        assert!((free - 0.999_99).abs() < 1e-6, "{}", model.descriptor.name);
+    }
+}
+
+/// A reference collision below 1 mm/s: laws that divide by the approach velocity are calibrated as they
+/// run, and a warning names them and no others.
+#[test]
+fn a_slow_reference_is_warned_of() {
+    let case = case("anagnostopoulos_2004", "93.5 MN/m");
+    let mut asked = options(&["exact_hunt_crossley", "exact_kelvin_voigt"]);
+    for (velocity, warned) in [(0.5e-3, true), (1.0e-3, false)] {
+        asked.approach_velocity = Some(velocity);
+        let c = compared(&case, &asked);
+        let slow = c.warnings.iter().filter(|w| w.contains("below 1 mm/s"));
+        let slow: Vec<_> = slow.collect();
+        assert_eq!(slow.len(), usize::from(warned));
+        for warning in slow {
+            assert!(warning.contains("0.5 mm/s"), "{warning}");
+            assert!(warning.ends_with(": exact_hunt_crossley"), "{warning}");
+        }
+        let free = c.models[0].calibrated.as_ref().unwrap()[0].free_restitution;
+        assert_eq!(free > 0.7, warned, "{free}");
+    }
 }

@@ -16,7 +16,7 @@ use crate::output::{pretty, print};
 /// What the numbers are good for.
 const ADVICE: &str = "\
 Which alpha for buildings: the free one. It returns exactly what is asked in a free collision, for every
-mass, stiffness and speed; model = \"exact_hunt_crossley\" with exponent = 1 is the same law without the
+mass and stiffness, from 1 mm/s on; model = \"exact_hunt_crossley\" with exponent = 1 is the same law without the
 detour. The alpha of a drop test makes up for gravity and for the place of the reading in that test, and
 the rule alpha = e + 0.1 (1 from e = 0.8; the paper's equations misprint e + 1) returns too much freely.";
 
@@ -108,8 +108,14 @@ fn conditions(test: &DropTest, is_papers: bool) -> String {
     } else {
         String::new()
     };
+    let slow = match test.is_below_floor() {
+        true => {
+            "\nwarning: the law divides by 1 mm/s at least: slower collisions are damped less, and alpha makes up for it"
+        }
+        false => "",
+    };
     format!(
-        "Drop test: {} kg at {} m/s on {:e} N/m, gravity {} m/s2, rebound read {reading}.{note}\n",
+        "Drop test: {} kg at {} m/s on {:e} N/m, gravity {} m/s2, rebound read {reading}.{note}{slow}\n",
         test.mass, test.approach_velocity, test.stiffness, test.gravity
     )
 }
@@ -199,6 +205,8 @@ struct Test<'t> {
     #[serde(flatten)]
     test: &'t DropTest,
     conditions_are_a_hypothesis: bool,
+    /// Whether the law divides by 1 mm/s, as the test is slower.
+    is_below_approach_velocity_floor: bool,
 }
 
 /// A search for each restitution.
@@ -221,6 +229,7 @@ fn document<T>(test: &DropTest, conditions_are_a_hypothesis: bool, found: T) -> 
         drop_test: Test {
             test,
             conditions_are_a_hypothesis,
+            is_below_approach_velocity_floor: test.is_below_floor(),
         },
         advice: ADVICE,
     }

@@ -213,7 +213,7 @@ fn as_text(result: &ContactStiffness) -> String {
     }
     text.push_str(&format!(
         "\nin the gap of a case    {}\nsource                  {}\nstatus                  {}\n",
-        result.case_line(),
+        result.case_line().replace('\n', &format!("\n{:24}", "")),
         result.source,
         result.status
     ));

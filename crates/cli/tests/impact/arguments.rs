@@ -151,3 +151,25 @@ fn a_collision_that_does_not_end_names_its_model() {
     let wanted = ["model pant_2010", "did not end"];
     refused_with(folder.path(), arguments, 3, &wanted);
 }
+
+/// The stiffness of the example belongs to its exponent: with another one the remedy is not --example.
+#[test]
+fn an_exponent_of_its_own_needs_a_stiffness_of_its_own() {
+    refused(
+        "exact_hunt_crossley|--example|-p|exponent=1",
+        &["add -p stiffness=VALUE", "belongs to another exponent"],
+    );
+}
+
+/// A stiffness out of all proportion is no damping.
+#[test]
+fn elastic_laws_do_not_creep() {
+    for arguments in [
+        "hertz_1882|-p|stiffness=1e300",
+        "linear_elastic|--example|--mass-left|1e-300",
+    ] {
+        let output = super::run_in(&example(), arguments);
+        let message = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(!message.contains("damping"), "{message}");
+    }
+}

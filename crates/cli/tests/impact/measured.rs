@@ -179,3 +179,18 @@ fn bad_measured_histories() {
         &["cannot read absent.csv", "time, force"],
     );
 }
+
+/// A file that begins in contact is warned of, as one that ends in contact is.
+#[test]
+fn a_history_that_begins_in_contact() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |rows: &str| {
+        let text = format!("time_ms,force_kN\n{rows}");
+        std::fs::write(folder.path().join("m.csv"), text).unwrap();
+        text_in(folder.path(), "hertz_1882|--example|--against|m.csv")
+    };
+    let begins = "warning: the measured history begins in contact";
+    assert!(write("10,100\n15,150\n20,80\n25,0\n").contains(begins));
+    let whole = write("5,0\n10,100\n15,150\n20,80\n25,0\n");
+    assert!(!whole.contains(begins), "{whole}");
+}

@@ -95,3 +95,36 @@ fn tables_as_files() {
     let picture = std::fs::read_to_string(folder.path().join("t.svg")).unwrap();
     has(&picture, &["Achieved restitution", "as requested"]);
 }
+
+/// Gravity holds bodies of little restitution on the slab: they have no contact time, neither on the
+/// screen nor in files. Those that part keep theirs.
+#[test]
+fn bodies_that_stay_in_contact_have_no_contact_time() {
+    let folder = tempfile::tempdir().unwrap();
+    let call = "ye_li_2009|--example|--table|--drop|--velocity|1";
+    let result = json(call);
+    let staying = |row: &serde_json::Value| row["stays_in_contact"] == true;
+    let rows = result["rows"].as_array().unwrap();
+    assert!(staying(&rows[0]) && !staying(&rows[9]));
+    for row in rows {
+        assert_eq!(staying(row), row["duration"].is_null(), "{row}");
+        assert_eq!(staying(row), row["achieved"] == 0.0, "{row}");
+    }
+    let asked = rows
+        .iter()
+        .filter(|r| staying(r))
+        .map(|r| r["requested"].to_string());
+    let asked = asked.collect::<Vec<_>>().join(", ");
+    let shown = text_in(folder.path(), &format!("{call}|--csv|t.csv"));
+    has(
+        &shown,
+        &[&format!(
+            "stays in contact: ye_li_2009 has too little energy left to part where asked for {asked}\n"
+        )],
+    );
+    let written = std::fs::read_to_string(folder.path().join("t.csv")).unwrap();
+    let first = written.lines().find(|l| l.starts_with("ye_li_2009,0.1,"));
+    assert!(first.is_some_and(|l| l.ends_with(',')), "{written}");
+    let matrix = text("ye_li_2009|exact_linear|--example|--table|--drop|--velocity|1");
+    has(&matrix, &["stays in contact: ye_li_2009"]);
+}

@@ -7,7 +7,7 @@ mod root;
 use crate::classes::hunt_crossley::damping_factor;
 use crate::collision::{Bodies, CollisionOptions, collide_with};
 use crate::error::GapElementError;
-use crate::model::ImpactModel;
+use crate::model::{APPROACH_VELOCITY_FLOOR, ImpactModel};
 use crate::models::papi_toopchi_2022::published_alpha;
 use crate::parameters::ModelParameters;
 use crate::registry;
@@ -87,6 +87,33 @@ impl DropTest {
         ]);
         let model = registry::build("papi_toopchi_2022", &parameters)?;
         self.restitution(model.as_ref())
+    }
+
+    /// Whether the law divides by [`APPROACH_VELOCITY_FLOOR`] rather than by the approach velocity,
+    /// so that it is damped less.
+    #[must_use]
+    pub fn is_below_floor(&self) -> bool {
+        self.approach_velocity < APPROACH_VELOCITY_FLOOR
+    }
+
+    /// An error of the search, in which the slow collision is why the restitution is too large.
+    fn too_slow(&self, error: CalibrationError) -> CalibrationError {
+        match error {
+            CalibrationError::NoRoot {
+                requested,
+                achieved_low,
+                achieved_high,
+                ..
+            } if self.is_below_floor() && achieved_low.min(achieved_high) > requested => {
+                CalibrationError::TooSlow {
+                    requested,
+                    approach_velocity: self.approach_velocity,
+                    least: APPROACH_VELOCITY_FLOOR,
+                    achieved: achieved_low.min(achieved_high),
+                }
+            }
+            other => other,
+        }
     }
 
     fn check(&self) -> Result<(), CalibrationError> {
@@ -195,6 +222,20 @@ pub enum CalibrationError {
         /// What it shows (-).
         achieved_high: f64,
     },
+    /// No `alpha` shows so small a restitution in a collision slower than the law divides by.
+    #[error(
+        "no alpha shows a restitution of {requested} at {approach_velocity} m/s, below the {least} m/s that the law divides by at least: slower collisions are damped less, and the drop test shows {achieved:.6} at least"
+    )]
+    TooSlow {
+        /// Restitution asked for (-).
+        requested: f64,
+        /// Approach velocity of the drop test (m/s).
+        approach_velocity: f64,
+        /// The least that the law divides by (m/s).
+        least: f64,
+        /// What the drop test shows at least (-).
+        achieved: f64,
+    },
     /// The achieved restitution jumps across the wanted one, or the tolerance is
     /// below the accuracy of the integration.
     #[error(
@@ -229,6 +270,9 @@ impl CalibrationError {
             Self::FallsBack { .. } | Self::NoRoot { .. } => {
                 "read the rebound where the body leaves the slab, or at a time shortly after the contact".to_owned()
             }
+            Self::TooSlow { least, .. } => {
+                format!("give an approach velocity of {least} m/s or more")
+            }
             Self::NotReached { .. } => "ask for a wider tolerance".to_owned(),
             Self::Collision(error) => return error.help(),
         })
@@ -238,7 +282,7 @@ impl CalibrationError {
 /// The `alpha` with which the law returns exactly `restitution` (-) in a free
 /// collision: `alpha = (3/2) (1 - e^2) / y - e^2` with the exact factor `y` of the
 /// class, which solves `y (1 + e) = ln((1 + y) / (1 - y e))`. It holds for every
-/// mass, stiffness and speed, and makes the law that of `exact_hunt_crossley` with
+/// mass and stiffness, and every speed from [`APPROACH_VELOCITY_FLOOR`] on, and makes the law that of `exact_hunt_crossley` with
 /// `exponent = 1`.
 ///
 /// # Errors
@@ -280,7 +324,8 @@ pub fn calibrate(
         steps.push(step);
         Ok::<_, CalibrationError>(step)
     };
-    let found = root::search(restitution, tolerance, &mut attempt)?;
+    let found = root::search(restitution, tolerance, &mut attempt);
+    let found = found.map_err(|error| drop_test.too_slow(error))?;
     let free_test = drop_test.free();
     let show = |alpha: f64| drop_test.restitution_with(restitution, alpha);
     let freely = |alpha: f64| free_test.restitution_with(restitution, alpha);

@@ -113,6 +113,16 @@ impl CollisionOutcome {
         }
     }
 
+    /// Contact time (s) as results show it: zero for a rigid impact, not a number for bodies that
+    /// stay in contact.
+    #[cfg(feature = "serde")]
+    pub(crate) fn shown_duration(&self) -> f64 {
+        match self.is_rigid() {
+            true => 0.0,
+            false => self.contact_time(),
+        }
+    }
+
     /// Impulse (N s); not a number for bodies that stay in contact.
     #[must_use]
     pub fn impulse_of_parted(&self) -> f64 {
@@ -180,7 +190,6 @@ impl serde::Serialize for CollisionOutcome {
             peak: self.peak_penetration,
             time: self.peak_penetration_time,
         };
-        let duration = if rigid { 0.0 } else { self.contact_time() };
         let mut object = serializer.serialize_struct("CollisionOutcome", 13)?;
         object.serialize_field("restitution", &self.restitution)?;
         object.serialize_field("stays_in_contact", &self.stays_in_contact)?;
@@ -188,7 +197,7 @@ impl serde::Serialize for CollisionOutcome {
         object.serialize_field("reading", &reading)?;
         object.serialize_field("peak_force", &peak_force)?;
         object.serialize_field("peak_penetration", &peak_penetration)?;
-        object.serialize_field("duration", &duration)?;
+        object.serialize_field("duration", &self.shown_duration())?;
         object.serialize_field("impulse", &self.impulse_of_parted())?;
         object.serialize_field("energy_dissipated", &self.energy_dissipated)?;
         object.serialize_field("velocity_left", &self.of_parted(self.velocity_left))?;

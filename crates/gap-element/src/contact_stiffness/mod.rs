@@ -87,7 +87,9 @@ impl ContactStiffnessError {
             Self::BothFlat => "slab against slab is linear: see `pounding stiffness slab`",
             Self::OutOfRange { quantity, .. } => match *quantity {
                 "Poisson's ratio" => "concrete has about 0.2, steel 0.3, rubber 0.5",
-                "exponent" => "1 is a linear law, 1.5 that of Hertz",
+                "exponent" => {
+                    "1 is a linear law, 1.5 that of Hertz; impact models take exponents from 1 to 5"
+                }
                 "factor" => "20 is customary, 10 to 100 are in use",
                 _ => "restitution is 1 for an elastic impact, 0.65 is customary for concrete",
             },
@@ -110,10 +112,15 @@ impl ContactStiffness {
         }
     }
 
-    /// The line for a gap of a case file. All digits: it reads back as the value.
+    /// The line for a gap of a case file. All digits: it reads back as the value. An exponent that a
+    /// model must be given, neither that of linear laws nor that of Hertz, has a line of its own.
     #[must_use]
     pub fn case_line(&self) -> String {
-        format!("stiffness = \"{:e} {}\"", self.value, self.unit())
+        let stiffness = format!("stiffness = \"{:e} {}\"", self.value, self.unit());
+        match self.exponent {
+            1.0 | 1.5 => stiffness,
+            n => format!("{stiffness}\nexponent = {n}"),
+        }
     }
 
     /// Refuses numbers that no run could use.

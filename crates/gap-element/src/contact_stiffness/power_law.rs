@@ -73,7 +73,7 @@ impl Approach {
 /// of the law meant, if it is known, decides whether damping is warned of.
 ///
 /// # Errors
-/// Quantities that are not positive, an exponent outside [1, 10].
+/// Quantities that are not positive, an exponent outside [1, 5], which impact models take.
 pub fn duration(
     wanted: f64,
     exponent: f64,
@@ -100,7 +100,7 @@ pub fn duration(
 /// conservation. Restitution (-) and gap width (m), if known, decide on warnings.
 ///
 /// # Errors
-/// Quantities that are not positive, an exponent outside [1, 10].
+/// Quantities that are not positive, an exponent outside [1, 5], which impact models take.
 pub fn penetration(
     wanted: f64,
     exponent: f64,
@@ -161,15 +161,15 @@ fn from_penetration(
 }
 
 /// `I_n` after a check of the exponent: below 1 the force would start infinitely
-/// stiff, and published laws end at about 2.5.
+/// stiff, published laws end at about 2.65, and impact models take no exponent above 5.
 fn power_time(exponent: f64) -> Result<f64, ContactStiffnessError> {
-    if (1.0..=10.0).contains(&exponent) {
+    if (1.0..=5.0).contains(&exponent) {
         return Ok(elastic_time_factor(exponent));
     }
     Err(ContactStiffnessError::OutOfRange {
         quantity: "exponent",
         value: exponent,
-        range: "[1, 10]",
+        range: "[1, 5]",
     })
 }
 

@@ -132,6 +132,13 @@ impl MeasuredForce {
             });
         }
         let mut warnings = Vec::new();
+        // Who says that contact begins with the first sample knows a force that jumps.
+        if first == 0 && raw[0].1 > level && shift.is_none_or(|t| t < raw[0].0) {
+            warnings.push(
+                "the measured history begins in contact: its first contact, impulse and contact time are cut short, and its peak may be"
+                    .to_owned(),
+            );
+        }
         let released = (top..raw.len()).find(|i| raw[*i].1 <= level);
         let end = match released {
             Some(i) => opening(raw, i, top),

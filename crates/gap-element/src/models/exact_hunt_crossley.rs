@@ -16,7 +16,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     citation: "closed form of the class, derived in docs/theory/contact-laws.md; compare Gonthier et al. 2004 and Khatiwada, Chouw and Butterworth, Engineering Structures 62-63 (2014) 33",
     recommended: true,
     traps: &[
-        "Returns exactly what is asked, for every mass, stiffness, speed and exponent, in a free collision.",
+        "Returns exactly what is asked, for every mass, stiffness and exponent, and every speed from 1 mm/s on, in a free collision.",
         "With exponent = 1 it is the exact modified Kelvin-Voigt law.",
         "Pulls if the floors separate faster than v0 / y; no_tension cuts that.",
     ],

@@ -19,7 +19,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     recommended: true,
     verification: Verification::Verified("closed form e = sqrt(2 (y - ln(1 + y))) / y"),
     traps: &[
-        "Returns exactly what is asked, for every mass, stiffness, speed and exponent, in a free collision.",
+        "Returns exactly what is asked, for every mass, stiffness and exponent, and every speed from 1 mm/s on, in a free collision.",
         "Never pulls.",
         "Needs very strong damping at small e: y = 194.6 at 0.1.",
     ],

@@ -3,7 +3,7 @@
 //!
 //! A path is a JSON pointer in which `*` stands for the row of a table and `+` for all
 //! members of a list. `count`, `sum`, `minimum` or `maximum` may stand before one, and two
-//! with ` / ` between them are divided.
+//! with ` / ` between them are divided. `tally` before the path of words counts those that are the same.
 
 use pounding_catalogue::{STANDARD_GRAVITY, numbers};
 use serde_json::Value;
@@ -149,6 +149,23 @@ impl<'a> Answer<'a> {
                 }
             }
         }
+        if let Some(path) = path.strip_prefix("tally ") {
+            let mut tally: Vec<(String, usize)> = Vec::new();
+            for word in self.all(path, row).into_iter().map(words) {
+                match tally.iter_mut().find(|(known, _)| *known == word) {
+                    Some((_, times)) => *times += 1,
+                    None => tally.push((word, 1)),
+                }
+            }
+            let tally = tally
+                .iter()
+                .map(|(word, times)| format!("{word} ({times})"));
+            let tally: Vec<String> = tally.collect();
+            return match tally.is_empty() {
+                true => "\u{2013}".to_owned(),
+                false => tally.join(", "),
+            };
+        }
         let found = self.all(path, row);
         match found.is_empty() {
             true => "\u{2013}".to_owned(),
@@ -237,5 +254,17 @@ mod tests {
             "{html}"
         );
         assert_eq!(answer.quote("/gaps/0/name"), "&lt;a&gt;");
+    }
+
+    /// Words of two records: each stands once, with how often it is there.
+    #[test]
+    fn words_are_counted() {
+        let value = json!({
+            "of": [{ "minority": [["a", "b"], ["b"]] }, { "minority": [[], []] }]
+        });
+        let answer = Answer(&value);
+        let path = "tally /of/*/minority/+/+";
+        assert_eq!(answer.words(path, "0"), "a (1), b (2)");
+        assert_eq!(answer.words(path, "1"), "\u{2013}");
     }
 }

@@ -178,7 +178,10 @@ fn conclusions(answer: Answer<'_>) -> String {
         Column::words_of("storey by storey", "/conclusions/*/by_storey/holds"),
         Column::of("true", "sum /conclusions/*/counts/+/0", 1.0).below("models and records"),
         Column::of("of", "sum /conclusions/*/counts/+/1", 1.0).below("models and records"),
-        Column::words_of("in the minority", "/conclusions/*/minority/+/+"),
+        Column::words_of(
+            "in the minority (under how many records)",
+            "tally /conclusions/*/minority/+/+",
+        ),
     ];
     let heads = all
         .iter()
@@ -210,7 +213,7 @@ fn spread(answer: Answer<'_>) -> String {
         Column::of("models (%)", of("spread/between_models"), 1.0e2).below("spread between"),
         Column::of("records (%)", of("spread/between_records"), 1.0e2).below("spread between"),
         Column::of("maximum / minimum model", of("spread/greatest_ratio"), 1.0),
-        Column::count_of("records with a value", of("spread/records")),
+        Column::count_of("records between models", of("spread/records")),
         Column::count_of("models of zero", of("spread/models_of_zero")),
         Column::of("agreement of records", of("ranking/concordance"), 1.0),
         Column::words_of("maximum by", of("ranking/maximum_by/+")),
@@ -218,7 +221,7 @@ fn spread(answer: Answer<'_>) -> String {
     answer.table("Spread", &columns, quantities(answer))
         + &note(
             "Spread: standard deviation over mean, root mean square over the others; between models over the records with \
-             a value that is not zero, between records without models whose values are all zero. Agreement of records on \
+             a value that is not zero, of buildings over those under which a contact reaches them; between records without models whose values are all zero. Agreement of records on \
              the order of the models: Kendall's W, from 0 to 1, of records under which models differ.",
         )
 }

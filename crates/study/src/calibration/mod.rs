@@ -4,7 +4,7 @@
 mod models;
 mod stiffness;
 
-pub use models::{CalibratedModel, ReferenceCollision, RestitutionRule, calibrated};
+pub use models::{CalibratedModel, OwnLaw, ReferenceCollision, RestitutionRule, calibrated};
 pub use stiffness::StiffnessRule;
 
 use pounding_case::Case;
@@ -13,12 +13,12 @@ use pounding_hysteresis::help_among_gaps;
 use pounding_time_history::System;
 
 use crate::gap_check::{CheckError, RecordDemand};
-use models::{own_law, own_restitution};
+use models::{own_law, own_parameters, own_restitution};
 
 /// The descriptors of these models, or of all if none is named.
 ///
 /// # Errors
-/// An unknown name.
+/// An unknown name, or a model that is named twice, as by its alias.
 pub fn descriptors(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, CheckError> {
     if names.is_empty() {
         return Ok(registry::descriptors().to_vec());
@@ -30,9 +30,15 @@ pub fn descriptors(names: &[String]) -> Result<Vec<&'static ModelDescriptor>, Ch
             help: help_among_gaps(name).or(e.help()).unwrap_or_default(),
         })?;
         // A model and its alias are one.
-        if !descriptors.iter().any(|c| c.name == descriptor.name) {
-            descriptors.push(descriptor);
+        if descriptors.iter().any(|c| c.name == descriptor.name) {
+            return Err(CheckError::Word {
+                message: format!("model {} is asked for twice", descriptor.name),
+                help: Some(format!(
+                    "leave \"{name}\" out: one name or alias per model is enough"
+                )),
+            });
         }
+        descriptors.push(descriptor);
     }
     Ok(descriptors)
 }
@@ -107,6 +113,7 @@ pub fn references(
                 .separation
                 .as_ref()
                 .and_then(|rule| SeparationRule::from_name(&rule.value)),
+            own: own_parameters(case, index, restitution.is_none()),
         };
         reference.restitution = match restitution {
             Some(e) => e,

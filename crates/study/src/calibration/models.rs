@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use pounding_case::Case;
+use pounding_catalogue::Parameters;
 use pounding_gap_element::{
-    Bodies, GapElementError, ImpactModel, ModelDescriptor, ModelParameters, ParameterUnit,
-    SeparationRule, collide, registry,
+    AchievedRestitution, Bodies, CollisionOutcome, GapElementError, ImpactModel, ModelDescriptor,
+    ModelParameters, ParameterUnit, SeparationRule, collide, registry,
 };
 
 use super::stiffness::{StiffnessRule, stiffness};
@@ -31,8 +32,19 @@ impl RestitutionRule {
     }
 }
 
+/// The law that a gap has in the case.
+#[derive(Debug, Clone, PartialEq)]
+pub struct OwnLaw {
+    /// Name of its model, whatever alias the case has.
+    pub model: &'static str,
+    /// All its parameters (SI).
+    pub parameters: ModelParameters,
+    /// Whether models are asked for its restitution, so that it is compared as it is in the case.
+    pub gives_restitution: bool,
+}
+
 /// The free collision of two floors that models are calibrated in.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ReferenceCollision {
     /// Approach velocity (m/s).
     pub approach_velocity: f64,
@@ -46,6 +58,8 @@ pub struct ReferenceCollision {
     pub restitution: f64,
     /// When contacts end, where the case says so of the gap: for all models that offer it.
     pub separation: Option<SeparationRule>,
+    /// The gap's own law.
+    pub own: Option<OwnLaw>,
 }
 
 /// A model ready for one gap.
@@ -63,6 +77,19 @@ pub struct CalibratedModel {
     pub model: Arc<dyn ImpactModel>,
 }
 
+impl CalibratedModel {
+    /// Whether it loses no energy: it is elastic whatever its parameters are, or with these.
+    #[must_use]
+    pub fn is_elastic(&self) -> bool {
+        self.descriptor.achieved_restitution == AchievedRestitution::Elastic
+            || (self.free_restitution - 1.0).abs() < ELASTIC
+    }
+}
+
+/// Part of the approach velocity that a collision of an elastic law does not give back, as it was
+/// integrated.
+const ELASTIC: f64 = 1.0e-9;
+
 /// Restitution of the free collision, by closed form where there is one.
 fn achieved(
     model: &dyn ImpactModel,
@@ -72,15 +99,46 @@ fn achieved(
     if let Some(closed) = model.closed_form(velocity, mass) {
         return Ok(closed.restitution);
     }
+    Ok(collision(model, reference)?.restitution)
+}
+
+/// The free collision, integrated.
+fn collision(
+    model: &dyn ImpactModel,
+    reference: &ReferenceCollision,
+) -> Result<CollisionOutcome, GapElementError> {
     // A body against a wall has its own mass as effective mass.
     let bodies = Bodies {
-        mass_left: mass,
+        mass_left: reference.effective_mass,
         mass_right: None,
-        velocity_left: velocity,
+        velocity_left: reference.approach_velocity,
         velocity_right: 0.0,
     };
-    Ok(collide(model, &bodies)?.restitution)
+    collide(model, &bodies)
 }
+
+/// The collision of the gap's own law without damping, where that is no power of the penetration
+/// alone: with a branch for what is crushed.
+pub(super) fn crushed(
+    reference: &ReferenceCollision,
+) -> Result<Option<CollisionOutcome>, GapElementError> {
+    let own = reference.own.as_ref();
+    let Some(own) = own.filter(|own| own.parameters.given(CRUSHED[0]).is_some()) else {
+        return Ok(None);
+    };
+    let mut parameters = own.parameters.clone();
+    parameters.values.remove("restitution");
+    let undamped = ("damping_factor".to_owned(), 0.0);
+    parameters.values.extend([undamped]);
+    let model = registry::build(own.model, &parameters)?;
+    collision(model.as_ref(), reference).map(Some)
+}
+
+/// Parameters of an example that belong to its stiffness, and make no sense beside another.
+const CRUSHED: [&str; 2] = ["crush_penetration", "crush_stiffness"];
+
+/// What damping is given by, instead of a restitution.
+const RAW_DAMPING: [&str; 3] = ["damping_factor", "damping_ratio", "friction"];
 
 /// Exponent of a law with these parameters; `None` for one without a stiffness.
 fn exponent(descriptor: &ModelDescriptor, given: Option<f64>) -> Option<f64> {
@@ -117,6 +175,27 @@ pub(super) fn own_law(case: &Case, gap: usize) -> Result<(f64, f64), CheckError>
     })
 }
 
+/// The gap's own law with all that the case says of it.
+pub(super) fn own_parameters(case: &Case, gap: usize, gives_restitution: bool) -> Option<OwnLaw> {
+    let gap = &case.gaps[gap];
+    let descriptor = registry::find(&gap.model.value).ok()?;
+    let values = gap.parameters.iter();
+    let values = values.map(|p| (p.key.value.clone(), p.value.value.value));
+    let rule = gap.separation.as_ref();
+    let parameters = ModelParameters {
+        parameters: Parameters {
+            values: values.collect(),
+        },
+        separation: rule.and_then(|rule| SeparationRule::from_name(&rule.value)),
+        spring: gap.spring.as_ref().map(|table| table.value.clone()),
+    };
+    Some(OwnLaw {
+        model: descriptor.name,
+        parameters,
+        gives_restitution,
+    })
+}
+
 /// Restitution of the gap's own law: the one asked for in the case, or what the law
 /// returns in the reference collision.
 pub(super) fn own_restitution(
@@ -145,35 +224,15 @@ pub fn calibrated(
     reference: &ReferenceCollision,
     rules: (StiffnessRule, RestitutionRule),
 ) -> Result<CalibratedModel, String> {
-    let mut parameters = ModelParameters::default();
-    let mut notes = Vec::new();
-    if let Some(n) = exponent(descriptor, None) {
-        let value = stiffness(reference, rules.0, n)?;
-        parameters.values.insert("stiffness".to_owned(), value);
-    }
+    let own = reference.own.as_ref();
+    let own = own.filter(|own| own.model == descriptor.name);
+    let as_in_the_case = own.is_some_and(|own| own.gives_restitution);
+    let (parameters, notes) = match own {
+        Some(own) => of_own_law(descriptor, own, reference),
+        None => like_own_law(descriptor, reference, rules.0)?,
+    };
     let text = |e: GapElementError| e.to_string();
     let asks = descriptor.takes_restitution();
-    if asks {
-        let key = "restitution".to_owned();
-        parameters.values.insert(key, reference.restitution);
-    }
-    for (name, value) in descriptor.example {
-        if *name != "stiffness" && !parameters.values.contains_key(*name) {
-            parameters.values.insert((*name).to_owned(), *value);
-            notes.push(format!("{name} = {value:e} of the model's example"));
-        }
-    }
-    if let Some(rule) = reference.separation {
-        if descriptor.separation_rules.contains(&rule) {
-            parameters.separation = Some(rule);
-        } else {
-            notes.push(format!(
-                "does not offer the separation {} of the gap, ends contacts by {}",
-                rule.name(),
-                parameters.separation(descriptor).name()
-            ));
-        }
-    }
     let model = registry::build(descriptor.name, &parameters).map_err(text)?;
     let free = achieved(model.as_ref(), reference).map_err(text)?;
     let mut calibrated = CalibratedModel {
@@ -189,20 +248,116 @@ pub fn calibrated(
         .find(|name| calibrated.parameters.values.contains_key(*name));
     if asks && rules.1 == RestitutionRule::Exact && (free - wanted).abs() > 1.0e-9 {
         exactly(&mut calibrated, reference)?;
-    } else if let (false, Some(name)) = (asks, damping) {
-        let about = calibrated.parameters.values[name];
-        solve(
-            &mut calibrated,
-            reference,
-            name,
-            (1.0e-3 * about, 1.0e3 * about),
-        )?;
+    } else if let (false, Some(name), false) = (asks, damping, as_in_the_case) {
         calibrated.notes.retain(|n| !n.starts_with(name));
+        damp(&mut calibrated, reference, name)?;
     } else if !asks && wanted != free {
         let note = format!("cannot be asked for a restitution, returns {free:.3}");
         calibrated.notes.push(note);
     }
     Ok(calibrated)
+}
+
+/// Parameters of the gap's own law: those of the case, but for a restitution that replaces its own.
+fn of_own_law(
+    descriptor: &'static ModelDescriptor,
+    own: &OwnLaw,
+    reference: &ReferenceCollision,
+) -> (ModelParameters, Vec<String>) {
+    let mut parameters = own.parameters.clone();
+    let mut note = "the gap's own law, with its parameters in the case".to_owned();
+    if own.gives_restitution {
+        return (parameters, vec![note]);
+    }
+    let values = &mut parameters.values;
+    if descriptor.takes_restitution() {
+        values.retain(|name, _| !RAW_DAMPING.contains(&name.as_str()));
+        values.insert("restitution".to_owned(), reference.restitution);
+        note.push_str(", but for the restitution");
+    } else if values.remove("damping_ratio_n_mm_s").is_some() {
+        let damping = descriptor
+            .example
+            .iter()
+            .find(|(name, _)| *name == "damping");
+        values.extend(damping.map(|(name, value)| ((*name).to_owned(), *value)));
+    }
+    (parameters, vec![note])
+}
+
+/// Parameters of another model: a stiffness like that of the gap's own law, its restitution, and
+/// what more the model needs from its example.
+fn like_own_law(
+    descriptor: &'static ModelDescriptor,
+    reference: &ReferenceCollision,
+    rule: StiffnessRule,
+) -> Result<(ModelParameters, Vec<String>), String> {
+    let mut parameters = ModelParameters::default();
+    let mut notes = Vec::new();
+    if let Some(n) = exponent(descriptor, None) {
+        let value = stiffness(reference, rule, n)?;
+        parameters.values.insert("stiffness".to_owned(), value);
+    }
+    if descriptor.takes_restitution() {
+        let key = "restitution".to_owned();
+        parameters.values.insert(key, reference.restitution);
+    }
+    for (name, value) in descriptor.example {
+        let known = *name == "stiffness" || parameters.values.contains_key(*name);
+        if !known && !CRUSHED.contains(name) {
+            parameters.values.insert((*name).to_owned(), *value);
+            notes.push(format!("{name} = {value:e} of the model's example"));
+        }
+    }
+    if descriptor
+        .example
+        .iter()
+        .any(|(name, _)| CRUSHED.contains(name))
+    {
+        notes.push(format!(
+            "without {}: those of the model's example belong to the stiffness of that bumper",
+            CRUSHED.join(" and ")
+        ));
+    }
+    if let Some(rule) = reference.separation {
+        if descriptor.separation_rules.contains(&rule) {
+            parameters.separation = Some(rule);
+        } else {
+            notes.push(format!(
+                "does not offer the separation {} of the gap, ends contacts by {}",
+                rule.name(),
+                parameters.separation(descriptor).name()
+            ));
+        }
+    }
+    Ok((parameters, notes))
+}
+
+/// Finds the damping of a model that cannot be asked for a restitution: none for an elastic
+/// collision, else about that of its example, or much less.
+fn damp(
+    calibrated: &mut CalibratedModel,
+    reference: &ReferenceCollision,
+    name: &str,
+) -> Result<(), String> {
+    if reference.restitution >= 1.0 {
+        calibrated.parameters.values.insert(name.to_owned(), 0.0);
+        let model = registry::build(calibrated.descriptor.name, &calibrated.parameters)
+            .map_err(|e| e.to_string())?;
+        calibrated.free_restitution =
+            achieved(model.as_ref(), reference).map_err(|e| e.to_string())?;
+        calibrated.model = model.into();
+        let note = format!("{name} = 0, so that the reference collision returns 1");
+        calibrated.notes.push(note);
+        return Ok(());
+    }
+    let example = calibrated.descriptor.example.iter();
+    let example = example.filter(|(known, _)| *known == name);
+    let about = example.map(|(_, value)| *value).next();
+    let about = about.unwrap_or(calibrated.parameters.values[name]);
+    solve(calibrated, reference, name, (1.0e-3 * about, 1.0e3 * about)).or_else(|reason| {
+        let wide = (1.0e-12 * about, 1.0e6 * about);
+        solve(calibrated, reference, name, wide).map_err(|_| reason)
+    })
 }
 
 /// Makes the reference collision return what is wanted: by asking for another
@@ -212,12 +367,13 @@ fn exactly(calibrated: &mut CalibratedModel, reference: &ReferenceCollision) -> 
         return Ok(());
     };
     let parameters = calibrated.descriptor.parameters;
-    let raw = ["damping_factor", "damping_ratio", "friction"];
     let known = |name: &&str| parameters.iter().any(|p| p.name == *name);
-    let Some(raw) = raw.into_iter().find(known) else {
+    let Some(raw) = RAW_DAMPING.into_iter().find(known) else {
         return Err(reason);
     };
-    calibrated.parameters.values.remove("restitution");
+    for replaced in ["restitution", "alpha"] {
+        calibrated.parameters.values.remove(replaced);
+    }
     let maximum = if raw == "friction" { 0.999 } else { 1.0e3 };
     solve(calibrated, reference, raw, (1.0e-6, maximum))
         .map_err(|other| format!("{reason}; {other}"))
@@ -290,6 +446,7 @@ mod tests {
             exponent,
             restitution: 0.65,
             separation: None,
+            own: None,
         }
     }
 

@@ -4,7 +4,7 @@ use pounding_gap_element::contact_stiffness::{
     Approach, ContactStiffnessError, duration, penetration,
 };
 
-use super::models::ReferenceCollision;
+use super::models::{ReferenceCollision, crushed};
 
 /// How the stiffness of a law follows from that of the gap's own. Laws of one exponent
 /// have one stiffness; between exponents a reference collision decides.
@@ -33,21 +33,27 @@ pub(super) fn stiffness(
     rule: StiffnessRule,
     exponent: f64,
 ) -> Result<f64, String> {
-    if exponent == reference.exponent {
+    let crushed = crushed(reference).map_err(|e| e.to_string())?;
+    if exponent == reference.exponent && crushed.is_none() {
         return Ok(reference.stiffness);
     }
     let approach = Approach {
         velocity: reference.approach_velocity,
         effective_mass: reference.effective_mass,
     };
-    let depth = elastic_penetration(reference);
-    let n = reference.exponent;
-    let found = match rule {
-        StiffnessRule::Penetration => penetration(depth, exponent, approach, None, None),
-        StiffnessRule::Duration => {
+    let depth = match &crushed {
+        Some(outcome) => outcome.peak_penetration,
+        None => elastic_penetration(reference),
+    };
+    let found = match (rule, &crushed) {
+        (StiffnessRule::Penetration, _) => penetration(depth, exponent, approach, None, None),
+        (StiffnessRule::Duration, Some(outcome)) => {
+            duration(outcome.duration, exponent, approach, None)
+        }
+        (StiffnessRule::Duration, None) => {
             // The contact time is proportional to the penetration: that of any stiffness
             // of the law gives the factor.
-            let time = duration_of(n, depth, approach)?;
+            let time = duration_of(reference.exponent, depth, approach)?;
             duration(time, exponent, approach, None)
         }
     };
@@ -89,6 +95,7 @@ mod tests {
             exponent,
             restitution: 0.65,
             separation: None,
+            own: None,
         }
     }
 

@@ -15,8 +15,8 @@ pub struct Spread {
     /// Maximum over minimum between models, of the record where that is a maximum
     /// (-); NaN where a smallest value is zero, or zero but for round-off.
     pub greatest_ratio: f64,
-    /// Records under which some model has a value that is not zero: those that the spread between
-    /// models is over. Where all are zero, as the impacts under a record without contact, there is
+    /// Records under which some model has a value that is not zero, and those of a building under
+    /// which a contact reaches it: those that the spread between models is over. Where all are zero, as the impacts under a record without contact, there is
     /// no spread: zero over zero.
     pub records: usize,
 }
@@ -93,11 +93,12 @@ fn is_zero(values: &[f64], round_off: f64) -> bool {
     values.iter().all(|x| x.abs() <= round_off)
 }
 
-/// Spread of `values[model][record]`.
-pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
+/// Spread of `values[model][record]`; that between models without the records that are left out.
+pub(super) fn spread(values: &[Vec<f64>], left_out: &[usize]) -> Spread {
     let records = values.first().map_or(0, Vec::len);
     let round_off = round_off(values);
-    let columns = (0..records).map(|r| of_record(values, r));
+    let counted = (0..records).filter(|r| !left_out.contains(r));
+    let columns = counted.map(|r| of_record(values, r));
     let columns: Vec<Vec<f64>> = columns.filter(|c| !is_zero(c, round_off)).collect();
     let finite = |row: &Vec<f64>| row.iter().copied().filter(|x| x.is_finite()).collect();
     let rows: Vec<Vec<f64>> = values.iter().map(finite).collect();
@@ -118,11 +119,13 @@ pub(super) fn spread(values: &[Vec<f64>]) -> Spread {
     }
 }
 
-/// Order of the models in `values[model][record]`.
-pub(super) fn ranking(values: &[Vec<f64>]) -> Ranking {
-    let records = 0..values.first().map_or(0, Vec::len);
+/// Order of the models in `values[model][record]` without the records that are left out, unless
+/// these are all: then the models are the same.
+pub(super) fn ranking(values: &[Vec<f64>], left_out: &[usize]) -> Ranking {
+    let records = values.first().map_or(0, Vec::len);
     let round_off = round_off(values);
-    let used: Vec<usize> = records
+    let used: Vec<usize> = (0..records)
+        .filter(|r| left_out.len() == records || !left_out.contains(r))
         .filter(|r| !is_zero(&of_record(values, *r), round_off))
         .collect();
     let full = |row: &Vec<f64>| !used.is_empty() && used.iter().all(|r| row[*r].is_finite());
@@ -198,7 +201,36 @@ fn concordance(columns: &[Vec<f64>]) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use super::{Ranking, Spread, concordance};
+
+    fn spread(values: &[Vec<f64>]) -> Spread {
+        super::spread(values, &[])
+    }
+
+    fn ranking(values: &[Vec<f64>]) -> Ranking {
+        super::ranking(values, &[])
+    }
+
+    /// Two models of 1 and 3 under a record with contact, both of 5 under two without: the spread is
+    /// that of the one record, sqrt(2) / 2, and not sqrt(3) times less. Between the records it is of
+    /// all: 5, 5 and 1 have the deviation sqrt(16/3) about 11/3, 5, 5 and 3 sqrt(4/3) about 13/3.
+    #[test]
+    fn records_that_are_left_out() {
+        let values = [vec![5.0, 1.0, 5.0], vec![5.0, 3.0, 5.0]];
+        let s = super::spread(&values, &[0, 2]);
+        assert!((s.between_models - 0.5_f64.sqrt()).abs() < 1.0e-15);
+        assert_eq!((s.records, s.greatest_ratio), (1, 3.0));
+        let squares =
+            (16.0 / 3.0) * (3.0 / 11.0_f64).powi(2) + (4.0 / 3.0) * (3.0 / 13.0_f64).powi(2);
+        assert!((s.between_records - (0.5 * squares).sqrt()).abs() < 1.0e-15);
+        let r = super::ranking(&values, &[0, 2]);
+        assert_eq!((r.order, r.relative), (vec![1, 0], vec![1.5, 0.5]));
+        let same = [vec![5.0, 5.0], vec![5.0, 5.0]];
+        let none = super::spread(&same, &[0, 1]);
+        assert!(none.between_models.is_nan() && none.records == 0);
+        let r = super::ranking(&same, &[0, 1]);
+        assert!(r.at_the_top().is_empty() && r.order.len() == 2);
+    }
 
     /// Two models of 1 and 3, records that scale both: deviation sqrt(2) over mean 2 in
     /// each record; between records 1 and 2: sqrt(0.5) over 1.5.

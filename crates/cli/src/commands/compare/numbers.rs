@@ -23,6 +23,7 @@ pub struct Compared<'c> {
     models: Vec<Model<'c>>,
     quantities: Vec<Quantity<'c>>,
     gaps: Vec<Gap<'c>>,
+    buildings: Vec<Building<'c>>,
     conclusions: Vec<Conclusion<'c>>,
     differences_from_gap: Differences<'c>,
 }
@@ -44,6 +45,9 @@ impl<'c> Compared<'c> {
                 .map(|q| Quantity::of(c, q))
                 .collect(),
             gaps: (0..c.levels.len()).map(|g| Gap::of(c, g)).collect(),
+            buildings: (0..c.gaps_of_buildings.len())
+                .map(|b| Building::of(c, b))
+                .collect(),
             conclusions: c.conclusions.iter().map(|x| Conclusion::of(c, x)).collect(),
             differences_from_gap: Differences {
                 storeys: storeys.map(|d| Storey::of(c, d)).collect(),
@@ -92,6 +96,23 @@ impl<'c> Gap<'c> {
             name: gap_name(c, index),
             models: c.complete().len(),
             models_in_contact: records.map(|r| c.models_in_contact(index, r)).collect(),
+            records_without_contact: without.iter().map(|r| c.records[*r].as_str()).collect(),
+        }
+    }
+}
+
+/// Under which records no contact reaches a building.
+#[derive(Serialize)]
+struct Building<'c> {
+    name: Option<&'c str>,
+    records_without_contact: Vec<&'c str>,
+}
+
+impl<'c> Building<'c> {
+    fn of(c: &'c Comparison, index: usize) -> Self {
+        let without = c.records_not_reaching(index);
+        Self {
+            name: c.own.first().map(|r| r.isolated[index].name.as_str()),
             records_without_contact: without.iter().map(|r| c.records[*r].as_str()).collect(),
         }
     }

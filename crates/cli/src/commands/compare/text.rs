@@ -203,9 +203,10 @@ fn spreads(c: &Comparison) -> String {
         ]);
     }
     format!(
-        "\nSpread, standard deviation over mean, over the records with a value\n{table}\n{}{}",
+        "\nSpread, standard deviation over mean, over the records with a value, between models of buildings over those under which a contact reaches them\n{table}\n{}{}{}",
         of_zero(c),
-        without_contact(c)
+        without_contact(c),
+        not_reached(c)
     )
 }
 
@@ -259,6 +260,36 @@ fn without_contact(c: &Comparison) -> String {
         }
     }
     text
+}
+
+/// Records under which no contact reaches some buildings.
+fn not_reached(c: &Comparison) -> String {
+    let names = c
+        .own
+        .iter()
+        .flat_map(|r| &r.isolated)
+        .map(|b| b.name.as_str());
+    let mut said: Vec<(Vec<&str>, Vec<usize>)> = Vec::new();
+    for (building, name) in names.take(c.gaps_of_buildings.len()).enumerate() {
+        let without = c.records_not_reaching(building);
+        match said.iter_mut().find(|(_, records)| *records == without) {
+            _ if without.is_empty() => {}
+            Some((buildings, _)) => buildings.push(name),
+            None => said.push((vec![name], without)),
+        }
+    }
+    let line = |(buildings, without): &(Vec<&str>, Vec<usize>)| {
+        let records: Vec<_> = without.iter().map(|r| c.records[*r].as_str()).collect();
+        format!(
+            "{}: reached by no contact with any model under {} of {}, which {} left out of the spread between models and the ranking of their peaks: {}\n",
+            buildings.join(", "),
+            without.len(),
+            counted(c.records.len(), "record"),
+            agreeing(&without.len(), "is", "are"),
+            records.join(", ")
+        )
+    };
+    said.iter().map(line).collect()
 }
 
 fn ranking(c: &Comparison) -> String {

@@ -26,6 +26,7 @@ pub fn collide_all<'a>(
     chosen
         .iter()
         .map(|one| {
+            let refused = |e| refused(one, e);
             let model = one.build().map_err(refused)?;
             let outcome =
                 collide_with(model.as_ref(), &setting.bodies, &setting.options).map_err(refused)?;
@@ -56,7 +57,7 @@ pub fn text(collided: &[Collided<'_>], setting: &Setting) -> String {
         ));
     }
     let chosen: Vec<_> = collided.iter().map(|c| c.chosen).collect();
-    text.push_str(&remarks(&chosen));
+    text.push_str(&remarks(&chosen, setting));
     text
 }
 

@@ -87,6 +87,8 @@ struct Models<'s, R, S> {
     #[serde(flatten)]
     shared: S,
     bodies: setting::Shown,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    warnings: Vec<String>,
 }
 
 /// The results of models.
@@ -113,6 +115,8 @@ impl<'s, R, S> Models<'s, R, S> {
         shared: S,
         setting: &Setting,
     ) -> Self {
+        let models: Vec<_> = models.into_iter().collect();
+        let warnings = remarks::warnings(models.iter().map(|(specimen, _)| *specimen), setting);
         let models = models.into_iter().map(|(specimen, results)| OfModel {
             chosen: chosen::Shown::of(specimen),
             results,
@@ -129,6 +133,7 @@ impl<'s, R, S> Models<'s, R, S> {
             results,
             shared,
             bodies: setting.shown(),
+            warnings,
         }
     }
 }

@@ -3,6 +3,7 @@
 use pounding_case::Dimension;
 use pounding_catalogue::DefinitionError;
 use pounding_catalogue::numbers::significant;
+use pounding_gap_element::laboratory::Specimen;
 use pounding_gap_element::{Bodies, CollisionOptions, GapElementError};
 use serde::Serialize;
 
@@ -174,9 +175,20 @@ fn mass(text: &str, option: &str) -> Result<f64, Failure> {
 }
 
 /// What an error of a model means to somebody at the command line.
-pub fn refused(error: GapElementError) -> Failure {
+pub fn refused(specimen: &Specimen, error: GapElementError) -> Failure {
     match &error {
         GapElementError::Definition(DefinitionError::MissingParameter { parameter, .. }) => {
+            let of_example = specimen.descriptor.example.iter();
+            let mut of_example = of_example.filter(|(name, _)| name == parameter);
+            // The stiffness of an example belongs to its exponent.
+            if specimen.parameters.given("exponent").is_some() && of_example.next().is_some() {
+                return Failure::input(
+                    error.to_string(),
+                    Some(format!(
+                        "add -p {parameter}=VALUE: that of the model's example belongs to another exponent"
+                    )),
+                );
+            }
             Failure::input(
                 error.to_string(),
                 Some(format!(

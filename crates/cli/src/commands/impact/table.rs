@@ -73,8 +73,9 @@ pub fn table(
     for (name, why) in &left_out {
         text.push_str(&format!("left out: {name} {why}\n"));
     }
+    text.push_str(&staying(&tables));
     let shown: Vec<_> = tables.iter().map(|one| one.chosen).collect();
-    text.push_str(&remarks(&shown));
+    text.push_str(&remarks(&shown, setting));
     text.push_str(&written([
         arguments.csv.as_deref(),
         arguments.svg.as_deref(),
@@ -89,7 +90,7 @@ fn tabulate<'a>(chosen: &'a Specimen, setting: &Setting) -> Result<Tabulated<'a>
         &setting.bodies,
         &setting.options,
     )
-    .map_err(refused)?;
+    .map_err(|e| refused(chosen, e))?;
     Ok(Tabulated { chosen, table })
 }
 
@@ -103,6 +104,24 @@ fn reason(chosen: &Specimen) -> &'static str {
             "takes no restitution: what it returns depends on the collision"
         }
     }
+}
+
+/// Rows in which the bodies never part.
+fn staying(tables: &[Tabulated<'_>]) -> String {
+    let mut text = String::new();
+    for one in tables {
+        let rows = one.table.rows.iter();
+        let staying = rows.filter(|r| r.outcome.stays_in_contact);
+        let asked: Vec<_> = staying.map(|r| format!("{:.1}", r.requested)).collect();
+        if !asked.is_empty() {
+            text.push_str(&format!(
+                "stays in contact: {} has too little energy left to part where asked for {}\n",
+                one.chosen.descriptor.name,
+                asked.join(", ")
+            ));
+        }
+    }
+    text
 }
 
 fn detailed(one: &Tabulated<'_>) -> String {
@@ -125,7 +144,10 @@ fn detailed(one: &Tabulated<'_>) -> String {
             format!("{:.7}", row.outcome.restitution),
             format!("{:.2}", row.error_percent()),
             dash(format!("{:.4e}", row.outcome.peak_force)),
-            dash(format!("{:.4e}", row.outcome.duration)),
+            match row.outcome.contact_time() {
+                time if time.is_nan() => "-".to_owned(),
+                time => format!("{time:.4e}"),
+            },
         ]);
     }
     let [all, middle] = one.table.mean_errors_percent();
@@ -175,7 +197,7 @@ fn write_csv(path: &Path, tables: &[Tabulated<'_>], setting: &Setting) -> Result
         head.push_str(&format!("# {}\n", chosen::pairs(one.chosen)));
         rows.extend(one.table.rows.iter().map(|r| {
             let force = Some(r.outcome.peak_force).filter(|f| f.is_finite());
-            let duration = force.map(|_| r.outcome.duration);
+            let duration = Some(r.outcome.contact_time()).filter(|t| t.is_finite());
             let name = one.chosen.descriptor.name;
             (
                 name,

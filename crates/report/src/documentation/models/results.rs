@@ -13,6 +13,9 @@ use super::with_unit;
 pub fn restitution(example: &Example) -> String {
     let depends = match example.descriptor.achieved_restitution {
         AchievedRestitution::Elastic => "It is 1, whatever the parameters and the speed.",
+        AchievedRestitution::Constant if example.descriptor.divides_by_approach_velocity() => {
+            "It depends on the parameters without a unit alone: it is the same for every mass and stiffness, and for every\nspeed from 1 mm/s on, of a free collision. Slower ones are damped as at 1 mm/s, and return more."
+        }
         AchievedRestitution::Constant => {
             "It depends on the parameters without a unit alone: it is the same for every mass, stiffness and speed\nof a free collision."
         }

@@ -103,6 +103,48 @@ fn unusual_values_are_warned_of() {
     assert_eq!(warnings(ends), [""; 0]);
 }
 
+/// The same of the parameters of spectra to which records are scaled: the case's and its steps'.
+#[test]
+fn unusual_spectra_are_warned_of() {
+    let warnings = |keys: &str| {
+        let scale = format!("[ground_motion]\nscale = {{ {keys} }}\n");
+        let text = CASE.replace("[ground_motion]\n", &scale);
+        assert_ne!(text, CASE);
+        let case = Case::parse(&text, Path::new("case.toml")).unwrap();
+        case.ground_motion.unusual_parameters()
+    };
+    let eurocode = |ag: &str| {
+        warnings(&format!(
+            "code = \"eurocode_8_2004\", ground_type = \"C\", ag = {ag}"
+        ))
+    };
+    let asce = |s_ds: &str, s_d1: &str| {
+        warnings(&format!(
+            "code = \"asce_7_2016\", s_ds = {s_ds}, s_d1 = {s_d1}, t_l = \"8 s\""
+        ))
+    };
+    assert_eq!(
+        eurocode("0.25"),
+        [
+            "`ag` of the spectrum of eurocode_8_2004 is 0.25 m/s2 (0.0254929 g), and in codes 0.05 g to 2 g; a number without unit is in m/s2: was \"0.25 g\" meant?"
+        ]
+    );
+    assert!(eurocode("250")[0].contains("was \"250 cm/s2\" meant?"));
+    let both = asce("1", "0.6");
+    assert!(both[0].contains("`s_ds`") && both[0].contains("was \"1 g\" meant?"));
+    assert!(both[1].contains("`s_d1`") && both[1].contains("was \"0.6 g\" meant?"));
+    assert_eq!(both.len(), 2);
+    for usual in [
+        eurocode("\"0.25 g\""),
+        eurocode("2.5"),
+        asce("\"1 g\"", "\"0.6 g\""),
+        asce("9.8", "5.9"),
+        warnings("pga = 0.25"),
+    ] {
+        assert_eq!(usual, [""; 0]);
+    }
+}
+
 #[test]
 fn absent_table_gives_nothing() {
     let text = CASE.split("[separation]").next().unwrap();

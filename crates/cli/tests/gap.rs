@@ -1032,6 +1032,47 @@ fn ownership_and_missing_inputs_decide() {
     );
 }
 
+/// With fewer records than a code asks for no width decides: the row of the table and every answer
+/// of the object say so, as the headline does. TBDY 2018 has one rule whoever owns the ground, and
+/// EN 1998-1 two: only of the latter the page says that ownership decides.
+#[test]
+fn rows_have_the_answer_of_the_headline() {
+    let folder = tempfile::tempdir().unwrap();
+    let page = folder.path().join("page.html").display().to_string();
+    let files = motions(6);
+    let wide = ["--set", "same_owner=true", "--report", &page];
+    let decides = "The case states who owns the ground: same property decides.";
+    let told = |code: &str, asked: bool| {
+        let mut arguments = wide.to_vec();
+        arguments.extend(["--code", code]);
+        let shown = text(&gap("gap_check", &seven(&files, &arguments)).stdout);
+        let said = std::fs::read_to_string(&page).unwrap();
+        assert_eq!(said.contains(decides), asked, "{code}");
+        arguments.push("--json");
+        let found = json(&gap("gap_check", &seven(&files, &arguments)));
+        let found = found["gaps"][0]["code"].clone();
+        assert_eq!(found["ownership"].is_string(), asked, "{code}: {found}");
+        (shown, found)
+    };
+    let (shown, found) = told("tbdy_2018", false);
+    assert!(shown.contains("the code asks for 11 records at least"));
+    assert!(shown.contains("NO ANSWER"), "{shown}");
+    let row = shown.lines().find(|l| l.contains("| tbdy_2018_"));
+    assert!(row.unwrap().contains("no answer"), "{shown}");
+    assert!(found["satisfied"].is_null());
+    let answer = &found["cases"][0];
+    assert!(answer["satisfied"].is_null(), "{answer}");
+    // The width by the maximum is shown all the same.
+    assert!(answer["required"].as_f64().unwrap() > 0.0);
+    for level in answer["levels"].as_array().unwrap() {
+        assert!(level["satisfied"].is_null(), "{level}");
+    }
+    let (shown, found) = told("eurocode_8_2004", true);
+    assert!(!shown.contains("no answer"), "{shown}");
+    assert!(found["satisfied"].is_boolean());
+    assert!(found["cases"][0]["satisfied"].is_boolean());
+}
+
 /// What the sweep of one gap in a row says of impacts is of that gap, as `run` counts them; what
 /// happens in the others stands beside it.
 #[test]

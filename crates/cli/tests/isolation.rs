@@ -133,6 +133,18 @@ fn a_neighbour_without_isolators_has_no_isolation_clearance() {
     let refusal = provision(1)["refusal"].as_str().unwrap().to_owned();
     assert!(refusal.contains("needs isolation_period"), "{refusal}");
     assert!(refusal.ends_with("of next"), "{refusal}");
+    // Chapter 17 says nothing of what it moves itself, and 12.12.3 nothing of isolators.
+    let check = json(&["gap", "--points", "0", "--code", "asce_7_2010"], &case);
+    let code = &check["gaps"][1]["code"];
+    assert!(code["satisfied"].is_null(), "{code}");
+    for answer in code["cases"].as_array().unwrap() {
+        let refusal = answer["refusal"].as_str().unwrap();
+        assert!(
+            refusal.contains("asce_7_10_isolation_boundary")
+                && refusal.contains("next stands on none: its own displacement comes on top"),
+            "{refusal}"
+        );
+    }
 }
 
 #[test]
@@ -229,4 +241,119 @@ fn isolators_that_cannot_be_are_refused() {
         }
         assert!(!text.contains("2 errors"), "{text}");
     }
+}
+
+/// `changed` with isolators that do not yield, so that displacements are elastic, and inputs of the
+/// rules for fixed bases.
+fn linear() -> (tempfile::TempDir, PathBuf) {
+    let text = std::fs::read_to_string(example()).unwrap();
+    let start = text.find("[building.isolator]").unwrap();
+    let end = start + text[start..].find("\n[[gap]]").unwrap();
+    let own = text[start..end].to_owned();
+    changed(&[
+        (
+            &own,
+            "[building.isolator]\nmodel = \"lead_rubber\"\npost_yield_stiffness = \"5.053 MN/m\"\nstiffness_ratio = 1\ndamping = \"400 kN s/m\"\n",
+        ),
+        (
+            "[separation]\n",
+            "[separation]\ndisplacement_amplification = 5.5\nresponse_modification = 8\n",
+        ),
+    ])
+}
+
+fn code_of(code: &str, case: &Path) -> Value {
+    // Records enough for ASCE 7-10, not for later editions.
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/synthetic_suite");
+    let motions = (1..=7).map(|i| root.join(format!("motion_{i}.csv")));
+    let motions: Vec<String> = motions.map(|path| path.display().to_string()).collect();
+    let mut arguments = vec![
+        "gap",
+        "--points",
+        "0",
+        "--code",
+        code,
+        "--json",
+        "--records",
+    ];
+    arguments.extend(motions.iter().map(String::as_str));
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .arg(arguments[0])
+        .arg(case)
+        .args(&arguments[1..])
+        .output()
+        .unwrap();
+    let found: Value = serde_json::from_slice(&output.stdout)
+        .unwrap_or_else(|_| panic!("{}", words(&output.stderr)));
+    found["gaps"][0]["code"].clone()
+}
+
+/// ASCE/SEI 7 has chapter 17 for buildings on isolators, by hand: D_M = 0.35 g 2 s / (4 pi^2 1.5) =
+/// 115.92 mm; the plan of 24 m by 16 m with e = 1.2 m gives 1 + 12 e y / (b^2 + d^2) = 1.2077, so
+/// 140.0 mm, whatever 12.12.3 has of a fixed base.
+#[test]
+fn a_code_takes_its_own_rule_for_isolated_buildings() {
+    let (_folder, case) = linear();
+    let displacement = 0.35 * 9.806_65 * 2.0 / (4.0 * std::f64::consts::PI.powi(2) * 1.5);
+    let by_hand = displacement * (1.0 + 12.0 * 1.2 * 12.0 / (24.0 * 24.0 + 16.0 * 16.0));
+    for (code, rule) in [
+        ("asce_7_2010", "asce_7_10_isolation_boundary"),
+        ("asce_7_2016", "asce_7_16_isolation_boundary"),
+        ("asce_7_2022", "asce_7_22_isolation_boundary"),
+    ] {
+        let found = code_of(code, &case);
+        let level = &found["cases"][0]["levels"][0];
+        assert_eq!(level["provision"]["name"], rule, "{found}");
+        close(&level["required"], by_hand);
+        let provided = found["cases"][0]["provided"].as_f64().unwrap();
+        let satisfied = match code {
+            "asce_7_2010" => Value::from(provided >= by_hand),
+            // Eleven records are asked for.
+            _ => Value::Null,
+        };
+        assert_eq!(found["satisfied"], satisfied, "{found}");
+        assert_eq!(found["cases"][0]["satisfied"], satisfied, "{found}");
+    }
+}
+
+/// A rule for fixed bases is no verdict of a building on isolators, with whatever inputs.
+#[test]
+fn rules_for_fixed_bases_do_not_judge_isolated_buildings() {
+    let (_folder, case) = linear();
+    for code in [
+        "eurocode_8_2004",
+        "kds",
+        "ubc_1997",
+        "gb_50011_2010",
+        "ibc_2009",
+    ] {
+        let found = code_of(code, &case);
+        assert!(found["satisfied"].is_null(), "{code}: {found}");
+        let refusal = found["cases"][0]["refusal"].as_str().unwrap();
+        let says = "a rule for buildings on fixed bases, and office stands on isolators";
+        assert!(refusal.contains(says), "{code}: {refusal}");
+    }
+    let shown = pounding(
+        &["gap", "--points", "0", "--code", "eurocode_8_2004"],
+        &case,
+    );
+    let shown = words(&shown.stdout);
+    assert!(
+        shown.contains("no rule of the code for buildings on isolators is known here"),
+        "{shown}"
+    );
+    // Nor do they judge beside the demand, and of several the isolators' own is the one that does.
+    let (_folder, all) = changed(&[("provisions = [\"asce_7_16_isolation_boundary\"]\n", "")]);
+    let check = json(&["gap", "--points", "0"], &all);
+    let provisions = check["gaps"][0]["provisions"].as_array().unwrap();
+    let judges = provisions.iter().filter(|p| p["satisfied"].is_boolean());
+    let judges: Vec<_> = judges.map(|p| p["name"].as_str().unwrap()).collect();
+    assert_eq!(
+        judges,
+        [
+            "asce_7_10_isolation_boundary",
+            "asce_7_16_isolation_boundary",
+            "asce_7_22_isolation_boundary"
+        ]
+    );
 }

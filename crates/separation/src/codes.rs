@@ -9,9 +9,9 @@ use crate::error::SeparationError;
 use crate::inputs::{Site, Situation, Structure};
 use crate::provision::Provision;
 use crate::provisions::{
-    as_1170_4, asce_7, asce_41, e_030, eak_2000, eurocode_8, gb_50011, iran_2800, is_1893, is_4326,
-    japan, mexico_city, nbcc, nch_433, nec_se_ds, nsr_10, ntc_2018, nzs_1170_5, rpa_2024,
-    taiwan_2011, turkey, ubc_1997, ufc_3_310_03a,
+    as_1170_4, asce_7, asce_7_isolation, asce_41, e_030, eak_2000, eurocode_8, gb_50011, iran_2800,
+    is_1893, is_4326, japan, mexico_city, nbcc, nch_433, nec_se_ds, nsr_10, ntc_2018, nzs_1170_5,
+    rpa_2024, taiwan_2011, turkey, ubc_1997, ufc_3_310_03a,
 };
 use crate::remedy;
 use crate::suite_rule::{self, SuiteRule};
@@ -69,6 +69,9 @@ pub struct CodeDescriptor {
     pub family: &'static str,
     /// Its rules.
     pub cases: Cases,
+    /// Its rule for buildings on isolators, for which the others do not hold; `None` where none
+    /// is known here.
+    pub isolated: Option<&'static ProvisionDescriptor>,
     /// What it takes of responses under many records.
     pub suite: SuiteRule,
 }
@@ -89,6 +92,8 @@ pub struct Rules {
     pub either: Vec<Provision>,
     /// A width that holds beside it.
     pub minimum: Option<Provision>,
+    /// The rule for buildings on isolators, in the place of the others.
+    pub isolated: Option<Provision>,
 }
 
 /// What gives the verdict: a code of the registry, or a rule of the user.
@@ -144,6 +149,7 @@ impl Listed {
         Rules {
             either: self.either.iter().map(|p| Provision::BuiltIn(p)).collect(),
             minimum: self.minimum.map(Provision::BuiltIn),
+            isolated: None,
         }
     }
 }
@@ -151,11 +157,17 @@ impl Listed {
 impl Rules {
     /// All provisions among them.
     pub fn provisions(&self) -> impl Iterator<Item = &Provision> {
-        self.either.iter().chain(&self.minimum)
+        self.either
+            .iter()
+            .chain(&self.minimum)
+            .chain(&self.isolated)
     }
 
     /// The error of the first rule that does not apply, with what can be done where none does.
     fn with_remedy(&self, error: SeparationError, sides: &Sides) -> SeparationError {
+        if sides.structures().iter().any(|s| s.on_isolators) {
+            return error;
+        }
         match error {
             SeparationError::NotApplicable {
                 provision, reason, ..
@@ -173,8 +185,9 @@ impl Rules {
         }
     }
 
-    /// Width between two buildings, or of one beside a wall: of the rules the first that
-    /// applies, and no less than the minimum. A minimum stands beside a disputed rule where it
+    /// Width between two buildings, or of one beside a wall: where they stand on isolators that of
+    /// the rule for such, if there is one; else of the rules the first that applies, and no less than
+    /// the minimum. A minimum stands beside a disputed rule where it
     /// is no less than any of its readings.
     ///
     /// # Errors
@@ -190,6 +203,12 @@ impl Rules {
                 requirement,
             })
         };
+        if let Some(rule) = &self.isolated
+            && sides.structures().iter().any(|s| s.on_isolators)
+        {
+            sides.all_on_isolators(rule.name())?;
+            return of(rule);
+        }
         let mut first = Err(SeparationError::NotApplicable {
             provision: "the code".to_owned(),
             reason: "it has no rule for this situation".to_owned(),
@@ -238,6 +257,7 @@ impl Code {
                 Rules {
                     either: vec![rule],
                     minimum: None,
+                    isolated: None,
                 },
             )],
         }
@@ -265,6 +285,37 @@ pub enum Sides {
 }
 
 impl Sides {
+    /// The buildings.
+    fn structures(&self) -> Vec<&Structure> {
+        match self {
+            Self::Between(situation) => vec![&situation.left, &situation.right],
+            Self::Wall { structure, .. } => vec![structure],
+        }
+    }
+
+    /// Refuses a building on a fixed base beside one on isolators, of whose own displacement a rule
+    /// for isolated buildings says nothing.
+    fn all_on_isolators(&self, provision: &str) -> Result<(), SeparationError> {
+        let all = self.structures();
+        let Some(fixed) = all.iter().find(|s| !s.on_isolators) else {
+            return Ok(());
+        };
+        let isolated = all.iter().filter(|s| s.on_isolators);
+        let isolated: Vec<&str> = isolated.map(|s| &*s.name).collect();
+        Err(SeparationError::NotApplicable {
+            provision: provision.to_owned(),
+            reason: format!(
+                "it is a rule for buildings on isolators, as {}, and {} stands on none: its own displacement comes on top",
+                isolated.join(" and "),
+                fixed.name
+            ),
+            remedy: format!(
+                "no rule of the code for both is known here: {}",
+                remedy::BESIDE_THE_CODE
+            ),
+        })
+    }
+
     /// The same under this ownership.
     #[must_use]
     pub fn owned(mut self, ownership: Option<Ownership>) -> Self {
@@ -296,14 +347,17 @@ impl CodeDescriptor {
     pub fn code(&self) -> Code {
         let edition = self.edition();
         let rules = self.listed().into_iter();
+        let isolated = self.isolated.map(Provision::BuiltIn);
+        let of = |listed: Listed| Rules {
+            isolated: isolated.clone(),
+            ..listed.rules()
+        };
         Code {
             name: self.name.to_owned(),
             edition: edition.title.to_owned(),
             in_force: edition.in_force.map(|known| known.explanation()),
             superseded_by: edition.superseded_by,
-            rules: rules
-                .map(|(owner, listed)| (owner, listed.rules()))
-                .collect(),
+            rules: rules.map(|(owner, listed)| (owner, of(listed))).collect(),
             suite: self.suite,
         }
     }
@@ -326,6 +380,7 @@ impl CodeDescriptor {
     pub fn has(&self, provision: &ProvisionDescriptor) -> bool {
         let all = self.listed().into_iter();
         all.flat_map(|(_, listed)| listed.provisions())
+            .chain(self.isolated)
             .any(|p| p.name == provision.name)
     }
 }
@@ -341,6 +396,16 @@ macro_rules! code {
             name: $name,
             family: $family,
             cases: by_owner(Listed::of(&[&$between]), Listed::of(&[&$boundary])),
+            isolated: None,
+            suite: suite_rule::$suite,
+        }
+    };
+    ($name:literal, $family:literal, $between:expr, $boundary:expr, $suite:ident, isolated: $isolated:expr) => {
+        &CodeDescriptor {
+            name: $name,
+            family: $family,
+            cases: by_owner(Listed::of(&[&$between]), Listed::of(&[&$boundary])),
+            isolated: Some(&$isolated),
             suite: suite_rule::$suite,
         }
     };
@@ -349,6 +414,7 @@ macro_rules! code {
             name: $name,
             family: $family,
             cases: $cases,
+            isolated: None,
             suite: suite_rule::$suite,
         }
     };
@@ -360,21 +426,24 @@ static ALL: &[&CodeDescriptor] = &[
         "asce_7",
         asce_7::ASCE_7_10_BETWEEN,
         asce_7::ASCE_7_10_BOUNDARY,
-        ASCE_7_2010
+        ASCE_7_2010,
+        isolated: asce_7_isolation::ASCE_7_10
     ),
     code!(
         "asce_7_2016",
         "asce_7",
         asce_7::ASCE_7_16_BETWEEN,
         asce_7::ASCE_7_16_BOUNDARY,
-        ASCE_7_2016
+        ASCE_7_2016,
+        isolated: asce_7_isolation::ASCE_7_16
     ),
     code!(
         "asce_7_2022",
         "asce_7",
         asce_7::ASCE_7_22_BETWEEN,
         asce_7::ASCE_7_22_BOUNDARY,
-        ASCE_7_2022
+        ASCE_7_2022,
+        isolated: asce_7_isolation::ASCE_7_22
     ),
     code!(
         "ibc_2009",
@@ -826,6 +895,43 @@ mod tests {
         assert!((found[1].1 - 0.14).abs() < 1e-12);
     }
 
+    /// A building on isolators: no rule of a code for fixed bases speaks of it, whatever inputs there
+    /// are, and what helps is no other of them. A rule of the user does.
+    #[test]
+    fn rules_for_fixed_bases_refuse_isolators() {
+        let Sides::Between(mut pair) = between(true) else {
+            unreachable!()
+        };
+        pair.right.on_isolators = true;
+        pair.right.name = "office".to_owned();
+        let wall = Sides::Wall {
+            structure: Box::new(pair.right.clone()),
+            site: pair.site,
+        };
+        for code in codes() {
+            for (ownership, rules) in code.code().rules {
+                for sides in [Sides::Between(pair.clone()), wall.clone()] {
+                    let error = rules.width(&sides.owned(ownership)).unwrap_err();
+                    let said = error.to_string();
+                    let Some(own) = code.isolated else {
+                        assert!(said.contains("fixed bases, and office"), "{said}");
+                        let help = error.help().unwrap();
+                        assert!(help.starts_with("no rule of the code"), "{help}");
+                        continue;
+                    };
+                    assert!(said.contains(own.name), "{}: {said}", code.name);
+                }
+            }
+        }
+        let error = asce_7::ASCE_7_16_BETWEEN.between(&pair).unwrap_err();
+        assert!(
+            error
+                .help()
+                .unwrap()
+                .ends_with("--provisions: asce_7_16_isolation_boundary")
+        );
+    }
+
     /// What to do where no rule of a code applies: other rules of it, if it has any that were not
     /// tried, else what there is beside it.
     #[test]
@@ -884,8 +990,7 @@ mod tests {
         }
     }
 
-    /// Every provision belongs to a code, but alternatives that a code leaves to the engineer
-    /// and those for isolated structures.
+    /// Every provision belongs to a code, but alternatives that a code leaves to the engineer.
     #[test]
     fn provisions_without_a_code() {
         let without = descriptors()
@@ -895,9 +1000,6 @@ mod tests {
         assert_eq!(
             without,
             [
-                "asce_7_10_isolation_boundary",
-                "asce_7_16_isolation_boundary",
-                "asce_7_22_isolation_boundary",
                 "ntc_2018_without_calculation",
                 "eak_2000_joint",
                 "tbdy_2018_bridge_seat",

@@ -1,11 +1,13 @@
 //! The descriptor of a provision.
 
 use pounding_catalogue::Descriptor;
+use pounding_catalogue::wording::agreeing;
 
 use crate::assumptions::{Assumptions, Ground, HeightDatum};
 use crate::edition::Edition;
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::remedy;
 use crate::status::{Reading, Status};
 use crate::working::{ReadingWidth, Requirement, Working};
 
@@ -174,6 +176,7 @@ impl ProvisionDescriptor {
         structure: &Structure,
         site: &Site,
     ) -> Result<Requirement, SeparationError> {
+        self.speaks_of(&[structure])?;
         let width = |rule, formula: &str| {
             let mut working = Working::new(self.name);
             let width = match rule {
@@ -193,6 +196,7 @@ impl ProvisionDescriptor {
     /// # Errors
     /// An input that is missing, or a situation that the provision does not cover.
     pub fn between(&self, situation: &Situation) -> Result<Requirement, SeparationError> {
+        self.speaks_of(&[&situation.left, &situation.right])?;
         self.required(|rule, formula| {
             let mut working = Working::new(self.name);
             let caution = self.caution(&[&situation.left, &situation.right]);
@@ -222,6 +226,28 @@ impl ProvisionDescriptor {
                     working.finish(&formula, (width, &situation.site), caution)
                 }
             }
+        })
+    }
+
+    /// Refuses structures on isolators, of which a rule for fixed bases says nothing.
+    fn speaks_of(&self, structures: &[&Structure]) -> Result<(), SeparationError> {
+        // What spans a gap between bridges is no rule of their bases.
+        if self.is_of_isolated_structures() || self.place() == Place::Seat {
+            return Ok(());
+        }
+        let isolated = structures.iter().filter(|s| s.on_isolators);
+        let isolated: Vec<&str> = isolated.map(|s| &*s.name).collect();
+        if isolated.is_empty() {
+            return Ok(());
+        }
+        Err(SeparationError::NotApplicable {
+            provision: self.name.to_owned(),
+            reason: format!(
+                "it is a rule for buildings on fixed bases, and {} {} on isolators",
+                isolated.join(" and "),
+                agreeing(&isolated.len(), "stands", "stand")
+            ),
+            remedy: remedy::on_isolators(self.edition),
         })
     }
 

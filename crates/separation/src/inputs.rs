@@ -228,6 +228,8 @@ pub struct Structure {
     /// Whether `displacement` holds sway and rotation of the base: the structure stands on a
     /// foundation in the model.
     pub base_moves: bool,
+    /// Whether it stands on isolators.
+    pub on_isolators: bool,
     /// `R`, `q`, `Rd Ro`, `R*`, `Ra` (-).
     pub response_modification: Option<f64>,
     /// `Cd` (-).

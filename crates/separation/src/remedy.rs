@@ -2,6 +2,7 @@
 
 use crate::combination::CombinationRule;
 use crate::descriptor::{Place, ProvisionDescriptor};
+use crate::edition::Edition;
 use crate::registry::{descriptors, find};
 
 /// What to do where a provision does not apply, beside a wall or between buildings: other rules of
@@ -50,4 +51,22 @@ pub(crate) fn where_it_does_not_apply(
         "the code has no other rule: --all shows the combination rules {}, and [[separation.rule]] states a rule of your own, which --code takes",
         rules.join(", ")
     )
+}
+
+/// What there is beside a code that says nothing of a gap.
+pub(crate) const BESIDE_THE_CODE: &str = "without --code the demand of the records decides, and [[separation.rule]] states a rule of your own, which --code takes";
+
+/// What to do where a rule for fixed bases meets a building on isolators.
+pub(crate) fn on_isolators(edition: &Edition) -> String {
+    let own = descriptors().iter();
+    let mut own = own.filter(|p| p.edition == edition && p.is_of_isolated_structures());
+    match own.next() {
+        Some(rule) => format!(
+            "choose the rule of the code for buildings on isolators, with --provisions: {}",
+            rule.name
+        ),
+        None => format!(
+            "no rule of the code for buildings on isolators is known here: {BESIDE_THE_CODE}"
+        ),
+    }
 }

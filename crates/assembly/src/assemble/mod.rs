@@ -43,7 +43,7 @@ pub struct Assembly {
     pub output_step: f64,
     /// The record, scaled, with its origin.
     pub accelerogram: Accelerogram,
-    /// What the case gives and nothing uses, in words.
+    /// What the case gives and nothing uses, and parameters of spectra that no code has, in words.
     pub unused: Vec<String>,
 }
 
@@ -118,10 +118,20 @@ pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, As
     })
 }
 
-/// What a case gives and nothing uses, in words.
+/// What a case gives and nothing uses, and parameters of spectra that no code has, in words: each
+/// once.
 fn unused(case: &Case) -> Vec<String> {
     let mut told = column::never_hit(case);
     told.extend(method::without_effect(case));
+    let own = case.buildings.iter().filter_map(|b| b.ground.as_ref());
+    let own = own.filter_map(|ground| ground.value.motion.as_ref());
+    for motion in std::iter::once(&case.ground_motion).chain(own) {
+        for unusual in motion.unusual_parameters() {
+            if !told.contains(&unusual) {
+                told.push(unusual);
+            }
+        }
+    }
     told
 }
 

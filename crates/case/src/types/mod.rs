@@ -611,6 +611,29 @@ pub struct Separation {
     pub rules: Vec<RuleText>,
 }
 
+/// What lies outside the values that codes have of the parameters of their spectra, in words: a
+/// warning for each, with what was probably meant.
+#[must_use]
+pub fn unusual_parameters(spectrum: &CodeSpectrum) -> Vec<String> {
+    usual::of_spectrum(spectrum)
+}
+
+impl GroundMotion {
+    /// The same of the spectra to which the motion, and that across the row, is scaled.
+    #[must_use]
+    pub fn unusual_parameters(&self) -> Vec<String> {
+        let steps = self.process.iter().filter_map(|step| step.value.target());
+        let scale = self.scale.iter().filter_map(|scale| scale.value.target());
+        let spectra = steps.chain(scale).filter_map(|band| match &band.spectrum {
+            SpectrumSource::Code(code) => Some(&code.value),
+            SpectrumSource::File(_) => None,
+        });
+        let across = self.across.iter();
+        let across = across.flat_map(|motion| motion.value.unusual_parameters());
+        spectra.flat_map(unusual_parameters).chain(across).collect()
+    }
+}
+
 impl Separation {
     /// Reads the keys of `[separation]` from a text of their own, for so many buildings.
     ///

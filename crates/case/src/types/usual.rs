@@ -1,18 +1,26 @@
-//! What codes have of the values of `[separation]`: one outside is more often a mistake.
+//! What codes have of the values of `[separation]` and of design spectra: one outside is more often
+//! a mistake.
 
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::numbers::six_digits;
+use pounding_ground_motion::spectra::design::CodeSpectrum;
 
 use super::Separation;
 
-/// The usual range of a key.
+/// The usual range of a key of `[separation]`.
 struct Usual {
     key: &'static str,
+    bounds: Bounds,
+    /// Its values, of one building after the other where it has one for each.
+    given: fn(&Separation) -> &[f64],
+}
+
+/// What codes have of a value.
+#[derive(Clone, Copy)]
+struct Bounds {
     /// Least and most usual value, in the unit of the kind.
     range: (f64, f64),
     kind: Kind,
-    /// Its values, of one building after the other where it has one for each.
-    given: fn(&Separation) -> &[f64],
 }
 
 /// What a value is.
@@ -29,45 +37,38 @@ enum Kind {
 const USUAL: [Usual; 8] = [
     Usual {
         key: "response_modification",
-        range: (1.0, 12.0),
-        kind: Kind::Number,
+        bounds: Bounds::of((1.0, 12.0), Kind::Number),
         given: |s| s.response_modification.as_deref().unwrap_or_default(),
     },
     Usual {
         key: "displacement_amplification",
-        range: (1.0, 12.0),
-        kind: Kind::Number,
+        bounds: Bounds::of((1.0, 12.0), Kind::Number),
         given: |s| s.displacement_amplification.as_deref().unwrap_or_default(),
     },
     Usual {
         key: "importance",
-        range: (0.5, 2.0),
-        kind: Kind::Number,
+        bounds: Bounds::of((0.5, 2.0), Kind::Number),
         given: |s| s.importance.as_deref().unwrap_or_default(),
     },
     Usual {
         // Below 0.05 g EN 1998-1, 3.2.1(5), need not be observed at all.
         key: "design_ground_acceleration",
-        range: (0.05, 2.0),
-        kind: Kind::Acceleration,
+        bounds: Bounds::of((0.05, 2.0), Kind::Acceleration),
         given: |s| s.design_ground_acceleration.as_slice(),
     },
     Usual {
         key: "spectral_acceleration_1s",
-        range: (0.05, 4.0),
-        kind: Kind::Acceleration,
+        bounds: Bounds::of((0.05, 4.0), Kind::Acceleration),
         given: |s| s.spectral_acceleration_1s.as_slice(),
     },
     Usual {
         key: "seismic_coefficient",
-        range: (0.0, 1.0),
-        kind: Kind::Number,
+        bounds: Bounds::of((0.0, 1.0), Kind::Number),
         given: |s| s.seismic_coefficient.as_slice(),
     },
     Usual {
         key: "isolation_damping_coefficient",
-        range: (0.8, 2.0),
-        kind: Kind::Number,
+        bounds: Bounds::of((0.8, 2.0), Kind::Number),
         given: |s| {
             s.isolation_damping_coefficient
                 .as_deref()
@@ -76,8 +77,7 @@ const USUAL: [Usual; 8] = [
     },
     Usual {
         key: "isolation_period",
-        range: (0.0, 10.0),
-        kind: Kind::Time,
+        bounds: Bounds::of((0.0, 10.0), Kind::Time),
         given: |s| s.isolation_period.as_deref().unwrap_or_default(),
     },
 ];
@@ -88,7 +88,45 @@ pub(super) fn warnings(separation: &Separation) -> Vec<String> {
     of_ranges.chain(eccentricity(separation)).collect()
 }
 
+/// A warning for each parameter of the spectrum of a code that no code has.
+pub(super) fn of_spectrum(spectrum: &CodeSpectrum) -> Vec<String> {
+    let acceleration = |range| Bounds::of(range, Kind::Acceleration);
+    let parameters = match spectrum {
+        CodeSpectrum::Eurocode8Of2004(of) => {
+            vec![("ag", of.ground_acceleration, acceleration((0.05, 2.0)))]
+        }
+        // Below both of the least values ASCE 7, 11.6, asks for no seismic design but the least.
+        CodeSpectrum::Asce7Of2016(of) => vec![
+            ("s_ds", of.short_period, acceleration((0.167, 4.0))),
+            ("s_d1", of.one_second, acceleration((0.067, 4.0))),
+        ],
+    };
+    let unusual = parameters
+        .iter()
+        .filter(|(_, value, bounds)| !bounds.holds(*value));
+    unusual
+        .map(|(key, value, bounds)| {
+            let place = format!("the spectrum of {}", spectrum.name());
+            bounds.warning(key, &place, *value, "")
+        })
+        .collect()
+}
+
 impl Usual {
+    fn warning(&self, separation: &Separation) -> Option<String> {
+        let given = (self.given)(separation);
+        let mut places = given.iter().enumerate();
+        let (place, value) = places.find(|(_, v)| !self.bounds.holds(**v))?;
+        let of = whose(given, place);
+        Some(self.bounds.warning(self.key, "[separation]", *value, &of))
+    }
+}
+
+impl Bounds {
+    const fn of(range: (f64, f64), kind: Kind) -> Self {
+        Self { range, kind }
+    }
+
     fn holds(&self, value: f64) -> bool {
         let (least, most) = self.range;
         let unit = self.kind.unit();
@@ -96,18 +134,13 @@ impl Usual {
         (least * unit..=most * unit).contains(&value)
     }
 
-    fn warning(&self, separation: &Separation) -> Option<String> {
-        let given = (self.given)(separation);
-        let (place, value) = given.iter().enumerate().find(|(_, v)| !self.holds(**v))?;
-        let of = whose(given, place);
-        let shown = self.kind.shown(*value);
-        let key = self.key;
+    /// What is said of a value outside that stands at a key of a place.
+    fn warning(&self, key: &str, place: &str, value: f64, of: &str) -> String {
+        let shown = self.kind.shown(value);
         let range = self.kind.range(self.range);
-        let meant = self.meant(*value);
+        let meant = self.meant(value);
         let meant = meant.map_or(String::new(), |meant| format!("; {meant}"));
-        Some(format!(
-            "`{key}` of [separation] is {shown}{of}, and in codes {range}{meant}"
-        ))
+        format!("`{key}` of {place} is {shown}{of}, and in codes {range}{meant}")
     }
 
     /// What was probably meant.

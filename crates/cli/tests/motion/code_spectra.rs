@@ -180,3 +180,66 @@ fn pictures_have_three_forms() {
     }
     assert!(folder.content("c.svg").contains("period (s)"));
 }
+
+/// Accelerations without unit are in m/s2: said once by whatever takes the spectrum, as `gap` says it
+/// of `design_ground_acceleration`, and nothing is said of usual ones.
+#[test]
+fn parameters_that_no_code_has_are_warned_of() {
+    let folder = Folder::new();
+    let (record, made) = (folder.name("r.csv"), folder.name("made.csv"));
+    let samples: String = (0..400)
+        .map(|i| format!("{},{}\n", f64::from(i) * 0.01, (f64::from(i) * 0.3).sin()))
+        .collect();
+    let header = "# unit: m/s2\ntime_s,acceleration_m_s2\n";
+    std::fs::write(&record, format!("{header}{samples}")).unwrap();
+    let said = |arguments: &[&str]| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .arg("motion")
+            .args(arguments)
+            .env("NO_COLOR", "1")
+            .output()
+            .unwrap();
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert!(output.status.success(), "{told}");
+        told
+    };
+    for (ag, warned) in [("0.25", true), ("0.25 g", false)] {
+        let code = format!("eurocode_8_2004, ag={ag}, ground_type=C");
+        let scale = format!("code={code}");
+        for arguments in [
+            &["spectrum", "--code", &code, "--damping", "2 %, 5 %"][..],
+            &["spectrum", &record, "--code", &code],
+            &["process", &record, "--scale", &scale, "-o", &made],
+        ] {
+            let told = said(arguments);
+            let count = told.matches("was \"0.25 g\" meant?").count();
+            assert_eq!(count, usize::from(warned), "{arguments:?}: {told}");
+        }
+    }
+    // A case that scales its record so says it in `check`, `run` and `gap`.
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let case = std::fs::read_to_string(root.join("examples/three_storey_pair/case.toml")).unwrap();
+    let motions = root.join("ground_motions").display().to_string();
+    let scale = "scale = { code = \"eurocode_8_2004\", ag = 0.25, ground_type = \"C\" }";
+    let case = case
+        .replace("../../ground_motions", &motions)
+        .replace("[ground_motion]\n", &format!("[ground_motion]\n{scale}\n"));
+    let path = folder.name("case.toml");
+    std::fs::write(&path, case).unwrap();
+    for command in [
+        &["check"][..],
+        &["run", "--no-output"],
+        &["gap", "--points", "0"],
+    ] {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .args(command)
+            .arg(&path)
+            .env("NO_COLOR", "1")
+            .output()
+            .unwrap();
+        let told = [output.stdout, output.stderr].concat();
+        let told = String::from_utf8_lossy(&told).into_owned();
+        let count = told.matches("was \"0.25 g\" meant?").count();
+        assert_eq!(count, 1, "{command:?}: {told}");
+    }
+}

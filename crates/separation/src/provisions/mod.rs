@@ -517,6 +517,7 @@ mod tests {
                 displacement: Some(displacement),
                 inelastic: false,
                 elastic_displacement: reduced,
+                on_isolators: false,
                 base_moves,
                 response_modification: Some(reduction),
                 displacement_amplification: Some(amplification),

@@ -53,6 +53,8 @@ pub struct LevelAnswer {
     pub width: CodeWidth,
     /// Provided width (m).
     pub provided: f64,
+    /// Whether the records are what the code asks for; else no width decides.
+    pub records_suffice: bool,
 }
 
 impl LevelAnswer {
@@ -66,11 +68,12 @@ impl LevelAnswer {
     }
 
     /// Whether the provided width is no less; `None` for a rule that does not hold for
-    /// displacements of buildings that yield, and for one that is disputed.
+    /// displacements of buildings that yield, for one that is disputed, and under records that are
+    /// not what the code asks for.
     #[must_use]
     pub fn satisfied(&self) -> Option<bool> {
         let required = self.width.requirement.width;
-        let decides = self.width.requirement.undecided().is_none();
+        let decides = self.records_suffice && self.width.requirement.undecided().is_none();
         decides.then_some(self.provided >= required * (1.0 - SAME))
     }
 }
@@ -123,12 +126,18 @@ impl CodeAnswer {
     /// must be for both.
     #[must_use]
     pub fn satisfied(&self) -> Option<bool> {
-        if !self.enough_records || self.spectrum.is_below() || self.collapsed > 0 {
+        if !records_suffice(self.enough_records, &self.spectrum, self.collapsed) {
             return None;
         }
         let answers: Option<Vec<bool>> = self.deciding().map(OwnershipAnswer::satisfied).collect();
         answers.map(|all| all.into_iter().all(|reached| reached))
     }
+}
+
+/// Whether records are what a code asks for: enough of them, with a mean spectrum that reaches its
+/// own as far as that is compared, and none under which buildings collapse without contact.
+fn records_suffice(enough: bool, spectrum: &SuiteSpectrum, collapsed: usize) -> bool {
+    enough && !spectrum.is_below() && collapsed == 0
 }
 
 /// The answer of a code at one gap: its rules take the code's statistic of the displacements
@@ -142,9 +151,12 @@ pub(super) fn code_answer(
     (demand, spectrum): (&[f64], SuiteSpectrum),
 ) -> CodeAnswer {
     let statistic = code.suite.statistic(distinct);
+    let enough_records = distinct >= code.suite.least;
+    let suffice = records_suffice(enough_records, &spectrum, collapsed);
     let levels = place.levels();
     let at = |level: usize, sides: &[Option<(usize, usize)>; 2], rule: (_, &Rules)| {
-        answer_at(place, inputs, records, statistic, (level, *sides), rule)
+        let of_suite = (records, statistic, suffice);
+        answer_at(place, inputs, of_suite, (level, *sides), rule)
     };
     let beside_wall = levels.iter().any(|sides| sides.contains(&None));
     let rules: Vec<(Option<Ownership>, &Rules)> = if beside_wall {
@@ -166,14 +178,15 @@ pub(super) fn code_answer(
             .map(|(level, sides)| at(level, sides, (ownership, rules)))
             .collect(),
     });
-    let cases = cases.collect();
+    let cases: Vec<OwnershipAnswer> = cases.collect();
+    let asks = cases.iter().any(|case| case.ownership.is_some());
     CodeAnswer {
         statistic,
-        enough_records: distinct >= code.suite.least,
+        enough_records,
         spectrum,
         collapsed,
         demand: statistic.of(demand),
-        ownership: inputs.ownership(),
+        ownership: inputs.ownership().filter(|_| asks),
         cases,
         code,
         date,
@@ -183,8 +196,7 @@ pub(super) fn code_answer(
 fn answer_at(
     place: &GapPlace<'_>,
     inputs: &Inputs<'_>,
-    records: &[RecordDemand],
-    statistic: Statistic,
+    (records, statistic, records_suffice): (&[RecordDemand], Statistic, bool),
     (level, sides): (usize, [Option<(usize, usize)>; 2]),
     (ownership, rules): (Option<Ownership>, &Rules),
 ) -> Result<LevelAnswer, SeparationError> {
@@ -222,5 +234,6 @@ fn answer_at(
         displacement,
         width: rules.width(&sides.owned(ownership))?,
         provided: place.width(level),
+        records_suffice,
     })
 }

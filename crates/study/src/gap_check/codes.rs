@@ -283,7 +283,8 @@ impl<'a> Inputs<'a> {
         let levels = place.system.levels_of(place.gap());
         let of = |list: &Option<Vec<f64>>| list.as_ref().and_then(|l| l.get(index)).copied();
         let systems = self.systems.as_ref();
-        let on_isolators = building.isolator().is_some() || !self.isolators;
+        let may_be_isolated = building.isolator().is_some() || !self.isolators;
+        let isolation_period = of(&self.separation.isolation_period).filter(|_| may_be_isolated);
         Structure {
             name: building.name().to_owned(),
             height: building.elevations().last().copied().unwrap_or(0.0),
@@ -295,12 +296,14 @@ impl<'a> Inputs<'a> {
             inelastic,
             elastic_displacement: None,
             base_moves: building.foundation().is_some(),
+            // In a case without isolators the period of some says it.
+            on_isolators: building.isolator().is_some() || isolation_period.is_some(),
             response_modification: of(&self.separation.response_modification),
             displacement_amplification: of(&self.separation.displacement_amplification),
             importance: of(&self.separation.importance),
             yield_amplification: of(&self.separation.yield_amplification),
             system: systems.and_then(|l| l.get(index)).copied(),
-            isolation_period: of(&self.separation.isolation_period).filter(|_| on_isolators),
+            isolation_period,
             isolation_damping_coefficient: of(&self.separation.isolation_damping_coefficient),
             plan_length: of(&self.separation.plan_length),
             plan_width: of(&self.separation.plan_width),

@@ -3,9 +3,10 @@
 use pounding_assembly::scale_target;
 use pounding_case::Case;
 use pounding_ground_motion::GroundMotionError;
-use pounding_ground_motion::processing::{BAND_PERIODS, BandTarget};
+use pounding_ground_motion::processing::BandTarget;
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 
+use super::band_extremes::Band;
 use super::error::CheckError;
 use super::parallel::{UNWATCHED, in_parallel};
 use super::records::CaseUnderRecord;
@@ -47,7 +48,8 @@ pub struct SuiteTarget {
     pub times: f64,
     /// Pseudo-accelerations at the periods of the spectra (m/s2); `None` beyond its range.
     pub values: Vec<Option<f64>>,
-    /// Least ratio of the mean to the target within the band, with its period (s).
+    /// Least ratio of the mean to the target within the band, also between the periods of the
+    /// spectra, with its period (s).
     pub least: (f64, f64),
     /// Greatest ratio, with its period (s).
     pub greatest: (f64, f64),
@@ -68,12 +70,11 @@ pub(super) fn spectra(
     let spectra = of_records(records, &periods, damping, threads)?;
     let mean = mean(&spectra, periods.len());
     let compared = |band: BandTarget| -> Result<SuiteTarget, CheckError> {
-        let within = periods_of_band(&band).map_err(wrong(first))?;
-        let of_band = of_records(records, &within, damping, threads)?;
-        let of_band = self::mean(&of_band, within.len());
-        let ratios = within.iter().zip(&of_band);
-        let ratios = ratios.filter_map(|(t, mean)| Some((mean / band.spectrum.at(*t).ok()?, *t)));
-        let (least, greatest) = extremes(ratios);
+        let within = Band {
+            ends: (band.from, band.to),
+            damping,
+        };
+        let (least, greatest) = within.extremes(records, |t| band.spectrum.at(t).ok(), threads)?;
         Ok(SuiteTarget {
             name: band.spectrum.name().to_owned(),
             band: (band.from, band.to),
@@ -123,20 +124,4 @@ pub(super) fn of_records(
 pub(super) fn mean(spectra: &[Vec<f64>], periods: usize) -> Vec<f64> {
     let mean_at = |i: usize| spectra.iter().map(|s| s[i]).sum::<f64>() / spectra.len() as f64;
     (0..periods).map(mean_at).collect()
-}
-
-/// The periods (s) at which a mean is held against its target, both ends among them.
-fn periods_of_band(band: &BandTarget) -> Result<Vec<f64>, GroundMotionError> {
-    logarithmic_periods(band.from, band.to, BAND_PERIODS)
-}
-
-/// The least and the greatest of ratios, each with its period (s).
-pub(super) fn extremes(ratios: impl Iterator<Item = (f64, f64)>) -> ((f64, f64), (f64, f64)) {
-    let ratios: Vec<(f64, f64)> = ratios.collect();
-    let by_ratio = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
-    let none = (f64::NAN, f64::NAN);
-    (
-        ratios.iter().min_by(by_ratio).copied().unwrap_or(none),
-        ratios.iter().max_by(by_ratio).copied().unwrap_or(none),
-    )
 }

@@ -1,15 +1,14 @@
 //! Whether the mean spectrum of a suite reaches what a code asks of it.
 
 use pounding_case::{Case, SpectrumSource};
-use pounding_ground_motion::processing::BAND_PERIODS;
 use pounding_ground_motion::spectra::design::{CodeSpectrum, Eurocode8Of2004};
-use pounding_ground_motion::spectra::logarithmic_periods;
 use pounding_separation::SpectrumCondition;
 
 use super::SAME;
+use super::band_extremes::Band;
 use super::error::CheckError;
 use super::records::CaseUnderRecord;
-use super::spectra::{extremes, mean, of_records, wrong};
+use super::spectra::wrong;
 
 /// Damping ratio of the spectra that codes compare (-).
 const DAMPING: f64 = 0.05;
@@ -38,7 +37,7 @@ pub struct MeanSpectrum {
     pub condition: SpectrumCondition,
     /// The periods (s) at which it asks it, within the range of its spectrum.
     pub band: (f64, f64),
-    /// The least ratio there (-), with its period (s).
+    /// The least ratio there (-), also between periods of any grid, with its period (s).
     pub least: (f64, f64),
     /// The mean peak ground acceleration over the spectrum at zero period (-), where the code asks
     /// for it.
@@ -106,23 +105,17 @@ impl SuiteSpectrum {
         });
         let from = (condition.band.0 * shortest).clamp(range.0, range.1);
         let to = (condition.band.1 * longest).clamp(range.0, range.1);
-        let periods = match from < to {
-            true => logarithmic_periods(from, to, BAND_PERIODS).map_err(wrong(first))?,
-            // Of a band beyond the spectrum its end is left.
-            false => vec![from],
+        let band = Band {
+            ends: (from, to),
+            damping: DAMPING,
         };
-        let mean = mean(
-            &of_records(records, &periods, DAMPING, threads)?,
-            periods.len(),
-        );
-        let ratios = periods.iter().zip(&mean);
-        let ratios = ratios.map(|(t, mean)| (mean / spectrum.acceleration(*t), *t));
+        let (least, _) = band.extremes(records, |t| Some(spectrum.acceleration(t)), threads)?;
         let peaks = records.iter().map(|r| r.assembly.accelerogram.peak().value);
         let mean_peak = peaks.sum::<f64>() / records.len() as f64;
         Ok(Self::Compared(MeanSpectrum {
             condition,
             band: (from, to),
-            least: extremes(ratios).0,
+            least,
             zero_period: condition
                 .zero_period
                 .then(|| mean_peak / spectrum.acceleration(0.0)),

@@ -305,6 +305,7 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
             displacement,
             width,
             provided,
+            ..
         } = governing;
         let shown = |u: Option<f64>| u.map_or("-".to_owned(), |u| format!("{:.1}", u * 1e3));
         let reached = match case.satisfied() {

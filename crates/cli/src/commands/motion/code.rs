@@ -5,6 +5,14 @@ use pounding_ground_motion::spectra::design::CodeSpectrum;
 
 use super::words::{Words, quoted};
 use crate::failure::Failure;
+use crate::output::warn;
+
+/// Says which parameters of a spectrum no code has.
+pub fn warn_of_parameters(spectrum: &CodeSpectrum) {
+    for unusual in pounding_case::unusual_parameters(spectrum) {
+        warn(&unusual);
+    }
+}
 
 /// The spectrum that `--code` names: the code, then its parameters with the keys of the case
 /// file.

@@ -7,7 +7,7 @@ use pounding_ground_motion::matching::{
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_report::pictures::motion::matched as picture;
 
-use super::code::code_spectrum;
+use super::code::{code_spectrum, warn_of_parameters};
 use super::{reading, words, writing};
 use crate::arguments::value;
 use crate::arguments::{MatchArguments, MatchMethod, OutputArguments};
@@ -60,7 +60,11 @@ fn target(arguments: &MatchArguments) -> Result<TargetSpectrum, Failure> {
     let damping = value(&arguments.damping, "damping", Dimension::NUMBER)?;
     match (&arguments.target, &arguments.code) {
         (Some(path), _) => Ok(TargetSpectrum::read(path, damping)?),
-        (None, Some(text)) => Ok(code_spectrum(text, damping)?.target()?),
+        (None, Some(text)) => {
+            let spectrum = code_spectrum(text, damping)?;
+            warn_of_parameters(&spectrum);
+            Ok(spectrum.target()?)
+        }
         (None, None) => Err(Failure::input("no spectrum is given", None)),
     }
 }

@@ -3,10 +3,11 @@
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::read_target;
-use pounding_case::BandSource;
+use pounding_case::{BandSource, SpectrumSource};
 use pounding_files::FileUse;
 use pounding_ground_motion::processing::{ProcessingStep, distinct, process as carry_out, rotate};
 
+use super::code::warn_of_parameters;
 use super::words::Words;
 use super::{reading, writing};
 use crate::arguments::ProcessArguments;
@@ -72,6 +73,9 @@ fn step(key: &str, text: &str) -> Result<(ProcessingStep, Option<PathBuf>), Fail
         .value
         .with_target(target)
         .map_err(|e| Failure::input(format!("--{option}: {e}"), e.help()))?;
+    if let Some(SpectrumSource::Code(code)) = step.value.target().map(|band| &band.spectrum) {
+        warn_of_parameters(&code.value);
+    }
     let file = step
         .value
         .target()

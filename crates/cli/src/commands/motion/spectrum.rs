@@ -14,6 +14,7 @@ use pounding_ground_motion::spectra::{
 use pounding_report::pictures::motion;
 use serde::Serialize;
 
+use super::code::warn_of_parameters;
 use super::spectrum_of_code::{self, OfCode};
 use super::spectrum_tables as tables;
 use super::{reading, words};
@@ -145,6 +146,7 @@ fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failu
     let spectra = response_spectra(&record, &periods, &dampings, evaluation(arguments))
         .map_err(|e| named(e, arguments))?;
     let codes = spectrum_of_code::beside(arguments, &periods, &dampings)?;
+    codes.iter().take(1).for_each(warn_of_parameters);
     if let Some(path) = &arguments.csv {
         plot::write(path, &tables::response_csv(&spectra, &codes))?;
     }

@@ -8,7 +8,7 @@ use pounding_ground_motion::spectra::logarithmic_periods;
 use pounding_report::pictures::motion;
 use serde::Serialize;
 
-use super::code::code_spectrum;
+use super::code::{code_spectrum, warn_of_parameters};
 use super::{spectrum, words};
 use crate::arguments::SpectrumArguments;
 use crate::failure::Failure;
@@ -104,6 +104,8 @@ pub fn alone(arguments: &SpectrumArguments) -> Result<(), Failure> {
     let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
     let (shown, written) = periods(arguments, &dampings)?;
     let spectra = beside(arguments, &shown, &dampings)?;
+    // Whatever the damping.
+    spectra.iter().take(1).for_each(warn_of_parameters);
     if let Some(path) = &arguments.csv {
         plot::write(path, &csv(&spectra, &written)?)?;
     }

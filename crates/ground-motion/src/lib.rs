@@ -22,6 +22,7 @@ mod accelerogram;
 mod direction;
 mod draft;
 mod error;
+mod exponents;
 mod formats;
 mod fortran;
 mod number;

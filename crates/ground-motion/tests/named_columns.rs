@@ -149,6 +149,12 @@ fn columns_of_something_else_are_left_out() {
             "{header}"
         );
     }
+    let frames = |i: usize| format!("{i},{:.2},{:.6}\n", 0.01 * i as f64, value(i));
+    let text = format!(
+        "Frame,Time,X\n{}",
+        (0..ROWS).map(frames).collect::<String>()
+    );
+    assert_eq!(names(&all(&text, &in_g()).unwrap()), ["X"]);
     for (header, word) in [
         ("time,force", "\"force\" is none"),
         ("Time (s),Acc (V)", "in V, which is no unit of acceleration"),
@@ -208,6 +214,9 @@ fn units_in_a_line_of_their_own() {
         ("Time (s),Acc (g)\n--------,-----", ",", G),
         ("Time (s) | Acc (m/s2)", " | ", 1.0),
         ("El Centro\nm/s2", " ", 1.0),
+        ("Time  Acceleration\n(sec)  (g)", " ", G),
+        ("s g", " ", G),
+        ("Acceleration (cm/s2)", " ", 0.01),
         ("time (seg),acc (cm/seg2)", ",", 0.01),
         ("time (s),acc (cm/seg/seg)", ",", 0.01),
         ("Zaman (s),acc (g's)", ",", G),
@@ -233,6 +242,7 @@ fn units_in_a_line_of_their_own() {
         ("Units: V", "\"v\""),
         ("Units: 0.001 g", "\"0.001 g\""),
         ("El Centro velocity", "is a velocity"),
+        ("Ground velocity", "is a velocity"),
         ("Corrected velocity", "is a velocity"),
         ("Type: velocity", "is a velocity"),
         ("Data: displacement", "is a displacement"),
@@ -415,6 +425,7 @@ fn damaged_rows_are_named() {
     let text = along(1, 20, " ") + "\n" + &along(1, 20, " ");
     refused(&text, &step, &["f:21:1: a blank line"]);
     assert!(all(&(along(1, 20, " ") + "\n\n"), &step).is_ok());
+    assert!(all(&along(1, 20, " ").replace('\n', "\n\n"), &step).is_ok());
     // An exponent that is lost.
     let exponents = |lost: usize| -> String {
         let row = |i: usize| match i == lost {

@@ -271,6 +271,11 @@ pub(super) fn columns(
         }
         column.exponents.are_whole(source)?;
         let samples = column.values;
+        let others = used.iter().filter(|used| **used).count() > 1;
+        if main_time.is_some() && others && columns.units[k].is_none() && counts_rows(&samples) {
+            source.warn(&format!("column {} counts the rows and is not data", k + 1));
+            continue;
+        }
         if main_time.is_none() && nearly_times(&samples).is_some() {
             return Err(source.error(
                 survey.first,
@@ -309,6 +314,12 @@ pub(super) fn columns(
         series.push(draft.finish(source)?);
     }
     Ok(series)
+}
+
+/// Whether values count on from any whole number.
+fn counts_rows(values: &[f64]) -> bool {
+    let steps = || values.windows(2).map(|w| w[1] - w[0]);
+    values.len() > 3 && values[0].fract() == 0.0 && steps().all(|step| step == 1.0)
 }
 
 /// Whether a column is passed over: velocity and displacement have no unit that

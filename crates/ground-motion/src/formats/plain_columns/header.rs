@@ -30,6 +30,8 @@ pub(super) struct Header {
     pub left_out: Vec<String>,
 }
 
+/// What may stand before names that other programs should pass over.
+const COMMENT: [char; 7] = ['#', '%', '!', '*', '/', ' ', '\u{feff}'];
 /// Bytes that a header may have: a row of numbers may be the whole file.
 pub(super) const LONGEST: usize = 4000;
 const TIME: [&str; 11] = [
@@ -236,7 +238,7 @@ fn cells(line: &Line<'_>) -> Option<Cells> {
         Err(_) => line.text(),
     };
     // What programs write before a header that others should pass over.
-    let bare = text.trim_start_matches(['#', '%', '!', '*', '/', ' ', '\u{feff}']);
+    let bare = text.trim_start_matches(COMMENT);
     let separator = ['|', ';', '\t', ',']
         .into_iter()
         .find(|s| bare.contains(*s));
@@ -427,14 +429,13 @@ impl Cells {
 
     /// The same names with units that stand in the line below them.
     fn with_units(&self, below: &Self) -> Option<Self> {
-        let bare = |unit: &String| -> String {
-            let unit = unquoted(unit);
-            let inner = unit
-                .strip_prefix(['(', '['])
-                .and_then(|u| u.strip_suffix([')', ']']));
-            inner.unwrap_or(unit).trim().to_owned()
+        // Brackets between blanks belong to no name before them here.
+        let text = below.text.trim_start_matches(COMMENT);
+        let fields = || text.split_whitespace().map(bare_unit).collect();
+        let units: Vec<String> = match below.separator {
+            Some(_) => below.names.iter().map(|unit| bare_unit(unit)).collect(),
+            None => fields(),
         };
-        let units: Vec<String> = below.names.iter().map(bare).collect();
         let is_unit = |unit: &&String| time_unit(unit).is_some() || motion_unit(unit).is_some();
         let known = units.iter().filter(is_unit).count();
         let named = |name: &&String| {
@@ -491,6 +492,15 @@ impl Cells {
         };
         self.names.iter().map(name).collect::<Vec<_>>().join(",")
     }
+}
+
+/// A unit without quotes and brackets around it.
+pub(super) fn bare_unit(text: &str) -> String {
+    let unit = unquoted(text);
+    let inner = unit
+        .strip_prefix(['(', '['])
+        .and_then(|u| u.strip_suffix([')', ']']));
+    inner.unwrap_or(unit).trim().to_owned()
 }
 
 /// What a cell of a header says; `None`: a unit that is not known, which is an error of its own.

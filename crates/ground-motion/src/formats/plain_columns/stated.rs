@@ -343,6 +343,9 @@ fn unit_of(lower: &str) -> Unit {
     if let Some(unit) = header::motion_unit(alone).filter(|_| alone.len() > 1 || alone == "g") {
         return Unit::Known(unit);
     }
+    if let Some(unit) = beside_seconds(bare) {
+        return Unit::Known(unit);
+    }
     if let Some((key, value)) = bare.split_once([':', '=']) {
         let mut words = key.split_whitespace();
         let is_unit = |w: Option<&str>| w.is_some_and(|w| ["unit", "units"].contains(&w));
@@ -368,6 +371,26 @@ fn unit_of(lower: &str) -> Unit {
         }
         _ => Unit::None,
     }
+}
+
+/// The unit of accelerations in a line of units alone, of which one is that of times: `s g`,
+/// `(sec),(cm/s2),(cm/s2)`.
+fn beside_seconds(bare: &str) -> Option<SeriesUnit> {
+    let units: Vec<String> = bare
+        .split([' ', '\t', ',', ';'])
+        .filter(|unit| !unit.is_empty())
+        .map(header::bare_unit)
+        .collect();
+    let (times, motions): (Vec<&String>, Vec<&String>) = units
+        .iter()
+        .partition(|unit| header::time_unit(unit).is_some());
+    let known: Option<Vec<SeriesUnit>> = motions.iter().map(|u| header::motion_unit(u)).collect();
+    let mut known = known?.into_iter();
+    let accelerates = |unit: &SeriesUnit| unit.quantity == Quantity::Acceleration;
+    let first = known
+        .next()
+        .filter(|unit| accelerates(unit) && times.len() == 1)?;
+    known.all(|unit| unit == first).then_some(first)
 }
 
 /// The unit behind a key; units of the times may stand beside it.

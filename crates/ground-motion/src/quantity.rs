@@ -71,6 +71,11 @@ const OF_SOMETHING_ELSE: [&str; 13] = [
     "shear", "vs30", "wave",
 ];
 
+/// Whether a word says that a quantity beside it is not that of the values.
+pub(crate) fn of_something_else(word: &str) -> bool {
+    OF_SOMETHING_ELSE.contains(&word)
+}
+
 /// The quantity and the unit of a line in lower case such as `el centro ns velocity cm/sec`,
 /// `acceleration (gal)` or `accel. in units cm/s2`: the unit stands right behind the word.
 pub(crate) fn named_with_unit(lower: &str) -> Option<NamedWithUnit<'_>> {
@@ -158,6 +163,7 @@ pub(crate) struct SeriesUnit {
 impl SeriesUnit {
     pub(crate) const G: Self = Self::gravity("g", 1.0);
     pub(crate) const TENTH_G: Self = Self::gravity("g/10", 0.1);
+    pub(crate) const PERCENT_G: Self = Self::gravity("%g", 0.01);
     pub(crate) const MILLI_G: Self = Self::gravity("mg", 1.0e-3);
     pub(crate) const MICRO_G: Self = Self::gravity("micro-g", 1.0e-6);
     pub(crate) const M_S2: Self = Self::si(Quantity::Acceleration, "m/s2", 1.0);
@@ -216,6 +222,7 @@ impl SeriesUnit {
         let plain: String = text
             .to_ascii_lowercase()
             .replace("sec", "s")
+            .replace("seg", "s")
             .chars()
             .filter(|c| !matches!(c, '^' | ' ' | '\t' | '(' | ')' | '.'))
             .collect::<String>()
@@ -223,8 +230,9 @@ impl SeriesUnit {
             .replace("s**2", "s2")
             .replace("/s/s", "/s2");
         Some(match plain.as_str() {
-            "g" => Self::G,
+            "g" | "g's" => Self::G,
             "g/10" => Self::TENTH_G,
+            "%g" => Self::PERCENT_G,
             "mg" => Self::MILLI_G,
             "m/s2" => Self::M_S2,
             "cm/s2" | "cms/s2" | "gal" | "gals" => Self::CM_S2,

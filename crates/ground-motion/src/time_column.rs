@@ -77,7 +77,9 @@ impl TimeColumn {
                 None => Ok(Times::Each(self.times)),
             };
         };
-        let at_one_step = (first - step).abs() <= 0.1 * step;
+        // Half a digit, which the sum of a rounded number may exceed by its own round-off.
+        let half = (0.501 * self.unit * self.printed.unit_of(first / self.unit)).min(0.25 * step);
+        let at_one_step = (first - step).abs() <= half.max(0.1 * step);
         if first.abs() > 1.0e-3 * step && !(prepended && at_one_step) {
             let taken = match (prepended, at_one_step) {
                 (true, _) => format!("{step} s, after a zero"),
@@ -243,7 +245,21 @@ fn even_step_of(times: &[f64], printed: PrintedDigits, unit: f64, may_be_cut: bo
         }
         (low <= high).then_some((low, high))
     };
-    let (low, high) = common(&rounded).or_else(|| may_be_cut.then(|| common(&cut))?)?;
+    // Times that start at one step, as multiples of it: the first one may be rounded coarsely.
+    let from_zero = || {
+        let (mut low, mut high) = (0.0_f64, f64::INFINITY);
+        for (i, time) in times.iter().enumerate() {
+            if digit(*time) > 0.51 * mean {
+                return None;
+            }
+            let open = 0.5 * digit(*time) + round_off(*time);
+            low = low.max((time - open) / (i + 1) as f64);
+            high = high.min((time + open) / (i + 1) as f64);
+        }
+        (low <= high).then_some((low, high))
+    };
+    let found = common(&rounded).or_else(|| may_be_cut.then(|| common(&cut))?);
+    let (low, high) = found.or_else(|| from_zero().filter(|_| first > 0.0))?;
     let mean = mean.clamp(low, high);
     let decimals = printed.decimals - libm::log10(unit).round() as i32;
     let in_common = |step: &f64| *step > 0.0 && (low..=high).contains(step);

@@ -260,8 +260,8 @@ fn headers_that_cannot_be_used_say_why() {
             true,
         ),
         (
-            "dt=0.01 s;a [m/s2]",
-            ["column 1, \"dt=0.01 s\"", "not understood"],
+            "dt=0.02 s;a [m/s2]",
+            ["column 1, \"dt=0.02 s\"", "not understood"],
             "# dt: 0.01 s",
             false,
         ),

@@ -22,6 +22,7 @@ mod initial_motion;
 mod long_steps;
 mod matching;
 mod measures;
+mod named_columns;
 mod options_without_use;
 mod point_source;
 mod processing;

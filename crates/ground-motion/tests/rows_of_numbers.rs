@@ -222,7 +222,8 @@ fn pairs_along_rows() {
         }
     }
     // Two components, each with times of its own.
-    let twice: String = (0..100).map(|i| pair(i) + &pair(i) + "\n").collect();
+    let later = |i: usize| pair(i) + &pair(i + 1) + "\n";
+    let twice: String = (0..100).map(later).collect();
     let error = read(&twice, None, None).unwrap_err().to_string();
     assert!(error.contains("so do those of column 3"), "{error}");
     // Columns beside times, read along the rows.

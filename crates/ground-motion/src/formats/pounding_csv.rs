@@ -4,6 +4,7 @@ use crate::accelerogram::{Origin, Processing};
 use crate::direction::Orientation;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
+use crate::exponents::Exponents;
 use crate::formats::Format;
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
@@ -86,7 +87,12 @@ fn matches(source: &Source<'_>) -> bool {
     source
         .lines()
         .find(|l| !l.bytes.starts_with(b"#") && !l.is_blank())
-        .is_some_and(|l| l.bytes.starts_with(START.as_bytes()))
+        .and_then(|l| l.bytes.strip_prefix(START.as_bytes()))
+        // Velocities and the like behind it are columns of another program.
+        .is_some_and(|unit| {
+            let mut others = unit.split(|b| *b == b',').skip(1).peekable();
+            others.peek().is_none() || others.any(|name| name.starts_with(b"acc"))
+        })
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
@@ -190,29 +196,6 @@ impl Keys {
                 "make both the same",
             )),
             None => Ok(()),
-        }
-    }
-
-    /// The time step (s) of the keys, which that of a column of times must not contradict.
-    pub(super) fn step(
-        &self,
-        source: &Source<'_>,
-        found: Option<f64>,
-    ) -> Result<Option<f64>, GroundMotionError> {
-        match (self.step, found) {
-            (Some((line, stated)), Some(found)) if (found - stated).abs() > 0.01 * stated.abs() => {
-                Err(source.error(
-                    line,
-                    0,
-                    format!(
-                        "dt = {stated} s, but the times are {} s apart",
-                        bound(found)
-                    ),
-                    "make both the same",
-                ))
-            }
-            (Some((_, stated)), _) => Ok(Some(stated)),
-            (None, found) => Ok(found),
         }
     }
 
@@ -327,11 +310,7 @@ fn initial(
 }
 
 fn unit_of_header(suffix: &str) -> Result<AccelerationUnit, GroundMotionError> {
-    match suffix {
-        "m_s2" => Ok(AccelerationUnit::MetrePerSecondSquared),
-        "cm_s2" => Ok(AccelerationUnit::Gal),
-        other => other.parse(),
-    }
+    suffix.replacen('_', "/", 1).parse()
 }
 
 /// The samples, and whether their times are those of the step that the user gives. A step of the
@@ -345,6 +324,7 @@ fn rows(
     let given = source.options.time_step;
     let mut as_given = given.is_some();
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
+    let mut exponents = Exponents::default();
     for line in lines {
         if line.is_blank() || line.bytes.starts_with(b"#") {
             continue;
@@ -384,6 +364,8 @@ fn rows(
             }
         }
         samples.push(source.number(line, time.len() + 1, value)?);
+        exponents.see(line.number, time.len() + 1, value);
     }
+    exponents.are_whole(source)?;
     Ok((samples, as_given))
 }

@@ -219,8 +219,8 @@ pub fn plain(written: i64) -> Vec<Fixture> {
         .enumerate()
         .map(|(i, a)| format!("{:.3},{a},{}\n", times(i), -a))
         .collect();
-    let mut found = one("column_2", 0.02, &printed);
-    found.push(truth(ACC, "column_3", &opposite, 0.01, 0.02));
+    let mut found = one("ns", 0.02, &printed);
+    found.push(truth(ACC, "ew", &opposite, 0.01, 0.02));
     add(
         "found",
         format!("time,ns,ew\n{text}"),

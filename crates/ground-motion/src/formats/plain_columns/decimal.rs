@@ -28,6 +28,36 @@ struct Seen {
     as_named: bool,
 }
 
+/// The bytes with blanks for quotes around the numbers of rows, and semicolons for bars between
+/// them. Commas between quoted numbers that have commas of their own are semicolons, too.
+pub(super) fn without_quotes<'a>(source: &Source<'a>) -> Cow<'a, [u8]> {
+    let has = |b: u8| rows(source).any(|l| l.bytes.contains(&b));
+    let first = rows(source).next().map_or(1, |l| l.number);
+    let start = line_start(source.bytes, first);
+    let rest = &source.bytes[start..];
+    if !(rest.contains(&b'"') && has(b'"') || rest.contains(&b'|') && has(b'|')) {
+        return Cow::Borrowed(source.bytes);
+    }
+    let mut inside = false;
+    let mut within = false;
+    for b in rest {
+        inside ^= *b == b'"';
+        within |= inside && *b == b',';
+    }
+    inside = false;
+    let mut bytes = source.bytes.to_vec();
+    for b in &mut bytes[start..] {
+        inside ^= *b == b'"';
+        *b = match *b {
+            b'"' => b' ',
+            b'|' => b';',
+            b',' if within && !inside => b';',
+            other => other,
+        };
+    }
+    Cow::Owned(bytes)
+}
+
 /// The bytes with points for decimal commas; as they are if the commas stand between the
 /// columns.
 ///

@@ -4,24 +4,28 @@
 //! the columns with their units.
 
 use crate::draft::{Draft, DraftUnit, Times};
-use crate::error::{GroundMotionError, bound};
+use crate::error::GroundMotionError;
+use crate::exponents::Exponents;
 use crate::formats::Format;
 use crate::fortran::Layout;
-use crate::recording::{Sampling, Series};
+use crate::recording::Series;
 use crate::source::Source;
-use crate::stated_step::STEP_TOLERANCE;
 use crate::text::Line;
-use crate::time_column::{TimeColumn, mostly_times};
+use crate::time_column::mostly_times;
 
+mod columns;
 mod decimal;
 mod header;
+mod stated;
 mod survey;
 
+use columns::{Columns, columns};
 use header::{Fault, Header, Role};
+use stated::Stated;
 use survey::{Arrangement, Head, Survey};
 
 use super::pounding_csv::Keys;
-use crate::quantity::{Quantity, SeriesUnit};
+use crate::quantity::SeriesUnit;
 
 const COMMENTS: [&[u8]; 6] = [b"#", b"%", b"*", b"!", b"//", b"$"];
 /// Names of columns that are not accelerations.
@@ -31,6 +35,24 @@ fn is_comment(line: &Line<'_>) -> bool {
     let start = line.bytes.trim_ascii_start();
     // A row may start with a Fortran overflow.
     COMMENTS.iter().any(|c| start.starts_with(c)) && (!start.starts_with(b"**") || line.is_text())
+}
+
+/// Whether a field starts as a number does.
+fn starts_a_number(field: &[u8]) -> bool {
+    let field = field.trim_ascii();
+    let bare = field.strip_prefix(b"\"").unwrap_or(field);
+    let digits = bare
+        .strip_prefix(b"+")
+        .or(bare.strip_prefix(b"-"))
+        .unwrap_or(bare);
+    let digits = digits.strip_prefix(b".").unwrap_or(digits);
+    digits
+        .first()
+        .is_some_and(|b| b.is_ascii_digit() || *b == b'*')
+        || digits.len() >= 3
+            && [&b"nan"[..], b"inf"]
+                .iter()
+                .any(|w| digits[..3].eq_ignore_ascii_case(w))
 }
 
 /// Rows of numbers: no comments, no blank lines, no text before the first row;
@@ -44,16 +66,25 @@ fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
             number: l.number,
             bytes: l.bytes.get(columns..).unwrap_or(&[]),
         })
-        .filter(|l| !l.is_blank() && !is_comment(l))
-        .skip_while(|l| l.is_text() || header::parse(l).is_some())
+        .filter(|l| !l.is_blank() && l.fields().next().is_some() && !is_comment(l))
+        .skip_while(|l| {
+            let words = !l.fields().any(|(_, field)| starts_a_number(field));
+            words || l.is_text() || header::parse(l).is_some()
+        })
+}
+
+/// The lines before the first row, comments among them.
+fn before<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
+    let first = rows(source).next().map_or(0, |l| l.number);
+    let lines = source.all_lines().skip(source.options.skip_lines);
+    lines.take_while(move |l| l.number < first)
 }
 
 /// The line before the rows, comments among them, that names their columns.
 fn header(source: &Source<'_>) -> Option<Header> {
-    let first = rows(source).next()?.number;
-    let before = source.all_lines().skip(source.options.skip_lines);
-    let before = before.take_while(|l| l.number < first);
-    before.filter_map(|l| header::parse(&l)).last()
+    let first = rows(source).next()?;
+    let names = header::name_lines(before(source));
+    names.iter().rev().find_map(|cells| cells.header_of(&first))
 }
 
 /// A line that names columns and could not be used.
@@ -64,23 +95,26 @@ struct Faulty {
 }
 
 /// The last such line before the rows, if no header follows it; one of another quantity before
-/// others.
+/// others. A header that states the unit of an acceleration goes before titles.
 fn fault(source: &Source<'_>, header: Option<&Header>) -> Option<Faulty> {
-    let first = rows(source).next()?.number;
+    let accelerates = |role: &Role| matches!(role, Role::Acceleration(_, Some(_)));
     let after = header.map_or(0, |h| h.line);
-    let before = source.all_lines().skip(source.options.skip_lines);
-    before
-        .take_while(|l| l.number < first)
-        .filter(|l| l.number > after)
-        .filter_map(|l| {
-            let (text, fault) = header::fault(&l)?;
-            Some(Faulty {
-                line: l.number,
-                text,
-                fault,
-            })
+    let stated = header.is_some_and(|h| h.columns.iter().any(accelerates));
+    let is_other = |f: &Faulty| matches!(f.fault, Fault::NoAcceleration(..));
+    header::name_lines(before(source))
+        .iter()
+        .filter(|cells| cells.line != after)
+        .filter_map(|cells| {
+            let (text, fault) = header::fault_of(cells)?;
+            let line = cells.line;
+            Some(Faulty { line, text, fault })
         })
-        .max_by_key(|f| matches!(f.fault, Fault::NoAcceleration(..)))
+        .filter(|f| f.line > after || is_other(f) && !stated)
+        .max_by_key(|f| match f.fault {
+            Fault::NoAcceleration(..) => 2,
+            Fault::Spectrum(..) | Fault::Foreign(..) => 1,
+            _ => 0,
+        })
 }
 
 impl Faulty {
@@ -89,7 +123,8 @@ impl Faulty {
     /// says what the columns are.
     fn refused(&self, source: &Source<'_>) -> Option<GroundMotionError> {
         let refused = match self.fault {
-            Fault::NoAcceleration(..) => true,
+            Fault::NoAcceleration(..) | Fault::Spectrum(..) | Fault::Foreign(..) => true,
+            Fault::MotionUnit(_, ref unit) => header::is_foreign_unit(unit),
             Fault::TimeUnit(..) => source.options.layout.is_none(),
             _ => false,
         };
@@ -102,6 +137,22 @@ impl Faulty {
             Fault::NoAcceleration(quantity, name) => (
                 format!("the header \"{text}\" names no acceleration: \"{name}\" is a {quantity}"),
                 "give the accelerations of the same record: no unit makes an excitation of another quantity; if the line says nothing of the values, take it out, or pass it over by `skip_lines`",
+            ),
+            Fault::Spectrum(name) => (
+                format!(
+                    "the header \"{text}\" is that of a spectrum, of which \"{name}\" is one column: it holds no record"
+                ),
+                "give the acceleration over the time, not a spectrum; if the line says nothing of the values, take it out, or pass it over by `skip_lines`",
+            ),
+            Fault::Foreign(name) => (
+                format!("the header \"{text}\" names no acceleration: \"{name}\" is none"),
+                "give a file that holds the accelerations; if the line says nothing of the values, take it out, or pass it over by `skip_lines`",
+            ),
+            Fault::MotionUnit(name, unit) if header::is_foreign_unit(unit) => (
+                format!(
+                    "the values of the column \"{name}\" are in {unit}, which is no unit of acceleration"
+                ),
+                "give the record in m/s2, cm/s2, g or the like; counts, volts and forces are not read",
             ),
             Fault::TimeUnit(name, unit) => (
                 format!("the unit \"{unit}\" of the column \"{name}\" is not known"),
@@ -128,6 +179,11 @@ impl Faulty {
 
 /// Damaged and touching values are numbers to detection: the reader names them.
 fn looks_numeric(field: &[u8]) -> bool {
+    let field = field.strip_prefix(b"\"").unwrap_or(field);
+    let field = field.strip_suffix(b"\"").unwrap_or(field);
+    if field.is_empty() || field == b"|" {
+        return true;
+    }
     let part = |b: &u8| b.is_ascii_digit() || b"+-.eEdD*".contains(b);
     field.iter().all(part) && field.iter().any(|b| b.is_ascii_digit() || *b == b'*')
         || [&b"nan"[..], b"inf", b"-inf", b"+inf"]
@@ -150,6 +206,9 @@ fn matches(source: &Source<'_>) -> bool {
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+    let bare = decimal::without_quotes(source);
+    let outer = source;
+    let source = &Source::new(outer.file, &bare, outer.options, outer.path);
     let header = header(source);
     let faulty = fault(source, header.as_ref());
     if let Some(error) = faulty.as_ref().and_then(|f| f.refused(source)) {
@@ -157,7 +216,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     let bytes = decimal::with_points(source, header.as_ref())?;
     let pointed = Source::new(source.file, &bytes, source.options, source.path);
-    let series = match (numbers(&pointed, header.as_ref()), faulty) {
+    let said = Said::before(&pointed, header.as_ref())?;
+    let series = match (numbers(&pointed, header.as_ref(), &said), faulty) {
         // Unit and step may well be there: why they were not understood is the reason.
         (
             Err(GroundMotionError::MissingUnit { .. } | GroundMotionError::MissingTimeStep { .. }),
@@ -165,98 +225,48 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         ) => return Err(faulty.error(source)),
         (series, _) => series?,
     };
-    agrees(source, &series)?;
     for warning in pointed.warnings() {
-        source.warn(&warning);
+        outer.warn(&warning);
     }
-    source.uses(pointed.used());
+    outer.uses(pointed.used());
     Ok(series)
 }
 
-/// Holds the unit and the sampling rate that lines before the rows state, `Units: cm/s2`, `Sampling
-/// rate: 200 Hz`, against those of the series.
-///
-/// # Errors
-/// Another unit, or another step than the user gives.
-fn agrees(source: &Source<'_>, series: &[Series]) -> Result<(), GroundMotionError> {
-    let (Some(first), Some(one)) = (rows(source).next(), series.first()) else {
-        return Ok(());
-    };
-    let before = || {
-        let lines = source.all_lines().skip(source.options.skip_lines);
-        lines.take_while(|l| l.number < first.number)
-    };
-    let contradicts = |quantity: &'static str, stated: String, given: String| {
-        Err(GroundMotionError::Contradiction {
-            file: source.file.to_owned(),
-            quantity,
-            stated,
-            given,
-        })
-    };
-    for line in before() {
-        let Some(unit) = stated_unit(&line) else {
-            continue;
-        };
-        if unit.quantity != Quantity::Acceleration {
-            let fault = Fault::NoAcceleration(unit.quantity, unit.symbol.to_owned());
-            let (line, text) = (line.number, line.text().trim().to_owned());
-            return Err(Faulty { line, text, fault }.error(source));
-        }
-        if series.iter().any(|s| s.unit != unit.symbol) {
-            let stated = format!("{} (line {})", unit.symbol, line.number);
-            return contradicts("unit", stated, one.unit.to_owned());
-        }
-    }
-    let Sampling::Even { time_step } = one.sampling else {
-        return Ok(());
-    };
-    let rates = || {
-        before().flat_map(|l| {
-            crate::number::rates(&l.text())
-                .into_iter()
-                .map(move |r| (l.number, r.0))
-        })
-    };
-    let same = |step: f64| (step - time_step).abs() <= STEP_TOLERANCE * time_step;
-    // A rate before the record was resampled may stand beside its own.
-    if rates().any(|(_, step)| same(step)) {
-        return Ok(());
-    }
-    let Some((line, step)) = rates().next() else {
-        return Ok(());
-    };
-    if source.options.time_step.is_some() {
-        let stated = format!("{} s (line {line})", bound(step));
-        return contradicts("time_step", stated, format!("{time_step} s"));
-    }
-    source.warn(&format!(
-        "line {line}: the header says {} samples/s, but the values are {time_step} s apart, which is used",
-        bound(1.0 / step)
-    ));
-    Ok(())
+/// What lines before the rows say of all of them.
+struct Said {
+    /// Keys of our CSV.
+    keys: Keys,
+    stated: Stated,
 }
 
-/// The unit that a line states under a key, `# Unit: g`, `Units = cm/s2`, `acceleration units: gal`.
-fn stated_unit(line: &Line<'_>) -> Option<SeriesUnit> {
-    let lower = line.lower();
-    let (key, value) = lower.split_once([':', '='])?;
-    let key = key.trim_start_matches(|c: char| !c.is_ascii_alphanumeric());
-    let is_unit = ["unit", "units"].contains(&key.trim());
-    let mut words = key.split_whitespace();
-    let of_values = words
-        .next()
-        .is_some_and(|w| w.starts_with("accel") || w == "data")
-        && words.next().is_some_and(|w| ["unit", "units"].contains(&w))
-        && words.next().is_none();
-    (is_unit || of_values).then(|| SeriesUnit::parse(value.trim()))?
+impl Said {
+    fn before(source: &Source<'_>, header: Option<&Header>) -> Result<Self, GroundMotionError> {
+        let line = header.map(|h| h.line);
+        Ok(Self {
+            keys: line.map_or_else(Keys::default, |line| Keys::before(source, line)),
+            stated: Stated::before(source, before(source), line)?,
+        })
+    }
+
+    /// A draft of values that stand in lines `first..=last` among so many numbers.
+    fn draft(&self, samples: Vec<f64>, unit: Option<SeriesUnit>, survey: &Survey) -> Draft {
+        let unit = unit.or_else(|| self.stated.unit_of_values());
+        let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
+        let mut draft = Draft::new(samples, unit, (survey.first, survey.first, survey.last));
+        self.stated.count(&mut draft, survey.numbers);
+        draft
+    }
 }
 
 /// Reads numbers with decimal points.
-fn numbers(source: &Source<'_>, header: Option<&Header>) -> Result<Vec<Series>, GroundMotionError> {
+fn numbers(
+    source: &Source<'_>,
+    header: Option<&Header>,
+    said: &Said,
+) -> Result<Vec<Series>, GroundMotionError> {
     if let Some(text) = &source.options.layout {
         if let Some(layout) = Layout::parse(text) {
-            return fixed(source, layout);
+            return fixed(source, layout, said);
         }
         // No column has such a name.
         if text.contains(['(', ')', '.']) {
@@ -267,30 +277,32 @@ fn numbers(source: &Source<'_>, header: Option<&Header>) -> Result<Vec<Series>, 
             });
         }
         let names: Vec<String> = text.split(',').map(|n| n.trim().to_owned()).collect();
-        if names == ["a"] {
-            let survey = Survey::new(source, true)?;
-            let head = survey.head(source, true)?;
-            return wrapped(source, &survey, head);
-        }
         let survey = Survey::new(source, true)?;
-        return columns(
-            source,
-            &survey,
-            &Columns::new(names, header),
-            &Keys::default(),
-        );
+        if names == ["a"] {
+            let head = survey.head(source, true)?;
+            survey.regular(source, head)?;
+            return wrapped(source, &survey, head, said);
+        }
+        if let Some(below) = survey.head_of_columns(source, names.len())? {
+            return below_head(source, header, said, below);
+        }
+        return columns(source, &survey, &Columns::new(names, header), said);
     }
     if let Some(header) = header {
         let survey = Survey::new(source, true)?;
-        return headed(source, &survey, header);
+        return headed(source, &survey, header, said);
     }
     let survey = Survey::new(source, false)?;
+    if let Some(below) = survey.head_of_columns(source, 2)? {
+        return below_head(source, header, said, below);
+    }
     match survey.arrangement(source)? {
-        Arrangement::Wrapped => wrapped(source, &survey, None),
-        Arrangement::Headed(head) => wrapped(source, &survey, Some(head)),
+        Arrangement::Wrapped => wrapped(source, &survey, None, said),
+        Arrangement::Headed(head) => wrapped(source, &survey, Some(head), said),
         Arrangement::Columns(names) => {
-            let columns = Columns::new(names, None);
-            match self::columns(source, &survey, &columns, &Keys::default()) {
+            let mut columns = Columns::new(names, None);
+            columns.declared = false;
+            match columns::columns(source, &survey, &columns, said) {
                 Err(GroundMotionError::Contradiction {
                     quantity: "time_step",
                     stated,
@@ -300,8 +312,47 @@ fn numbers(source: &Source<'_>, header: Option<&Header>) -> Result<Vec<Series>, 
                 found => found,
             }
         }
-        Arrangement::Cards => cards(source, &survey),
+        Arrangement::Cards => cards(source, &survey, said),
     }
+}
+
+/// Columns below a row of their count, or of count and step, which they must bear out.
+fn below_head(
+    source: &Source<'_>,
+    header: Option<&Header>,
+    said: &Said,
+    head: (usize, Head),
+) -> Result<Vec<Series>, GroundMotionError> {
+    let (line, Head { count, step, .. }) = head;
+    let mut options = source.options.clone();
+    options.skip_lines = line;
+    let below = Source::new(source.file, source.bytes, &options, source.path);
+    let series = numbers(&below, header, said)?;
+    for warning in below.warnings() {
+        source.warn(&warning);
+    }
+    source.uses(below.used());
+    for one in &series {
+        let found = one.samples.len();
+        if found != count {
+            return Err(source.error(
+                line,
+                0,
+                format!("the first row says {count} samples, but {found} stand below it"),
+                "get the record again; if the row says nothing of the values, pass it over by `skip_lines`",
+            ));
+        }
+        let own = one.sampling.median_step();
+        if let Some(step) = step.filter(|step| (step - own).abs() > 0.01 * step) {
+            return Err(source.error(
+                line,
+                0,
+                format!("the first row says a step of {step} s, but the values are {own} s apart"),
+                "get the record again; if the row says nothing of the values, pass it over by `skip_lines`",
+            ));
+        }
+    }
+    Ok(series)
 }
 
 /// The error of a column that was taken for one of times, 1 s apart, beside another step.
@@ -327,101 +378,52 @@ fn counts_rows(
     )
 }
 
-/// Columns by name, as they stand in the rows.
-struct Columns {
-    names: Vec<String>,
-    /// Unit of each, where the file states it.
-    units: Vec<Option<SeriesUnit>>,
-    /// One unit of the times (s).
-    time_unit: f64,
-    /// Whether pairs `t,a` may follow one another along a row.
-    pairs: bool,
-}
-
-impl Columns {
-    /// Columns that the user or the numbers name; units are those of a header that has as
-    /// many columns.
-    fn new(names: Vec<String>, header: Option<&Header>) -> Self {
-        let roles = header.map_or(&[][..], |h| &h.columns);
-        let roles = if roles.len() == names.len() {
-            roles
-        } else {
-            &[]
-        };
-        let mut columns = Self::of_roles(roles);
-        columns.units.resize(names.len(), None);
-        columns.pairs = names.len() == 2 && names[0] == "t" && header.is_none();
-        columns.names = names;
-        columns
-    }
-
-    fn of_roles(roles: &[Role]) -> Self {
-        let several = roles
-            .iter()
-            .filter(|r| matches!(r, Role::Acceleration(..)))
-            .count()
-            > 1;
-        let mut columns = Self {
-            names: Vec::new(),
-            units: Vec::new(),
-            time_unit: 1.0,
-            pairs: false,
-        };
-        for (k, role) in roles.iter().enumerate() {
-            let (name, unit) = match role {
-                Role::Time(unit) => {
-                    columns.time_unit = *unit;
-                    ("t".to_owned(), None)
-                }
-                // The name of one that says no more than that it is an acceleration.
-                Role::Acceleration(name, unit) if !several && header::is_acceleration(name) => {
-                    ("a".to_owned(), *unit)
-                }
-                // Names that mean something else here, or stand twice.
-                Role::Acceleration(name, unit) => {
-                    let other = ["t", "v", "d"].contains(&name.as_str()) && several;
-                    let taken =
-                        other || OTHERS.contains(&name.as_str()) || columns.names.contains(name);
-                    let name = match (taken, several) {
-                        (false, _) => name.clone(),
-                        (true, true) => format!("column_{}", k + 1),
-                        (true, false) => "a".to_owned(),
-                    };
-                    (name, *unit)
-                }
-                Role::Other => ("-".to_owned(), None),
-            };
-            columns.names.push(name);
-            columns.units.push(unit);
-        }
-        columns
-    }
-}
-
-/// Columns that a header names, held against the key lines before it.
+/// Columns that a header names, held against the lines before it.
 fn headed(
     source: &Source<'_>,
     survey: &Survey,
     header: &Header,
+    said: &Said,
 ) -> Result<Vec<Series>, GroundMotionError> {
-    let keys = Keys::before(source, header.line);
-    let columns = Columns::of_roles(&header.columns);
+    let mut columns = Columns::of_roles(&header.columns);
     for unit in columns.units.iter().flatten() {
-        keys.agree(source, *unit, &header.text)?;
+        said.keys.agree(source, *unit, &header.text)?;
+        said.stated.agrees(source, *unit, &header.text)?;
     }
     if let ([name], [Role::Acceleration(..)]) = (columns.names.as_slice(), &*header.columns) {
+        // A title with the unit above columns that are told apart by their numbers.
+        if survey.width() > 1
+            && let Ok(Arrangement::Columns(names)) = Survey::new(source, false)?.arrangement(source)
+        {
+            let mut below = Columns::new(names, None);
+            below.declared = false;
+            let of = |name: &String| columns.units[0].filter(|_| name != "t" && name != "-");
+            below.units = below.names.iter().map(of).collect();
+            return columns::columns(source, survey, &below, said);
+        }
         // Values may follow one another along the rows.
+        survey.regular(source, None)?;
         let samples = along(source, survey, 0)?;
         without_times(source, survey.first, &samples, survey.width())?;
-        let unit = columns.units[0].map_or(DraftUnit::Unstated, DraftUnit::Stated);
-        let mut draft = Draft::new(samples, unit, (survey.first, survey.first, survey.last));
-        draft.times = Times::Step(keys.step(source, None)?);
+        let mut draft = said.draft(samples, columns.units[0], survey);
+        draft.times = Times::Step(said.stated.step(source, None)?);
         draft.component.clone_from(name);
         let mut series = draft.finish(source)?;
-        keys.report(&mut series.origin);
+        said.keys.report(&mut series.origin);
         return Ok(vec![series]);
     }
-    let row = rows(source).find(|l| l.fields().count() != columns.names.len());
+    let first = rows(source).next();
+    columns.separator = first.and_then(|row| header::separator_of_rows(header.separator, &row));
+    let names = columns.names.len();
+    let row = rows(source).find(|l| {
+        let found = header::row_cells(l, columns.separator).len();
+        let all = match columns.separator {
+            None => found,
+            Some(b'\t') => found.max(names),
+            Some(separator) => l.bytes.split(|b| *b == separator).count(),
+        };
+        !(found..=all).contains(&names)
+    });
     if let Some(row) = row {
         let found = row.fields().count();
         let twice = found == 2 * columns.names.len() && !row.bytes.contains(&b'.');
@@ -437,16 +439,27 @@ fn headed(
             "correct the row or the header; with decimal commas separate the columns by semicolons or tabs",
         ));
     }
-    let mut series = self::columns(source, survey, &columns, &keys)?;
+    if !header.left_out.is_empty() {
+        source.warn(&format!(
+            "line {}: columns that are not read as accelerations: {}",
+            header.line,
+            header.left_out.join(", ")
+        ));
+    }
+    let mut series = columns::columns(source, survey, &columns, said)?;
     for one in &mut series {
         one.origin.header_line = Some(header.line);
-        keys.report(&mut one.origin);
+        said.keys.report(&mut one.origin);
     }
     Ok(series)
 }
 
 /// A series along rows of fixed width.
-fn fixed(source: &Source<'_>, layout: Layout) -> Result<Vec<Series>, GroundMotionError> {
+fn fixed(
+    source: &Source<'_>,
+    layout: Layout,
+    said: &Said,
+) -> Result<Vec<Series>, GroundMotionError> {
     let room = source.bytes.len() / layout.width + 1;
     let mut samples = Vec::with_capacity(room);
     let mut first = 0;
@@ -467,11 +480,42 @@ fn fixed(source: &Source<'_>, layout: Layout) -> Result<Vec<Series>, GroundMotio
             let filled = bytes.trim_ascii_end().len().saturating_sub(layout.margin);
             bytes = &bytes[..layout.margin + filled.next_multiple_of(layout.width)];
         }
-        source.row(Line { bytes, ..line }, layout, &mut samples)?;
+        let read = source.row(Line { bytes, ..line }, layout, &mut samples);
+        if line.number == first && lines.peek().is_some() && is_head(&line, layout.per_line) {
+            return Err(source.error(
+                line.number,
+                0,
+                format!(
+                    "the first row, \"{}\", is no row of the layout: a count or a step?",
+                    line.text().trim()
+                ),
+                &skipping(line.number),
+            ));
+        }
+        read?;
     }
     without_times(source, first, &samples, layout.per_line)?;
-    let draft = Draft::new(samples, DraftUnit::Unstated, (first, first, last));
+    let unit = said.stated.unit_of_values();
+    let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
+    let mut draft = Draft::new(samples, unit, (first, first, last));
+    said.stated.count(&mut draft, 0);
+    draft.times = Times::Step(said.stated.step(source, None)?);
     Ok(vec![draft.finish(source)?])
+}
+
+/// Whether a row is a whole number without a point, with at most one more, and has fewer numbers
+/// than the rows of a layout: a count before the values.
+fn is_head(line: &Line<'_>, per_line: usize) -> bool {
+    let whole = |field: &[u8]| field.iter().all(u8::is_ascii_digit);
+    let mut fields = line.fields().map(|(_, field)| field);
+    fields.next().is_some_and(whole) && fields.count() < per_line.saturating_sub(1).min(2)
+}
+
+/// How to pass over the lines up to one.
+fn skipping(line: usize) -> String {
+    format!(
+        "pass over what stands before the values: `skip_lines = {line}` in [ground_motion] of a case, `--skip-lines {line}` with `pounding motion`"
+    )
 }
 
 /// The number of a card that stands behind its numbers, which end at a column; `before` is that of
@@ -511,18 +555,17 @@ fn wrapped(
     source: &Source<'_>,
     survey: &Survey,
     head: Option<Head>,
+    said: &Said,
 ) -> Result<Vec<Series>, GroundMotionError> {
     let samples = along(source, survey, head.map_or(0, |head| head.rows))?;
     without_times(source, survey.first, &samples, survey.width())?;
-    let mut draft = Draft::new(
-        samples,
-        DraftUnit::Unstated,
-        (survey.first, survey.first, survey.last),
-    );
+    let mut draft = said.draft(samples, None, survey);
+    let mut found = None;
     if let Some(head) = head {
         draft.header_count = Some(head.count);
-        draft.times = Times::Step(head.step);
+        found = head.step;
     }
+    draft.times = Times::Step(said.stated.step(source, found)?);
     Ok(vec![draft.finish(source)?])
 }
 
@@ -555,18 +598,50 @@ fn along(
     survey: &Survey,
     skipped: usize,
 ) -> Result<Vec<f64>, GroundMotionError> {
+    if survey.width() == 1 {
+        without_blank_lines(source, survey)?;
+    }
     let mut samples = Vec::with_capacity(survey.numbers);
+    let mut exponents = Exponents::default();
     for line in rows(source).skip(skipped) {
         for (column, field) in line.fields() {
             let column = column + source.options.skip_columns;
             samples.push(source.number(line, column, field)?);
+            exponents.see(line.number, column, field);
         }
     }
+    exponents.are_whole(source)?;
     Ok(samples)
 }
 
+/// Refuses a blank line among values that stand one in a row: one may be missing there.
+fn without_blank_lines(source: &Source<'_>, survey: &Survey) -> Result<(), GroundMotionError> {
+    let blank = |line: &Line<'_>| {
+        (survey.first..survey.last).contains(&line.number) && line.fields().next().is_none()
+    };
+    // Lines may be double-spaced throughout.
+    let count = source.all_lines().filter(blank).count();
+    match source
+        .all_lines()
+        .find(blank)
+        .filter(|_| 2 * count < survey.numbers)
+    {
+        Some(line) => Err(source.error(
+            line.number,
+            0,
+            "a blank line among the values, of which one may be missing here",
+            "write the value that is missing, or take the line out if none is",
+        )),
+        None => Ok(()),
+    }
+}
+
 /// Card images: the last number of each row is the row's.
-fn cards(source: &Source<'_>, survey: &Survey) -> Result<Vec<Series>, GroundMotionError> {
+fn cards(
+    source: &Source<'_>,
+    survey: &Survey,
+    said: &Said,
+) -> Result<Vec<Series>, GroundMotionError> {
     let mut samples = Vec::with_capacity(survey.numbers);
     for line in rows(source) {
         let before = samples.len();
@@ -578,97 +653,10 @@ fn cards(source: &Source<'_>, survey: &Survey) -> Result<Vec<Series>, GroundMoti
         }
     }
     without_times(source, survey.first, &samples, survey.width() - 1)?;
-    let mut draft = Draft::new(
-        samples,
-        DraftUnit::Unstated,
-        (survey.first, survey.first, survey.last),
-    );
+    let mut draft = said.draft(samples, None, survey);
+    draft.times = Times::Step(said.stated.step(source, None)?);
     draft
         .warnings
         .push("the last column counts the rows and is not data".to_owned());
     Ok(vec![draft.finish(source)?])
-}
-
-/// Named columns; pairs `t,a` may follow one another along a row.
-fn columns(
-    source: &Source<'_>,
-    survey: &Survey,
-    columns: &Columns,
-    keys: &Keys,
-) -> Result<Vec<Series>, GroundMotionError> {
-    let (names, pairs) = (columns.names.as_slice(), columns.pairs);
-    let count = survey.numbers / names.len() + 1;
-    let mut values: Vec<Vec<f64>> = vec![Vec::new(); names.len()];
-    for (name, column) in names.iter().zip(&mut values) {
-        if name != "t" && !is_other(names, name) {
-            column.reserve_exact(count);
-        }
-    }
-    let mut times = TimeColumn::with_capacity(count).in_unit(columns.time_unit);
-    for line in rows(source) {
-        let found = line.fields().count();
-        if found != names.len() && !(pairs && found.is_multiple_of(2)) {
-            return Err(source.error(
-                line.number,
-                0,
-                format!(
-                    "{found} columns where layout \"{}\" has {}",
-                    names.join(","),
-                    names.len()
-                ),
-                "correct `layout`, or the row",
-            ));
-        }
-        for (i, (column, field)) in line.fields().enumerate() {
-            let k = i % names.len();
-            let value = source.number(line, column + source.options.skip_columns, field)?;
-            if names[k] == "t" {
-                times.push(line, value, field);
-            } else if !is_other(names, &names[k]) {
-                values[k].push(value);
-            }
-        }
-    }
-    let mut warnings = Vec::new();
-    let has_times = names.iter().any(|n| n == "t");
-    let first_time = times.first();
-    let times = if has_times {
-        times.finish(source, survey.first, &mut warnings)?
-    } else {
-        Times::Step(None)
-    };
-    let times = match times {
-        Times::Step(found) => Times::Step(keys.step(source, found)?),
-        each => each,
-    };
-    let mut series = Vec::new();
-    for ((name, unit), samples) in names.iter().zip(&columns.units).zip(values) {
-        if name == "t" || is_other(names, name) {
-            continue;
-        }
-        let mut draft = Draft::new(
-            samples,
-            unit.map_or(DraftUnit::Unstated, DraftUnit::Stated),
-            (survey.first, survey.first, survey.last),
-        );
-        draft.component.clone_from(name);
-        draft.channel = series.len() + 1;
-        draft.warnings.clone_from(&warnings);
-        draft.first_time = first_time;
-        draft.times = match &times {
-            Times::Step(step) => Times::Step(*step),
-            Times::Each(each) => Times::Each(each.clone()),
-        };
-        series.push(draft.finish(source)?);
-    }
-    Ok(series)
-}
-
-/// Whether a column is passed over: velocity and displacement have no unit that
-/// could be stated. `v` is velocity beside `d`, a vertical component elsewhere.
-fn is_other(names: &[String], name: &str) -> bool {
-    OTHERS.contains(&name)
-        || (matches!(name, "v" | "d")
-            && names.iter().any(|n| n == "a")
-            && names.iter().any(|n| n == "d"))
 }

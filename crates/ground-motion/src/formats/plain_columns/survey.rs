@@ -41,6 +41,9 @@ pub(super) struct Head {
 /// also among whole numbers.
 const SURE_COUNT: usize = 20;
 
+/// Rows from which on a single one with another number of values is damaged.
+const ODD_AMONG: usize = 8;
+
 /// What was seen.
 pub(super) struct Survey {
     /// Numbers in all rows.
@@ -134,12 +137,7 @@ impl Survey {
         };
         if let Some(line) = odd {
             none_touch(source)?;
-            return Err(source.error(
-                line,
-                0,
-                "this row has another number of values than its neighbours",
-                "correct the row, or give `layout = \"a\"` if the values follow one another along the rows",
-            ));
+            return Err(self.irregular(source, line));
         }
         let width = self.first_length;
         if width < 2 || self.rows < 2 {
@@ -160,6 +158,18 @@ impl Survey {
             if is_first || !is_last_counter && self.is_time(source, k)? {
                 times.push(k);
             }
+        }
+        // Pairs of time and value beside one another, all at the same times.
+        if width >= 4
+            && width.is_multiple_of(2)
+            && !last_counts
+            && same_times(source, &times, width)?
+        {
+            let name = |k: usize| match k % 2 {
+                0 => "t".to_owned(),
+                _ => format!("column_{}", k + 1),
+            };
+            return Ok(Arrangement::Columns((0..width).map(name).collect()));
         }
         // `1 0.000 0.204`: the row, the time and the value.
         let mut passed = Vec::new();
@@ -239,21 +249,202 @@ impl Survey {
         source: &Source<'_>,
         width: usize,
     ) -> Result<Arrangement, GroundMotionError> {
-        let before = source.all_lines().skip(source.options.skip_lines);
-        let before = before.take_while(|l| l.number < self.first).last();
-        let named = before.is_some_and(|l| header::names_components(&l, width));
+        if self.rows >= INCREASING_ROWS {
+            for k in 0..width.min(TIME_AMONG) {
+                self.breaks_times(source, k)?;
+            }
+        }
+        let names = header::name_lines(super::before(source));
+        let named = rows(source)
+            .next()
+            .and_then(|row| names.last().filter(|names| names.names_columns(&row)));
         let many = COMPONENTS.contains(&width) && self.rows > EVEN_ROWS;
-        if !(named || many) {
+        if !(named.is_some() || many) {
             return Ok(Arrangement::Wrapped);
         }
+        let own = named.map_or(String::new(), |names| {
+            format!("`layout = \"{}\"`, or ", names.as_layout())
+        });
         Err(source.error(
             self.first,
             0,
             format!(
                 "rows of {width} values, of which none is a time: {width} components beside one another, or one series along the rows?"
             ),
-            "give `layout` with a name for each column, such as \"ns,ew\" or \"ns,ew,ud\" (`-` passes one over), and choose one by `component`; or \"a\" if the values follow one another along the rows",
+            &format!("give {own}`layout` with a name for each column, such as \"ns,ew\" or \"ns,ew,ud\" (`-` passes one over), and choose one by `component`; or \"a\" if the values follow one another along the rows"),
         ))
+    }
+
+    /// Refuses a column (from 0) whose values increase as times do, but for a few.
+    fn breaks_times(&self, source: &Source<'_>, k: usize) -> Result<(), GroundMotionError> {
+        let mut values = Vec::with_capacity(self.rows);
+        let mut lines = Vec::with_capacity(self.rows);
+        for line in rows(source) {
+            let Some((column, field)) = line.fields().nth(k) else {
+                continue;
+            };
+            values.push(source.number(line, column + source.options.skip_columns, field)?);
+            lines.push(line.number);
+        }
+        let Some(Some(at)) = nearly_times(&values) else {
+            return Ok(());
+        };
+        Err(source.error(
+            lines[at],
+            0,
+            format!(
+                "the values of column {} increase as times do, but {} is not after {}",
+                k + 1,
+                values[at],
+                values[at - 1]
+            ),
+            &match at {
+                1 => format!(
+                    "{}; times must increase: if it is one, correct it",
+                    super::skipping(lines[0])
+                ),
+                _ => "times must increase, and need enough decimals: correct the row, or get the record again; without them, `layout = \"-,a\"` and `time_step` read the values".to_owned(),
+            },
+        ))
+    }
+
+    /// What is wrong with a row that has another number of values than its neighbours.
+    fn irregular(&self, source: &Source<'_>, line: usize) -> GroundMotionError {
+        let message = "this row has another number of values than its neighbours";
+        if line == self.first {
+            return source.error(
+                line,
+                0,
+                message,
+                &format!(
+                    "if it is no row of values, {}; if it is one, correct it",
+                    super::skipping(line)
+                ),
+            );
+        }
+        match self.one_odd_row(source, 0) {
+            Some((line, found, others)) => source.error(
+                line,
+                0,
+                format!("{message}: {found}, where all others have {others}"),
+                "correct the row: a value is missing, or was parted, as by a decimal comma",
+            ),
+            None => source.error(
+                line,
+                0,
+                message,
+                "correct the row, or give `layout = \"a\"` if the values follow one another along the rows",
+            ),
+        }
+    }
+
+    /// The one row between the first ones and the last that has another number of values than all
+    /// others: line, its number and theirs.
+    fn one_odd_row(&self, source: &Source<'_>, skipped: usize) -> Option<(usize, usize, usize)> {
+        let others = self.second_length;
+        if self.rows < ODD_AMONG || others < 2 {
+            return None;
+        }
+        let inner = rows(source)
+            .skip(skipped.max(1))
+            .filter(|l| l.number != self.last);
+        let mut odd = inner
+            .map(|l| (l.number, l.fields().count(), others))
+            .filter(|(_, found, _)| *found != others);
+        odd.next().filter(|_| odd.next().is_none())
+    }
+
+    /// Refuses rows that the user says to be one series along them, of which one inside is no such
+    /// row, or the first is none.
+    pub(super) fn regular(
+        &self,
+        source: &Source<'_>,
+        head: Option<Head>,
+    ) -> Result<(), GroundMotionError> {
+        let skipped = head.map_or(0, |head| head.rows);
+        if self.one_odd_row(source, skipped).is_some() {
+            none_touch(source)?;
+            return Err(self.irregular(source, 0));
+        }
+        let Some(line) = rows(source).next().filter(|_| head.is_none()) else {
+            return Ok(());
+        };
+        let whole = |field: &[u8]| {
+            let count = number::parse(field)
+                .ok()
+                .filter(|_| !field.contains(&b'.'))?;
+            Some(count).filter(|count| count.fract() == 0.0)
+        };
+        let fields: Vec<&[u8]> = line.fields().map(|(_, field)| field).collect();
+        let rest = self.numbers - fields.len();
+        let is_count = |field: &&[u8]| whole(field) == Some(rest as f64);
+        let points = || {
+            let mut others = rows(source).skip(1).flat_map(|l| l.fields());
+            others.all(|(_, field)| field.contains(&b'.'))
+        };
+        let counted = rest >= SURE_COUNT || points();
+        let odd = fields.len() != self.second_length && fields.len() > 1;
+        let alone =
+            fields.len() == 1 && *COMPONENTS.end() < self.second_length && self.rows > EVEN_ROWS;
+        let numbers = odd && fields.iter().all(|f| whole(f).is_some()) && self.rows > 2 && points();
+        let counts = fields.len() > 1 && fields.iter().any(is_count) && counted;
+        if !(counts || numbers || alone) {
+            return Ok(());
+        }
+        Err(source.error(
+            line.number,
+            0,
+            format!(
+                "the first row, \"{}\", is no row of samples: numbers of a header above {rest} values",
+                line.text().trim()
+            ),
+            &super::skipping(line.number),
+        ))
+    }
+
+    /// A first row of a count, or of count and step, above columns of which the first has the times,
+    /// or that the user names: its line, and what it says.
+    pub(super) fn head_of_columns(
+        &self,
+        source: &Source<'_>,
+        width: usize,
+    ) -> Result<Option<(usize, Head)>, GroundMotionError> {
+        let count = self.rows - 1;
+        let Some(line) = rows(source).next().filter(|_| count >= 2) else {
+            return Ok(None);
+        };
+        if self.first_length > 2 || self.second_length < 2 || self.second_length < width {
+            return Ok(None);
+        }
+        let mut said = None;
+        let mut step = None;
+        for (column, field) in line.fields() {
+            let value = source.number(line, column + source.options.skip_columns, field)?;
+            match value == count as f64 && !field.contains(&b'.') && said.is_none() {
+                true => said = Some(count),
+                false => step = Some(value),
+            }
+        }
+        let is_step = step.is_none_or(|step| step > 0.0 && step <= 1.0);
+        let Some(count) = said.filter(|_| is_step) else {
+            return Ok(None);
+        };
+        let mut times = TimeColumn::with_capacity(count);
+        let mut before = f64::NEG_INFINITY;
+        for line in rows(source).skip(1) {
+            let Some((column, field)) = line.fields().next() else {
+                return Ok(None);
+            };
+            let time = source.number(line, column + source.options.skip_columns, field)?;
+            if !(time > before) || line.fields().count() != self.second_length {
+                return Ok(None);
+            }
+            before = time;
+            times.push(line, time, field);
+        }
+        let rows = 1;
+        let head = Head { rows, count, step };
+        Ok(times.is_even().then_some((line.number, head)))
     }
 
     /// Whether the values of a column (from 0) increase evenly, or for long at all, as times do
@@ -308,15 +499,19 @@ impl Survey {
         let is_step = |step: f64| step > 0.0 && step <= 1.0;
         let step_in = |field: &[u8]| number::parse(field).ok().filter(|step| is_step(*step));
         if self.first_length == 2 {
-            let step = fields.next().and_then(|(_, field)| step_in(field));
+            let Some((_, second)) = fields.next() else {
+                return Ok(None);
+            };
             let rest = self.numbers - 2;
-            return Ok(whole(first).zip(step).and_then(|(count, step)| {
-                let unlike = self.second_length != 2 && !declared;
-                (unlike || rest == count).then_some(Head {
-                    rows: 1,
-                    count,
-                    step: Some(step),
-                })
+            let unlike = self.second_length != 2 && !declared;
+            let of = |count: &[u8], step: &[u8]| whole(count).zip(step_in(step));
+            let head = of(first, second)
+                .filter(|(count, _)| unlike || rest == *count)
+                .or_else(|| of(second, first).filter(|(count, _)| rest == *count));
+            return Ok(head.map(|(count, step)| Head {
+                rows: 1,
+                count,
+                step: Some(step),
             }));
         }
         if self.first_length != 1 {
@@ -364,8 +559,12 @@ impl Survey {
                     "the first value, {value}, stands alone and is the time step that is given: the step, or the first sample?"
                 ),
                 &format!(
-                    "pass it over if it is the step: `skip_lines = {0}` in [ground_motion] of a case, `--skip-lines {0}` with `pounding motion`; if it is the first sample of one value a row, say so by `layout = \"a\"`",
-                    line.number
+                    "{}{}",
+                    super::skipping(line.number),
+                    match declared {
+                        true => "",
+                        false => "; if it is the first sample of one value a row, say so by `layout = \"a\"`",
+                    }
                 ),
             ));
         }
@@ -395,6 +594,50 @@ impl Survey {
         let step = start[1] - start[0];
         Ok(start[0].abs() <= 0.01 * step || (start[0] - step).abs() <= 0.1 * step)
     }
+}
+
+/// Whether all but a few of a column of values increase as times do: the place (from 0) of the first
+/// that does not, or none. Values of a motion fall as often as they rise.
+pub(super) fn nearly_times(values: &[f64]) -> Option<Option<usize>> {
+    if values.len() < INCREASING_ROWS {
+        return None;
+    }
+    let steps = || values.windows(2).map(|w| w[1] - w[0]);
+    let (mut rising, mut falling) = (0_usize, 0_usize);
+    for step in steps() {
+        rising += usize::from(step > 0.0);
+        falling += usize::from(step < 0.0);
+    }
+    let all = values.len() - 1;
+    // A motion may stand still for long.
+    let longest = values
+        .chunk_by(|a, b| a == b)
+        .map(<[f64]>::len)
+        .max()
+        .unwrap_or(0);
+    let as_times = 20 * falling <= all.max(20) && 5 * rising >= all && longest <= all / 4;
+    as_times.then(|| steps().position(|step| !(step > 0.0)).map(|at| at + 1))
+}
+
+/// Whether every second column, from the first one, holds the same times.
+fn same_times(
+    source: &Source<'_>,
+    times: &[usize],
+    width: usize,
+) -> Result<bool, GroundMotionError> {
+    if !times.iter().copied().eq((0..width).step_by(2)) {
+        return Ok(false);
+    }
+    for line in rows(source) {
+        let mut first = None;
+        for (column, field) in line.fields().step_by(2) {
+            let time = source.number(line, column + source.options.skip_columns, field)?;
+            if *first.get_or_insert(time) != time {
+                return Ok(false);
+            }
+        }
+    }
+    Ok(true)
 }
 
 /// Names of so many columns, of which one (from 0) holds the times and some are passed over.

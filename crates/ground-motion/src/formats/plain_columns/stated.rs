@@ -1,0 +1,477 @@
+//! What lines before the rows state of unit, step and count under a key: `# dt: 0.01 s`, `Units =
+//! cm/s2`, `Sampling rate (Hz): 100`, `NPTS: 400`. It is used where the user says nothing, and held
+//! against what the user and the rows say.
+
+use super::header;
+use crate::draft::Draft;
+use crate::error::{GroundMotionError, bound};
+use crate::number;
+use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
+use crate::source::Source;
+use crate::stated_step::STEP_TOLERANCE;
+use crate::text::{Line, in_brackets};
+
+/// Keys of our CSV that tell how a record was made from another one.
+const HISTORY: [&str; 6] = ["source", "step", "read", "note", "event", "station"];
+/// Ends of keys of a time step.
+const STEPS: [&str; 14] = [
+    "dt",
+    "delta t",
+    "delta_t",
+    "deltat",
+    "time step",
+    "time_step",
+    "timestep",
+    "time interval",
+    "sampling interval",
+    "sample interval",
+    "sampling period",
+    "sampling step",
+    "sampling time",
+    "sample period",
+];
+/// Ends of keys of a rate.
+const RATES: [&str; 10] = [
+    "fs",
+    "sampling rate",
+    "sample rate",
+    "sampling_rate",
+    "sample_rate",
+    "sampling frequency",
+    "sampling freq",
+    "sample frequency",
+    "samples per second",
+    "sps",
+];
+/// Keys of a count.
+const COUNTS: [&str; 10] = [
+    "npts",
+    "ndata",
+    "nsamples",
+    "npoints",
+    "samples",
+    "points",
+    "values",
+    "data",
+    "data points",
+    "sample count",
+];
+/// Words between `number` and what is counted.
+const OF_ALL: [&str; 7] = ["of", "the", "data", "total", "acceleration", "acc", "accel"];
+/// Words behind a key of units that name none.
+const NO_UNIT: [&str; 12] = [
+    "si", "metric", "english", "imperial", "cgs", "mks", "us", "none", "unknown", "n/a", "-",
+    "standard",
+];
+
+/// Something that a line states.
+struct At<T> {
+    line: usize,
+    value: T,
+}
+
+/// A stated time step (s).
+struct Step {
+    seconds: f64,
+    is_rate: bool,
+}
+
+/// What the lines before the rows state.
+#[derive(Default)]
+pub(super) struct Stated {
+    unit: Option<At<SeriesUnit>>,
+    steps: Vec<At<Step>>,
+    counts: Vec<At<usize>>,
+}
+
+impl Stated {
+    /// # Errors
+    /// Two units, one of another quantity, one that is not known, or another than the user gives.
+    pub(super) fn before<'a>(
+        source: &Source<'a>,
+        lines: impl Iterator<Item = Line<'a>>,
+        header: Option<usize>,
+    ) -> Result<Self, GroundMotionError> {
+        let mut stated = Self::default();
+        for line in lines {
+            if line.bytes.len() > header::LONGEST {
+                continue;
+            }
+            let lower = line.lower();
+            let bare = lower.trim_start_matches(|c: char| !c.is_ascii_alphanumeric());
+            let key = bare.split([':', '=']).next().unwrap_or_default().trim();
+            if HISTORY.contains(&key) {
+                continue;
+            }
+            if header != Some(line.number) {
+                stated.unit(source, line, &lower)?;
+            }
+            stated.numbers(line.number, &lower);
+        }
+        Ok(stated)
+    }
+
+    fn unit(
+        &mut self,
+        source: &Source<'_>,
+        line: Line<'_>,
+        lower: &str,
+    ) -> Result<(), GroundMotionError> {
+        let unit = match unit_of(lower) {
+            Unit::None => return Ok(()),
+            Unit::Known(unit) => unit,
+            Unit::Unknown(text) => {
+                return Err(source.error(
+                    line.number,
+                    0,
+                    format!("the unit \"{text}\" that is stated here is none of acceleration"),
+                    "give the record in m/s2, cm/s2, g or the like; counts, volts and forces are not read. If the line says nothing of the values, pass it over by `skip_lines`",
+                ));
+            }
+        };
+        if unit.quantity != Quantity::Acceleration {
+            let fault = header::Fault::NoAcceleration(unit.quantity, unit.symbol.to_owned());
+            let (line, text) = (line.number, line.text().trim().to_owned());
+            return Err(super::Faulty { line, text, fault }.error(source));
+        }
+        if let Some(first) = self.unit.as_ref().filter(|first| first.value != unit) {
+            return Err(source.error(
+                line.number,
+                0,
+                format!(
+                    "the unit is {} here, but {} in line {}",
+                    unit.symbol, first.value.symbol, first.line
+                ),
+                "the lines before the rows contradict one another: correct them, or get the record again",
+            ));
+        }
+        if let Some(given) = source.options.unit.filter(|given| !unit.is(*given)) {
+            return Err(GroundMotionError::Contradiction {
+                file: source.file.to_owned(),
+                quantity: "unit",
+                stated: format!("{} (line {})", unit.symbol, line.number),
+                given: SeriesUnit::from(given).symbol.to_owned(),
+            });
+        }
+        self.unit.get_or_insert(At {
+            line: line.number,
+            value: unit,
+        });
+        Ok(())
+    }
+
+    fn numbers(&mut self, line: usize, lower: &str) {
+        let mut step = |seconds: f64, is_rate| {
+            if seconds > 0.0 && seconds.is_finite() {
+                let value = Step { seconds, is_rate };
+                self.steps.push(At { line, value });
+            }
+        };
+        for (seconds, _) in number::rates(lower) {
+            step(seconds, true);
+        }
+        for (key, value) in keyed(lower) {
+            let (digits, behind) = split_number(value);
+            let Ok(found) = number::parse(digits.as_bytes()) else {
+                continue;
+            };
+            let inside = in_brackets(key).map(str::trim);
+            let plain = key.split(['(', '[']).next().unwrap_or_default().trim_end();
+            let ends = |keys: &[&str]| keys.iter().any(|k| ends_in(plain, k));
+            let unit = match behind {
+                "" => inside.unwrap_or_default(),
+                unit => unit,
+            };
+            let seconds = || match unit {
+                "" => Some(1.0),
+                unit => header::time_unit(unit),
+            };
+            let hertz = ["", "hz", "sps", "samples/s", "samples/sec", "1/s", "/s"].contains(&unit);
+            if ends(&STEPS) {
+                // A rate under a key of a step says so.
+                match seconds() {
+                    Some(one) => step(found * one, false),
+                    None if hertz => step(1.0 / found, true),
+                    None => {}
+                }
+            } else if ends(&RATES) {
+                if hertz && number::rates(lower).is_empty() {
+                    step(1.0 / found, true);
+                }
+            } else if is_count(plain)
+                && found >= 2.0
+                && found.fract() == 0.0
+                && ["", "points", "samples", "values", "pts"].contains(&unit)
+            {
+                let value = found as usize;
+                self.counts.push(At { line, value });
+            }
+        }
+    }
+
+    /// The unit of values that no column states.
+    pub(super) fn unit_of_values(&self) -> Option<SeriesUnit> {
+        self.unit.as_ref().map(|u| u.value)
+    }
+
+    /// Refuses another unit than that which a header states for a column.
+    pub(super) fn agrees(
+        &self,
+        source: &Source<'_>,
+        unit: SeriesUnit,
+        header: &str,
+    ) -> Result<(), GroundMotionError> {
+        match self.unit.as_ref().filter(|stated| stated.value != unit) {
+            Some(stated) => Err(source.error(
+                stated.line,
+                0,
+                format!(
+                    "unit \"{}\" contradicts the column header \"{header}\"",
+                    stated.value.symbol
+                ),
+                "make both the same",
+            )),
+            None => Ok(()),
+        }
+    }
+
+    /// The step (s) of values for which the rows say `found`.
+    ///
+    /// # Errors
+    /// Another one than the rows or the user say; two, where neither says which is right.
+    pub(super) fn step(
+        &self,
+        source: &Source<'_>,
+        found: Option<f64>,
+    ) -> Result<Option<f64>, GroundMotionError> {
+        let Some(first) = self.steps.first() else {
+            return Ok(found);
+        };
+        let same = |step: f64| {
+            let near = move |s: &&At<Step>| {
+                (s.value.seconds - step).abs() <= STEP_TOLERANCE * s.value.seconds
+            };
+            self.steps.iter().find(near)
+        };
+        match (found, source.options.time_step) {
+            (Some(found), _) => match (same(found), self.steps.iter().find(|s| !s.value.is_rate)) {
+                (Some(same), _) if !same.value.is_rate => Ok(Some(same.value.seconds)),
+                (Some(_), _) => Ok(Some(found)),
+                (None, Some(stated)) => Err(source.error(
+                    stated.line,
+                    0,
+                    format!(
+                        "the time step is {} s here, but the values are {} s apart",
+                        bound(stated.value.seconds),
+                        bound(found)
+                    ),
+                    "make both the same, or get the record again",
+                )),
+                (None, None) => {
+                    source.warn(&format!(
+                        "line {}: the header says {} samples/s, but the values are {found} s apart, which is used",
+                        first.line,
+                        bound(1.0 / first.value.seconds)
+                    ));
+                    Ok(Some(found))
+                }
+            },
+            (None, Some(given)) if same(given).is_some() => Ok(None),
+            (None, Some(given)) => Err(GroundMotionError::Contradiction {
+                file: source.file.to_owned(),
+                quantity: "time_step",
+                stated: format!("{} s (line {})", bound(first.value.seconds), first.line),
+                given: format!("{given} s"),
+            }),
+            (None, None) => {
+                let differs = |s: &&At<Step>| {
+                    (s.value.seconds - first.value.seconds).abs()
+                        > STEP_TOLERANCE * first.value.seconds
+                };
+                match self.steps.iter().find(differs) {
+                    None => Ok(Some(first.value.seconds)),
+                    Some(other) => Err(source.error(
+                        other.line,
+                        0,
+                        format!(
+                            "the time step is {} s here, but {} s in line {}",
+                            bound(other.value.seconds),
+                            bound(first.value.seconds),
+                            first.line
+                        ),
+                        "say which one is right by `time_step`, `--time-step` with `pounding motion`",
+                    )),
+                }
+            }
+        }
+    }
+
+    /// States the counts to a draft; `numbers` are all that stand in the rows.
+    pub(super) fn count(&self, draft: &mut Draft, numbers: usize) {
+        let own = self
+            .counts
+            .iter()
+            .filter(|c| c.value != numbers || c.value == draft.samples.len());
+        for count in own {
+            if draft.header_count.is_none() {
+                draft.header_count = Some(count.value);
+                draft.last_row.get_or_insert(1);
+            } else {
+                draft.other_counts.push((count.line, count.value));
+            }
+        }
+    }
+}
+
+/// A unit that a line states.
+enum Unit {
+    None,
+    Known(SeriesUnit),
+    Unknown(String),
+}
+
+/// The unit that a line in lower case states: under a key, `# unit: g`, `units = cm/s2`,
+/// `acceleration units: gal`; alone on the line; or behind the name of the quantity at the end.
+fn unit_of(lower: &str) -> Unit {
+    let bare = lower
+        .trim_start_matches(['#', '%', '!', '*', '/', ' ', '\t'])
+        .trim();
+    let alone = bare
+        .strip_prefix(['(', '['])
+        .and_then(|u| u.strip_suffix([')', ']']))
+        .unwrap_or(bare);
+    if let Some(unit) = header::motion_unit(alone).filter(|_| alone.len() > 1 || alone == "g") {
+        return Unit::Known(unit);
+    }
+    if let Some(unit) = beside_seconds(bare) {
+        return Unit::Known(unit);
+    }
+    if let Some((key, value)) = bare.split_once([':', '=']) {
+        let mut words = key.split_whitespace();
+        let is_unit = |w: Option<&str>| w.is_some_and(|w| ["unit", "units"].contains(&w));
+        let first = words.next();
+        let of_values = first.is_some_and(|w| w.starts_with("accel") || w == "data");
+        let states = is_unit(first) || of_values && is_unit(words.next());
+        if states && words.next().is_none() {
+            return value_of(value);
+        }
+    }
+    let by_name = named_with_unit(lower).filter(|found| {
+        let rest = found.rest.trim_matches([' ', '\t', '.', ',', ';']);
+        let key = rest.trim_start_matches(|c: char| c.is_ascii_alphabetic());
+        rest.is_empty() || key.len() < rest.len() && key.trim_start().starts_with('=')
+    });
+    match by_name {
+        // What names another quantity was refused before.
+        Some(found)
+            if found.quantity == Quantity::Acceleration
+                && found.unit.quantity == Quantity::Acceleration =>
+        {
+            Unit::Known(found.unit)
+        }
+        _ => Unit::None,
+    }
+}
+
+/// The unit of accelerations in a line of units alone, of which one is that of times: `s g`,
+/// `(sec),(cm/s2),(cm/s2)`.
+fn beside_seconds(bare: &str) -> Option<SeriesUnit> {
+    let units: Vec<String> = bare
+        .split([' ', '\t', ',', ';'])
+        .filter(|unit| !unit.is_empty())
+        .map(header::bare_unit)
+        .collect();
+    let (times, motions): (Vec<&String>, Vec<&String>) = units
+        .iter()
+        .partition(|unit| header::time_unit(unit).is_some());
+    let known: Option<Vec<SeriesUnit>> = motions.iter().map(|u| header::motion_unit(u)).collect();
+    let mut known = known?.into_iter();
+    let accelerates = |unit: &SeriesUnit| unit.quantity == Quantity::Acceleration;
+    let first = known
+        .next()
+        .filter(|unit| accelerates(unit) && times.len() == 1)?;
+    known.all(|unit| unit == first).then_some(first)
+}
+
+/// The unit behind a key; units of the times may stand beside it.
+fn value_of(value: &str) -> Unit {
+    let value = value.trim().trim_end_matches(['.', ';', ',']);
+    if let Some(unit) = header::motion_unit(value) {
+        return Unit::Known(unit);
+    }
+    let joined = value.replace(' ', "");
+    let word = value.split_whitespace().count() <= 1;
+    let of_gravity = joined.ends_with('g') && joined.contains(|c: char| c.is_ascii_digit());
+    if value.is_empty() || NO_UNIT.contains(&value) || value.contains([',', ';']) {
+        return Unit::None;
+    }
+    if word || of_gravity || header::is_foreign_unit(value) {
+        return Unit::Unknown(value.to_owned());
+    }
+    Unit::None
+}
+
+/// The keys of a line with what stands behind their colon or sign of equality.
+fn keyed(lower: &str) -> Vec<(&str, &str)> {
+    let mut found = Vec::new();
+    let mut from = 0;
+    for (at, _) in lower.match_indices([':', '=']) {
+        let key = lower[from..at].trim();
+        // The key is what follows the last separator or number.
+        let start = key.rfind([',', ';', '\t']).map_or(0, |n| n + 1);
+        let key = key[start..].trim_start_matches(|c: char| !c.is_alphanumeric());
+        found.push((key, lower[at + 1..].trim_start()));
+        from = at + 1;
+    }
+    found
+}
+
+/// A number at the start of a text, and the word behind it.
+fn split_number(text: &str) -> (&str, &str) {
+    let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
+    let mut end = text.find(|c| !number(c)).unwrap_or(text.len());
+    // An exponent.
+    let rest = &text[end..];
+    if end > 0
+        && let Some(exponent) = rest.strip_prefix(['e', 'd'])
+        && exponent.starts_with(number)
+    {
+        end += 1 + exponent.find(|c| !number(c)).unwrap_or(exponent.len());
+    }
+    let behind = text[end..].trim_start().trim_start_matches(['(', '[']);
+    let word = behind
+        .split([' ', '\t', ',', ';', ')', ']'])
+        .next()
+        .unwrap_or_default();
+    (
+        text[..end].trim_end_matches('.'),
+        word.trim_end_matches('.'),
+    )
+}
+
+/// Whether a key is that of the count of all values: `npts`, `number of data points`.
+fn is_count(key: &str) -> bool {
+    if ends_in(key, "npts") {
+        return true;
+    }
+    let mut words: Vec<&str> = key
+        .split([' ', '.', '_'])
+        .filter(|w| !w.is_empty())
+        .collect();
+    if words
+        .first()
+        .is_some_and(|w| ["number", "no", "num", "nr"].contains(w))
+    {
+        words.remove(0);
+        let of = words.iter().take_while(|w| OF_ALL.contains(w)).count();
+        words.drain(..of.min(words.len().saturating_sub(1)));
+        return words.len() == 1 && COUNTS.contains(&words[0]);
+    }
+    COUNTS.contains(&words.join(" ").as_str()) && key != "data" && key != "values"
+}
+
+/// Whether a text ends in a key as a word of its own.
+fn ends_in(text: &str, key: &str) -> bool {
+    text.strip_suffix(key)
+        .is_some_and(|before| !before.ends_with(|c: char| c.is_alphanumeric()))
+}

@@ -56,8 +56,8 @@ pub(crate) struct Forms {
 }
 
 impl Forms {
-    /// Takes one more value into account.
-    pub(crate) fn see(&mut self, line: Line<'_>, column: usize, field: &[u8]) {
+    /// Takes one more value of a line into account, which starts at a column (from 0).
+    pub(crate) fn see(&mut self, line: usize, column: usize, field: &[u8]) {
         self.count += 1;
         let Some(form) = Form::of(field).filter(|_| !self.none) else {
             self.none = true;
@@ -70,7 +70,7 @@ impl Forms {
         }
         if form.exponent < usual.exponent {
             self.others += 1;
-            let place = || (line.number, column, number::shown(field));
+            let place = || (line, column, number::shown(field));
             self.first.get_or_insert_with(place);
         } else if form.exponent > usual.exponent {
             // The values before this one were the others, or the file has two forms.
@@ -100,7 +100,7 @@ impl Forms {
                 Err(source.error(
                     *line,
                     *column,
-                    format!("\"{field}\" lacks the exponent, or a digit of it, that the other values have"),
+                    format!("\"{field}\" has no exponent, or lacks a digit of it, which the other values have"),
                     "the file is damaged: correct the value, or get the record again",
                 ))
             }

@@ -306,9 +306,7 @@ impl Draft {
                 "header says {expected} samples, one more found and used"
             ));
         } else if found > expected {
-            let most = self
-                .row
-                .map_or(ROW, |row| row.saturating_sub(1).min(ROW));
+            let most = self.row.map_or(ROW, |row| row.saturating_sub(1).min(ROW));
             if found - expected > most && !source.options.lenient {
                 return Err(source.error(
                     self.lines.1,

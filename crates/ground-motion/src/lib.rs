@@ -23,7 +23,6 @@ mod cut_numbers;
 mod direction;
 mod draft;
 mod error;
-mod exponents;
 mod formats;
 mod fortran;
 mod number;

@@ -80,7 +80,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         ));
     }
     let mut samples = Vec::with_capacity(lines.remaining() / 5 + 1);
-    let mut rows = 0;
+    let (mut rows, mut others) = (0, 0);
     let mut last = None;
     for line in lines.by_ref() {
         last = Some(line);
@@ -88,6 +88,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             fixed_row(source, line, &mut samples)?;
             rows += 1;
         } else {
+            others += 1;
             for (column, field) in line.fields() {
                 samples.push(count(source, line, column, field)?);
             }
@@ -95,7 +96,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     // Counts end at the last column but one of theirs.
     if let Some(line) = last.filter(|line| !in_columns(*line) && !source.ends_in_a_line_end())
-        && rows > LIKE_IT
+        && rows > 0
+        && others == 1
         && line.bytes.trim_ascii_end().len() % COUNTS.width != COUNTS.width - 1
         && let Some((column, field)) = line.fields().last()
     {
@@ -152,9 +154,6 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     draft.start_time = format!("{} JST less 15 s", header.record_time);
     Ok(vec![draft.finish(source)?])
 }
-
-/// Rows that show how a file writes its rows.
-const LIKE_IT: usize = 3;
 
 /// Whether a row has integers of eight columns with a blank after each, of which the last
 /// one is trimmed. Where there are digits in its place, the fields between blanks alone say

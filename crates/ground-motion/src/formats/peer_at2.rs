@@ -68,8 +68,7 @@ fn line_of_counts<'a>(source: &Source<'a>) -> Option<(Line<'a>, usize)> {
 }
 
 fn matches(source: &Source<'_>) -> bool {
-    line_of_counts(source).is_some()
-        || source.lines().take(FREE_LINES).any(|l| is_spaced(&l))
+    line_of_counts(source).is_some() || source.lines().take(FREE_LINES).any(|l| is_spaced(&l))
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
@@ -94,7 +93,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         decimal_commas = decimal_commas.or_else(|| has_commas_alone(line).then_some(line.number));
         for (column, field) in line.fields() {
             samples.push(source.number(line, column, field)?);
-            forms.see(line, column, field);
+            forms.see(line.number, column, field);
         }
         last_row = samples.len() - before;
     }
@@ -109,10 +108,10 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             "write decimal points, `0.0172`, and blanks between the numbers",
         ));
     }
-    if !source.ends_whole()? {
-        samples.pop();
+    match source.ends_whole()? {
+        true => forms.are_whole(source)?,
+        false => drop(samples.pop()),
     }
-    forms.are_whole(source)?;
     are_no_pairs(source, &samples, (header.count, first))?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
     state_step(&mut draft, source, &header.steps);
@@ -477,11 +476,16 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
         let behind = lower.iter().enumerate().filter_map(|(i, line)| {
             let rest = OF_VALUES.iter().find_map(|words| line.split_once(words))?.1;
             let rest = rest.trim_start().trim_start_matches(',').trim_start();
-            let rest = rest.strip_prefix('(').or_else(|| rest.strip_prefix("in "))?;
+            let rest = rest
+                .strip_prefix('(')
+                .or_else(|| rest.strip_prefix("in "))?;
             let word = rest.trim_start();
             let end = word.find([' ', ',', ')', ';', '\t']);
             let (unit, rest) = word.split_at(end.unwrap_or(word.len()));
-            Some((i + 1, (SeriesUnit::parse(unit.trim_end_matches('.'))?, rest)))
+            Some((
+                i + 1,
+                (SeriesUnit::parse(unit.trim_end_matches('.'))?, rest),
+            ))
         });
         units.extend(behind);
     }

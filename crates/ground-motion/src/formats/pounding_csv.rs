@@ -1,10 +1,10 @@
 //! Our CSV layout: `# Key: value` lines, a header `time_s,acceleration_g`, rows.
 
 use crate::accelerogram::{Origin, Processing};
+use crate::cut_numbers::Forms;
 use crate::direction::Orientation;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
-use crate::exponents::Exponents;
 use crate::formats::Format;
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
@@ -324,7 +324,7 @@ fn rows(
     let given = source.options.time_step;
     let mut as_given = given.is_some();
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
-    let mut exponents = Exponents::default();
+    let mut forms = Forms::default();
     for line in lines {
         if line.is_blank() || line.bytes.starts_with(b"#") {
             continue;
@@ -364,8 +364,8 @@ fn rows(
             }
         }
         samples.push(source.number(line, time.len() + 1, value)?);
-        exponents.see(line.number, time.len() + 1, value);
+        forms.see(line.number, time.len() + 1, value);
     }
-    exponents.are_whole(source)?;
+    forms.are_whole(source)?;
     Ok((samples, as_given))
 }

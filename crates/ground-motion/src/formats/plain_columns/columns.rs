@@ -3,9 +3,9 @@
 use super::header::{self, Role};
 use super::survey::{Survey, nearly_times};
 use super::{Header, OTHERS, Said, rows};
+use crate::cut_numbers::Forms;
 use crate::draft::Times;
 use crate::error::GroundMotionError;
-use crate::exponents::Exponents;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
@@ -102,7 +102,7 @@ struct Table<'c> {
 #[derive(Default)]
 struct Column {
     values: Vec<f64>,
-    exponents: Exponents,
+    forms: Forms,
     /// Line and place of the first cell that is blank.
     ended: Option<(usize, usize)>,
 }
@@ -197,7 +197,7 @@ impl Column {
                 "write the value that is missing, or get the record again",
             ));
         }
-        self.exponents.see(line, column, cell);
+        self.forms.see(line, column, cell);
         self.values.push(value);
         Ok(())
     }
@@ -269,7 +269,7 @@ pub(super) fn columns(
         if !used[k] {
             continue;
         }
-        column.exponents.are_whole(source)?;
+        column.forms.are_whole(source)?;
         let samples = column.values;
         let others = used.iter().filter(|used| **used).count() > 1;
         if main_time.is_some() && others && columns.units[k].is_none() && counts_rows(&samples) {

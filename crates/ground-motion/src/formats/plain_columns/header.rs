@@ -763,7 +763,10 @@ fn of_values(cells: &Cells) -> Option<Fault> {
     let found = of_series()
         .or_else(|| by_unit().filter(|_| !columns))
         .or_else(|| {
-            ends_a_title(&lower).filter(|_| cells.separator.is_none() || cells.names.len() < 3)
+            // Names of columns are looked at one by one.
+            let times = |name: &String| matches!(role(name), Some(Role::Time(_)));
+            let title = cells.separator.is_none() || cells.names.len() < 3;
+            ends_a_title(&lower).filter(|_| title && !cells.names.iter().any(times))
         });
     let other = found.filter(|quantity| *quantity != Quantity::Acceleration)?;
     Some(Fault::NoAcceleration(other, cells.text.clone()))

@@ -3,9 +3,9 @@
 //! numbers; with any number of comment and text lines before them, of which one may name
 //! the columns with their units.
 
+use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
-use crate::exponents::Exponents;
 use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::recording::Series;
@@ -602,15 +602,15 @@ fn along(
         without_blank_lines(source, survey)?;
     }
     let mut samples = Vec::with_capacity(survey.numbers);
-    let mut exponents = Exponents::default();
+    let mut forms = Forms::default();
     for line in rows(source).skip(skipped) {
         for (column, field) in line.fields() {
             let column = column + source.options.skip_columns;
             samples.push(source.number(line, column, field)?);
-            exponents.see(line.number, column, field);
+            forms.see(line.number, column, field);
         }
     }
-    exponents.are_whole(source)?;
+    forms.are_whole(source)?;
     Ok(samples)
 }
 

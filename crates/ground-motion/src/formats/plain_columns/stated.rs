@@ -315,7 +315,7 @@ impl Stated {
         for count in own {
             if draft.header_count.is_none() {
                 draft.header_count = Some(count.value);
-                draft.last_row.get_or_insert(1);
+                draft.row.get_or_insert(1);
             } else {
                 draft.other_counts.push((count.line, count.value));
             }

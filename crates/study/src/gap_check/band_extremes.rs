@@ -109,6 +109,7 @@ fn least(
     let bracket = |i: &usize| (grid[i.saturating_sub(1)], grid[(i + 1).min(last)]);
     let mut brackets: Vec<(f64, f64)> = places.iter().take(BRACKETS).map(bracket).collect();
     brackets.retain(|(from, to)| from < to);
+    let mut near = NEAR;
     for _ in 0..ROUNDS {
         // All brackets together: oscillators are cheaper side by side.
         let inside = |(from, to): &(f64, f64)| -> Vec<f64> {
@@ -121,16 +122,26 @@ fn least(
         let periods: Vec<f64> = brackets.iter().flat_map(inside).collect();
         let of_all = values(&periods)?;
         let pieces = periods.chunks(INSIDE + 2).zip(of_all.chunks(INSIDE + 2));
-        for (bracket, (periods, values)) in brackets.iter_mut().zip(pieces) {
+        let mut shrunk = Vec::with_capacity(brackets.len());
+        for (periods, values) in pieces {
             let pairs = values.iter().zip(periods).filter_map(known);
             found = pairs.fold(found, lower);
             let at = (0..values.len()).min_by(|a, b| values[*a].total_cmp(&values[*b]));
             let at = at.unwrap_or_default();
-            *bracket = (
+            let ends = (
                 periods[at.saturating_sub(1)],
                 periods[(at + 1).min(periods.len() - 1)],
             );
+            shrunk.push((values[at], ends));
         }
+        // What differs by less inside a bracket that is as much narrower cannot be the least.
+        near *= 2.0 / (INSIDE + 1) as f64;
+        let can_be_least = |(value, _): &(f64, _)| *value <= found.0 + near * found.0.abs();
+        brackets = shrunk
+            .into_iter()
+            .filter(can_be_least)
+            .map(|(_, ends)| ends)
+            .collect();
     }
     Ok(found)
 }

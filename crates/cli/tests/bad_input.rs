@@ -793,8 +793,20 @@ fn devices_and_pipes_are_refused() {
         "report INPUT",
         "merge INPUT -o out.h5",
         "merge --check INPUT",
+        "gap case.toml --rules INPUT",
+        "sweep study.toml -o out.h5",
+        "ida hazard.toml -o out.h5",
+        "report case.toml --study INPUT",
     ] {
         for input in ["/dev/zero", "pipe"] {
+            let variable =
+                "[[variable]]\nname = \"gap\"\npath = \"gap.width\"\nvalues = [\"20 mm\"]\n";
+            let study = format!("case = \"{input}\"\n{variable}");
+            std::fs::write(folder.path().join("study.toml"), study).unwrap();
+            let hazard = format!(
+                "case = \"case.toml\"\n[ida]\nmeasure = \"pga\"\nlevels = [\"0.1 g\", \"0.2 g\"]\nhazard = \"{input}\"\n"
+            );
+            std::fs::write(folder.path().join("hazard.toml"), hazard).unwrap();
             let call = call.replace("INPUT", input);
             let mut child = Command::new(env!("CARGO_BIN_EXE_pounding"))
                 .current_dir(folder.path())

@@ -55,6 +55,18 @@ pub fn ask_of_targets(
     AskedOfTargets(number)
 }
 
+/// What is told of a file that is replaced: its name as it was given, and the new file beside it.
+type Told = dyn Fn(&Path, &Path) + Send + Sync;
+
+/// Who is told, if anybody is.
+static TOLD: Mutex<Option<Box<Told>>> = Mutex::new(None);
+
+/// Has somebody told of every file of this process that takes the place of another one, right before it does:
+/// with the target as it was named, and the whole new file. Of several, the last that asked for it.
+pub fn tell_of_replaced(told: impl Fn(&Path, &Path) + Send + Sync + 'static) {
+    *TOLD.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(told));
+}
+
 /// A file that has not taken its place, and stands whole beside it. [`PartFile::finish`] gives it
 /// within the error of the system.
 #[derive(Debug, thiserror::Error)]
@@ -130,7 +142,9 @@ impl PartFile {
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
         let mut all = standing();
-        let part = builder.tempfile_in(folder).map_err(|e| made_beside(folder, &e))?;
+        let part = builder
+            .tempfile_in(folder)
+            .map_err(|e| made_beside(folder, &e))?;
         let part = part.into_temp_path();
         let path = part.to_path_buf();
         all.push(path.clone());
@@ -210,6 +224,9 @@ fn place(
             return Err(Error::other(PlaceTaken { reason, aside }));
         }
         if stands {
+            if let Some(told) = &*TOLD.lock().unwrap_or_else(PoisonError::into_inner) {
+                told(named, &part);
+            }
             // The error holds the part file and removes it.
             return part.persist(target).map_err(|e| e.error);
         }

@@ -82,7 +82,7 @@ impl Beat {
         let is_time = |seconds: &f64| (0.0..=LONGEST).contains(seconds);
         u32::try_from(self.runs).is_ok()
             && self.finished <= self.runs
-            && self.stored <= self.finished
+            && self.stored <= self.runs
             && ended.is_some_and(|ended| ended <= self.finished)
             && (0.0..=LONGEST).contains(&self.rate)
             && self.remaining_seconds.as_ref().is_none_or(is_time)

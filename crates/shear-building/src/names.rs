@@ -19,3 +19,14 @@ pub fn is_name(text: &str) -> bool {
 fn turns_text(c: char) -> bool {
     matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_have_an_end() {
+        assert!(is_name(&"\u{e4}".repeat(LONGEST)));
+        assert!(!is_name(&"a".repeat(LONGEST + 1)));
+    }
+}

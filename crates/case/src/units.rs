@@ -514,7 +514,7 @@ fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitEr
             let unit = UNITS.iter().find(|u| u.symbol == symbol).ok_or_else(|| {
                 UnitError::UnknownUnit {
                     text: text(),
-                    symbol: symbol.to_owned(),
+                    symbol: as_written(symbols, symbol),
                 }
             })?;
             let power = if i == 0 { power } else { -power };
@@ -537,6 +537,13 @@ fn normal(unit: &str) -> String {
         .replace('³', "^3")
         .replace('·', "*")
         .replace(['µ', 'μ'], "u")
+}
+
+/// A symbol in plain signs as it stands in a unit: with the sign for micro that was written.
+fn as_written(unit: &str, symbol: &str) -> String {
+    let written = ['µ', 'μ'].map(|micro| symbol.replacen('u', &micro.to_string(), 1));
+    let found = written.into_iter().find(|written| unit.contains(written));
+    found.unwrap_or_else(|| symbol.to_owned())
 }
 
 /// `m^1.5` and `s2` into symbol and power; `None` for a power that is none.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use pounding_case::{Located, RuleText, Separation, read_text};
+use pounding_case::{Located, RuleText, Separation, read_regular_text};
 use pounding_study::gap_check::wrong_rules;
 
 use crate::failure::Failure;
@@ -47,7 +47,7 @@ pub fn overridden(separation: Separation, asked: &Asked<'_>) -> Result<Separatio
         ..Separation::default()
     };
     if let Some(path) = asked.rules {
-        let text = read_text(path, "rules").map_err(|e| Failure::case(e, ""))?;
+        let text = read_regular_text(path, "rules").map_err(|e| Failure::case(e, ""))?;
         let rules = RuleText::parse_all(&text, &path.display().to_string());
         given.rules = rules.map_err(|e| Failure::case(e, &text))?;
     }

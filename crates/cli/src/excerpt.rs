@@ -12,6 +12,9 @@ const LONGEST: usize = 2000;
 /// Bytes that are shown on either side of a place in an excerpt that is cut.
 const AROUND: usize = 60;
 
+/// What may stand before a text in UTF-8.
+const MARK: char = '\u{feff}';
+
 /// An error at a place (byte range) in a file, with the lines around it.
 pub fn report(
     diagnostic: MietteDiagnostic,
@@ -19,6 +22,14 @@ pub fn report(
     source: &str,
     place: std::ops::Range<usize>,
 ) -> Report {
+    // A byte order mark is no column that an editor would show.
+    let (source, place) = match source.strip_prefix(MARK) {
+        Some(rest) => {
+            let moved = |at: usize| at.saturating_sub(MARK.len_utf8());
+            (rest, moved(place.start)..moved(place.end))
+        }
+        None => (source, place),
+    };
     let end = place.end.min(source.len());
     let shown = match end.saturating_sub(place.start) > LONGEST {
         true => boundary_before(source, place.start + AROUND),
@@ -103,6 +114,12 @@ mod tests {
             told.len() < 3 * LONGEST && told.contains(" 3 \u{2502} wrong"),
             "{told}"
         );
+    }
+
+    #[test]
+    fn a_byte_order_mark_is_no_column() {
+        let told = shown("\u{feff}first = 1\n", 3..8);
+        assert!(told.contains("a.toml:1:1"), "{told}");
     }
 
     #[test]

@@ -1,9 +1,13 @@
 //! Files of a command: what it reads beside its arguments, and where its outputs have a place.
 
+use std::collections::BTreeSet;
 use std::io::Read;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 
-use pounding_files::{AskedOfTargets, FileUse, LeftOver, PartFile, ask_of_targets, left_over};
+use pounding_files::{
+    AskedOfTargets, FileUse, LeftOver, PartFile, ask_of_targets, left_over, tell_of_replaced,
+};
 use pounding_report::Answered;
 use pounding_results::{Kind, Label};
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
@@ -12,6 +16,7 @@ use pounding_study::{ShardName, is_shard_of_check};
 use crate::arguments::InputPath;
 use crate::failure::Failure;
 use crate::output::note;
+use crate::separate::is_child;
 
 /// Names the part files of an output that a killed process has left behind. They stay: on a
 /// file system that several machines share, another one may write them.
@@ -64,6 +69,119 @@ pub fn inputs_stay_meanwhile(files: &FileUse) -> Result<AskedOfTargets, Failure>
     Ok(ask_of_targets(move |target| {
         files.check_output(target).map_err(|e| e.to_string())
     }))
+}
+
+/// Outputs of which it was said already what they take the place of, or that there is nothing to say.
+static JUDGED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Notes that it was said of an output what it takes the place of.
+pub fn is_judged(output: &Path) {
+    let mut judged = JUDGED.lock().unwrap_or_else(PoisonError::into_inner);
+    judged.insert(output.to_owned());
+}
+
+/// Has it said of every output that arguments name, and of the files of a folder of pages, that it takes the
+/// place of a file which is no earlier output of its kind.
+pub fn say_what_is_replaced(files: &FileUse) {
+    let outputs: BTreeSet<PathBuf> = files.outputs().map(Path::to_owned).collect();
+    let folders = files.folders().filter(|(role, _)| *role == "--pages");
+    let folders: Vec<PathBuf> = folders.map(|(_, folder)| folder.to_owned()).collect();
+    tell_of_replaced(move |target, new| {
+        let in_folder = || {
+            target
+                .parent()
+                .is_some_and(|at| folders.iter().any(|f| f == at))
+        };
+        let is_named = outputs.contains(target) || in_folder();
+        let judged = JUDGED.lock().unwrap_or_else(PoisonError::into_inner);
+        if is_named && !judged.contains(target) && !of_one_kind(target, new) {
+            note(&format!(
+                "{} is replaced, which was no earlier output of this kind",
+                target.display()
+            ));
+        }
+    });
+}
+
+/// Bytes of files that are compared by how they begin.
+const BEGINNING: u64 = 1 << 14;
+
+/// Whether a file looks like an earlier output of what made another one. There is nothing to lose of an
+/// empty one.
+fn of_one_kind(old: &Path, new: &Path) -> bool {
+    let beginning = |path: &Path| {
+        let mut bytes = Vec::new();
+        let file = pounding_files::input::open(path).ok()?;
+        file.take(BEGINNING).read_to_end(&mut bytes).ok()?;
+        Some(bytes)
+    };
+    let (Some(before), Some(after)) = (beginning(old), beginning(new)) else {
+        return !holds_something(old);
+    };
+    if before.is_empty() {
+        return true;
+    }
+    // Figures and Parquet do not say what made them; pages do.
+    for form in [&b"<svg"[..], b"\x89PNG", b"%PDF-", b"PAR1"] {
+        if after.starts_with(form) {
+            return before.starts_with(form);
+        }
+    }
+    if is_page(new) {
+        return is_page(old);
+    }
+    // Tables by their columns; records by the files that they were read from, which follow the names of
+    // their events.
+    let line = |text: &[u8]| {
+        let text = String::from_utf8_lossy(text).into_owned();
+        let source = text.lines().find(|line| line.starts_with("# Source: "));
+        let line = source.or(text.lines().next());
+        line.map(str::to_owned)
+    };
+    line(&before) == line(&after)
+}
+
+/// Refuses outputs that would take the place of what the shards of a study keep beside their results: how far
+/// they are, the records that they share, runs that have finished.
+pub fn shards_stay(files: &FileUse) -> Result<(), Failure> {
+    for output in files.outputs() {
+        if let Some(what) = kept_by_shards(output) {
+            return Err(stands(output, what));
+        }
+    }
+    Ok(())
+}
+
+/// What a file is that shards of a study keep beside their results.
+fn kept_by_shards(path: &Path) -> Option<&'static str> {
+    let path = path.canonicalize().ok().filter(|path| path.is_file())?;
+    let name = path.file_name()?.to_str()?;
+    let folder = path.parent()?;
+    let is_record = |name: &str| {
+        let hash = name.split('.').next().unwrap_or_default();
+        hash.len() == 64 && hash.bytes().all(|b| b.is_ascii_hexdigit())
+    };
+    let has_records = || {
+        let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+        let mut names = entries.map(|entry| entry.file_name());
+        names.any(|name| is_record(&name.to_string_lossy()))
+    };
+    let folder_name = folder.file_name()?.to_str()?;
+    match folder_name {
+        "status" => {
+            let shard = name.strip_suffix(".json")?;
+            ShardName::of(&format!("{shard}.h5"))?;
+            Some("what a shard of a study tells of itself")
+        }
+        "records" if is_record(name) || (name == "list.json" && has_records()) => {
+            Some("of the records that shards of a study share")
+        }
+        parts if parts.ends_with(".parts") => {
+            let kept = name == "lock" || name == "study.txt" || name.ends_with(".runs");
+            kept.then_some("of the finished runs of a study")
+        }
+        _ => None,
+    }
 }
 
 /// Finds out before the work, not after it, that outputs have no place: tables, pages and figures.
@@ -143,6 +261,7 @@ pub fn an_answer_has_a_place(output: Option<&Path>) -> Result<(), Failure> {
 /// A result of a run or a study, which stays.
 pub fn say_what_goes(output: &Path, new: &Answered) -> Result<(), Failure> {
     no_run_stands(output)?;
+    is_judged(output);
     let file = |answered: &Answered| answered.inputs.origin.get(1).cloned();
     let name = output.display();
     match answer_in(output) {
@@ -213,6 +332,7 @@ fn replaced(path: &Path, what: &str) -> String {
 /// A file of somebody else under a default name, or one that cannot be read.
 pub fn page_is_spared(path: &Path, named: bool) -> Result<(), Failure> {
     no_result_comes(path)?;
+    is_judged(path);
     let judged = move |path: &Path| match holds_something(path) && !is_page(path) {
         true => foreign(path, named, "page"),
         false => Ok(None),
@@ -279,6 +399,7 @@ impl Replaced<'_> {
     /// # Errors
     /// With the file and what to do.
     pub fn spared(&self, goes_on: bool) -> Result<(), Failure> {
+        is_judged(self.output);
         if let Some(said) = self.judged(goes_on)? {
             note(&said);
         }
@@ -385,8 +506,31 @@ pub fn shard_files(given: &[InputPath]) -> Result<Vec<PathBuf>, Failure> {
                 ),
             ));
         }
+        if !is_child() {
+            other_shards(path, &found);
+        }
         found.sort();
         files.append(&mut found);
     }
     Ok(files)
+}
+
+/// Names the results of shards in a folder that are not called as shards are: they are not merged.
+fn other_shards(folder: &Path, found: &[PathBuf]) {
+    let entries = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    let mut others: Vec<PathBuf> = entries.map(|entry| entry.path()).collect();
+    others.sort();
+    for path in others
+        .iter()
+        .filter(|path| path.is_file() && !found.contains(path))
+    {
+        let study = Label::of(path).and_then(|label| label.study);
+        if let Some(study) = study.filter(|study| !study.part.is_whole()) {
+            note(&format!(
+                "{} holds {} of a study and is not called as a shard is: it is left out",
+                path.display(),
+                study.part
+            ));
+        }
+    }
 }

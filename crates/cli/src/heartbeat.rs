@@ -16,6 +16,8 @@ const BETWEEN: Duration = Duration::from_secs(10);
 /// A shard that has not told of itself for this long is taken as ended: clocks of machines, and
 /// file systems that several machines share, may lag.
 const SILENT: Duration = Duration::from_secs(90);
+/// More runs a second, or a time (s), than there can be.
+const LONGEST: f64 = 1.0e15;
 /// The folder of these files in that of the shards.
 const FOLDER: &str = "status";
 
@@ -72,6 +74,18 @@ impl Beat {
     /// Seconds since this was written.
     pub fn silent(&self) -> u64 {
         now().saturating_sub(self.updated)
+    }
+
+    /// Whether its numbers are of one shard: what a program writes that counts runs.
+    fn can_be(&self) -> bool {
+        let ended = self.failed.checked_add(self.collapsed);
+        let is_time = |seconds: &f64| (0.0..=LONGEST).contains(seconds);
+        u32::try_from(self.runs).is_ok()
+            && self.finished <= self.runs
+            && self.stored <= self.runs
+            && ended.is_some_and(|ended| ended <= self.finished)
+            && (0.0..=LONGEST).contains(&self.rate)
+            && self.remaining_seconds.as_ref().is_none_or(is_time)
     }
 
     /// Whether the shard computes, as far as can be known.
@@ -164,10 +178,12 @@ impl Heartbeat {
         self.end(State::Done, "");
     }
 
-    /// Tells that an error has ended it; where the result of a call before it stands all the same,
-    /// what that one told stays true, and so does what another process tells that is at work.
-    pub fn failed(&mut self, message: &str, result_stands: bool) {
-        if !self.begun && read_at(&self.path).is_some_and(|beat| beat.is_running()) {
+    /// Tells that an error has ended it. A call that was refused before it made a run says nothing where
+    /// the result of the shard stands, whichever version of the study it is of, or another process is at
+    /// work there; where the same result stands after work, what was told of it stays true.
+    pub fn failed(&mut self, message: &str, (stands, result_stands): (bool, bool)) {
+        let at_work = || read_at(&self.path).is_some_and(|beat| beat.is_running());
+        if !self.begun && (stands || at_work()) {
             return;
         }
         match self.done.take().filter(|_| result_stands) {
@@ -208,7 +224,14 @@ pub fn read(folder: &Path, shard: &ShardName) -> Option<Beat> {
 
 fn read_at(path: &Path) -> Option<Beat> {
     let text = pounding_files::input::read(path).ok()?;
-    serde_json::from_slice(&text).ok()
+    let beat: Option<Beat> = serde_json::from_slice(&text).ok();
+    beat.filter(Beat::can_be)
+}
+
+/// The file in which a shard told of itself, if it is not what a shard writes.
+pub fn damaged(folder: &Path, shard: &ShardName) -> Option<PathBuf> {
+    let path = path(folder, shard);
+    (path.symlink_metadata().is_ok() && read_at(&path).is_none()).then_some(path)
 }
 
 /// The shards that have told of themselves.

@@ -83,7 +83,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
         }
     };
     let files = arguments::file_use(&command, &matches);
+    files::say_what_is_replaced(&files);
     let done = files::inputs_stay(&files)
+        .and_then(|()| files::shards_stay(&files))
         .and_then(|()| logging::begin(arguments.verbose, arguments.color))
         .and_then(|()| interruption::listen())
         .and_then(|()| answer(arguments, files));

@@ -97,13 +97,15 @@ pub fn options(
     };
     replaced.spared(running.resume || into.is_some())?;
     if let Some(csv) = &running.csv {
-        no_result_comes(csv)?;
-        writable_table(csv)?;
+        table_has_a_place(csv)?;
     }
     let seconds = value(&running.store_every, "store-every", Dimension::TIME)?;
     let store_every = Duration::try_from_secs_f64(seconds).map_err(|_| {
         Failure::input(
-            format!("--store-every: {seconds} s is no time to wait"),
+            format!(
+                "--store-every: {:?} is no time to wait",
+                running.store_every
+            ),
             Some("give a time such as \"5 s\"".to_owned()),
         )
     })?;
@@ -124,6 +126,13 @@ pub fn options(
 /// The study's name, or that of its folder where it is called `study.toml`.
 pub fn name(study: &Path) -> String {
     study_name(study).to_string_lossy().into_owned()
+}
+
+/// Finds out before the runs are made or merged that their table has no place.
+pub fn table_has_a_place(csv: &Path) -> Result<(), Failure> {
+    no_result_comes(csv)?;
+    writable_table(csv)?;
+    Ok(())
 }
 
 fn default_output(study: &Path, shard: Option<Shard>) -> PathBuf {
@@ -230,17 +239,22 @@ pub fn run(
             }
             // The process that is at work there says how far it is.
             Err(StudyError::Busy { .. }) => {}
-            Err(e) => heartbeat.failed(&e.to_string(), stands(&options.output, study)),
+            Err(e) => heartbeat.failed(&e.to_string(), stands(options, study)),
         }
     }
     Ok(report?)
 }
 
-/// Whether a result of the study stands there as its file says it now: another record, or another
-/// case, makes it one of an earlier version, which no call replaces.
-fn stands(output: &Path, study: &Study) -> bool {
-    let found = Label::of(output).and_then(|label| label.study);
-    found.is_some_and(|found| found.text_sha256 == text_sha256(study))
+/// Whether a result of the shard stands there, and whether it is of the study as its file says it now:
+/// another text makes it one of an earlier version, which no call replaces.
+fn stands(options: &SweepOptions, study: &Study) -> (bool, bool) {
+    let found = Label::of(&options.output).and_then(|label| label.study);
+    let Some(found) = found else {
+        return (false, false);
+    };
+    let (shard, part) = (options.shard, &found.part);
+    let is_shard = part.count() == shard.count && part.shards() == [shard.index];
+    (is_shard, found.text_sha256 == text_sha256(study))
 }
 
 /// SHA-256 of the text of a study.

@@ -793,8 +793,20 @@ fn devices_and_pipes_are_refused() {
         "report INPUT",
         "merge INPUT -o out.h5",
         "merge --check INPUT",
+        "gap case.toml --rules INPUT",
+        "sweep study.toml -o out.h5",
+        "ida hazard.toml -o out.h5",
+        "report case.toml --study INPUT",
     ] {
         for input in ["/dev/zero", "pipe"] {
+            let variable =
+                "[[variable]]\nname = \"gap\"\npath = \"gap.width\"\nvalues = [\"20 mm\"]\n";
+            let study = format!("case = \"{input}\"\n{variable}");
+            std::fs::write(folder.path().join("study.toml"), study).unwrap();
+            let hazard = format!(
+                "case = \"case.toml\"\n[ida]\nmeasure = \"pga\"\nlevels = [\"0.1 g\", \"0.2 g\"]\nhazard = \"{input}\"\n"
+            );
+            std::fs::write(folder.path().join("hazard.toml"), hazard).unwrap();
             let call = call.replace("INPUT", input);
             let mut child = Command::new(env!("CARGO_BIN_EXE_pounding"))
                 .current_dir(folder.path())
@@ -902,4 +914,44 @@ fn a_place_among_carriage_returns_is_one() {
         .unwrap();
     let told = String::from_utf8(output.stderr).unwrap();
     assert_eq!(told.matches("case.toml:1:13").count(), 2, "{told}");
+}
+
+/// What is said of files that editors and systems write in other ways, and of names and numbers beyond reason.
+#[test]
+fn messages_say_what_stands_there() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("record.csv"), record()).unwrap();
+    let told = |case: &str, words: &[&str]| {
+        std::fs::write(folder.path().join("case.toml"), case).unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .current_dir(folder.path())
+            .env("NO_COLOR", "1")
+            .args(words)
+            .output()
+            .unwrap();
+        let told = message(&output);
+        let words: Vec<&str> = told.split_whitespace().filter(|w| *w != "│").collect();
+        words.join(" ")
+    };
+    let check = |case: &str| told(case, &["check", "case.toml"]);
+    let marked = check(&format!("\u{feff}titel = \"t\"\n{CASE}"));
+    assert_eq!(marked.matches("case.toml:1:1").count(), 2, "{marked}");
+    let returns = check(&CASE.replace('\n', "\r"));
+    assert!(returns.contains("save it with line ends of"), "{returns}");
+    let micro = check(&format!(
+        "[[building]]\nname = \"A\"\nmass = \"25 \u{b5}t\"\n{CASE}"
+    ));
+    assert!(micro.contains("\"\u{b5}t\" in \"25 \u{b5}t\""), "{micro}");
+    let name = "a".repeat(201);
+    let long = check(&format!("[[building]]\nname = \"{name}\"\n{CASE}"));
+    assert!(long.contains("cannot name a building"), "{long}");
+    assert!(long.contains("at most 200 characters"), "{long}");
+    let nowhere = told(CASE, &["run", "case.toml", "-o", "nowhere/x.h5"]);
+    assert!(
+        nowhere.contains("cannot write nowhere/x.h5: the folder nowhere does not exist"),
+        "{nowhere}"
+    );
+    std::fs::create_dir(folder.path().join("shards")).unwrap();
+    let every = told(CASE, &["status", "shards", "--watch", "--every", "1e300 s"]);
+    assert!(every.contains("--every: \"1e300 s\" is no time"), "{every}");
 }

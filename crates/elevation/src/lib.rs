@@ -134,7 +134,9 @@ impl Scene {
             apart && places.iter().all(inside)
         };
         let most = names.iter().map(|name| name.chars().count()).max();
-        let longest = most.unwrap_or(0).max(FEWEST);
+        // More letters have no room even across the whole picture.
+        let room = (self.width + 2.0 * self.margin()) / (LETTER * size);
+        let longest = most.unwrap_or(0).min(room as usize).max(FEWEST);
         let mut beside = (FEWEST..=longest).rev().map(|most| shortened(&names, most));
         if let Some(shown) = beside.find(|shown| fits(shown)) {
             return Names {

@@ -124,6 +124,12 @@ impl FileUse {
         files.map(|named| named.path.as_path())
     }
 
+    /// The folders that will be filled, as they were given, each with the option that names it, or what it is.
+    pub fn folders(&self) -> impl Iterator<Item = (&str, &Path)> {
+        let folders = self.written.iter().filter(|named| named.folder);
+        folders.map(|named| (named.role.as_str(), named.path.as_path()))
+    }
+
     /// Compares every output with every input and with every other output: by their paths
     /// with all links resolved, and by the files themselves, so that hard links and mounts
     /// deceive no one.

@@ -55,6 +55,18 @@ pub fn ask_of_targets(
     AskedOfTargets(number)
 }
 
+/// What is told of a file that is replaced: its name as it was given, and the new file beside it.
+type Told = dyn Fn(&Path, &Path) + Send + Sync;
+
+/// Who is told, if anybody is.
+static TOLD: Mutex<Option<Box<Told>>> = Mutex::new(None);
+
+/// Has somebody told of every file of this process that takes the place of another one, right before it does:
+/// with the target as it was named, and the whole new file. Of several, the last that asked for it.
+pub fn tell_of_replaced(told: impl Fn(&Path, &Path) + Send + Sync + 'static) {
+    *TOLD.lock().unwrap_or_else(PoisonError::into_inner) = Some(Box::new(told));
+}
+
 /// A file that has not taken its place, and stands whole beside it. [`PartFile::finish`] gives it
 /// within the error of the system.
 #[derive(Debug, thiserror::Error)]
@@ -110,15 +122,11 @@ impl PartFile {
     /// names will be replaced, not the link.
     ///
     /// # Errors
-    /// If the target is a folder, a device or read-only, or the folder does not exist or cannot be
-    /// written to.
+    /// If the target is a folder, a device, what a process has opened (`/dev/stdout`, `/proc/self/fd/1`) or
+    /// read-only, or the folder does not exist or cannot be written to.
     pub fn beside(target: &Path) -> Result<Self> {
         let named = target.to_owned();
-        let target = behind_links(target);
-        // Renaming would put the file in the place of a device, such as /dev/stdout.
-        if target.exists() && !target.is_file() {
-            return Err(Error::other("it is not a regular file"));
-        }
+        let target = place_of(target)?;
         // Renaming asks the folder alone: who takes away the right to write means the file.
         if target.metadata().is_ok_and(|m| m.permissions().readonly()) {
             return Err(Error::other("it is read-only"));
@@ -134,7 +142,10 @@ impl PartFile {
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
         let mut all = standing();
-        let part = builder.tempfile_in(folder)?.into_temp_path();
+        let part = builder
+            .tempfile_in(folder)
+            .map_err(|e| made_beside(folder, &e))?;
+        let part = part.into_temp_path();
         let path = part.to_path_buf();
         all.push(path.clone());
         Ok(Self {
@@ -213,6 +224,9 @@ fn place(
             return Err(Error::other(PlaceTaken { reason, aside }));
         }
         if stands {
+            if let Some(told) = &*TOLD.lock().unwrap_or_else(PoisonError::into_inner) {
+                told(named, &part);
+            }
             // The error holds the part file and removes it.
             return part.persist(target).map_err(|e| e.error);
         }
@@ -272,6 +286,70 @@ const ENDING: &str = ".part";
 /// What a path leads to, through links.
 fn behind_links(target: &Path) -> PathBuf {
     target.canonicalize().unwrap_or_else(|_| target.to_owned())
+}
+
+/// Links that are followed one after another, as many as Linux follows.
+const LINKS: usize = 40;
+
+/// The file that a target names through links, be it there or not.
+///
+/// # Errors
+/// A folder or a device, in whose place renaming would put a file; a descriptor of a process, which
+/// leads to a file that somebody writes by its number, and would go on to write where nobody looks; a link
+/// to what is not there any more.
+fn place_of(target: &Path) -> Result<PathBuf> {
+    let mut at = target.to_owned();
+    for _ in 0..LINKS {
+        if is_descriptor(&at) {
+            return Err(Error::other(format!(
+                "it is not a regular file, but one that a process has opened; {GIVE_A_FILE}"
+            )));
+        }
+        match std::fs::read_link(&at) {
+            Ok(next) => at = folder_of(&at).join(next),
+            Err(_) => break,
+        }
+    }
+    match target.canonicalize() {
+        Ok(file) if !file.is_file() => Err(Error::other(format!(
+            "it is not a regular file; {GIVE_A_FILE}"
+        ))),
+        Ok(file) => Ok(file),
+        Err(_) if target.is_symlink() => Err(Error::other(format!(
+            "it is a link to what is not there; {GIVE_A_FILE}"
+        ))),
+        Err(_) => Ok(target.to_owned()),
+    }
+}
+
+/// What is to be done where a target is no file.
+const GIVE_A_FILE: &str = "give the name of a file";
+
+/// Whether a path is that of a descriptor of a process, such as `/proc/self/fd/1`, or `/dev/fd/1` where that
+/// is no link to there.
+fn is_descriptor(path: &Path) -> bool {
+    let Ok(folder) = folder_of(path).canonicalize() else {
+        return false;
+    };
+    folder == Path::new("/dev/fd") || (folder.starts_with("/proc") && folder.ends_with("fd"))
+}
+
+/// Why no part file can be made in a folder: without the name of that file, which nobody has asked for.
+fn made_beside(folder: &Path, error: &Error) -> Error {
+    let kind = error.kind();
+    if kind == ErrorKind::NotFound && !folder.exists() {
+        let text = format!("the folder {} does not exist", folder.display());
+        return Error::new(kind, text);
+    }
+    let text = error.to_string();
+    // The system's words, before which the name of the part file stands in the error of the crate.
+    match error.raw_os_error() {
+        Some(code) => Error::from_raw_os_error(code),
+        None => {
+            let reason = text.split(" at path ").next().unwrap_or(&text);
+            Error::new(kind, reason.to_owned())
+        }
+    }
 }
 
 fn folder_of(target: &Path) -> &Path {
@@ -501,6 +579,51 @@ mod tests {
         assert!(refused.to_string().contains("not a regular file"));
         assert!(write(&folder.path().join("missing/a"), b"x").is_err());
         assert_eq!(names(folder.path()), ["a"]);
+    }
+
+    /// What the shell has opened stays what it is, and so does a link to it.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn descriptors_are_no_files() {
+        use std::os::fd::AsRawFd;
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::write(at("log"), "precious").unwrap();
+        let opened = File::open(at("log")).unwrap();
+        let number = opened.as_raw_fd();
+        symlink(format!("/proc/self/fd/{number}"), at("link")).unwrap();
+        symlink("link", at("farther")).unwrap();
+        let named = [
+            at("link"),
+            at("farther"),
+            PathBuf::from(format!("/proc/self/fd/{number}")),
+            PathBuf::from(format!("/proc/{}/fd/{number}", std::process::id())),
+            PathBuf::from(format!("/dev/fd/{number}")),
+        ];
+        let refused = |path: &Path| {
+            let refused = write(path, b"x").unwrap_err().to_string();
+            assert!(refused.contains("not a regular file"), "{refused}");
+            assert!(refused.contains("give the name of a file"), "{refused}");
+        };
+        named.iter().for_each(|path| refused(path));
+        assert_eq!(std::fs::read(at("log")).unwrap(), b"precious");
+        // A file that is gone, and is open all the same.
+        std::fs::remove_file(at("log")).unwrap();
+        named.iter().for_each(|path| refused(path));
+        assert!(at("link").is_symlink() && at("farther").is_symlink());
+        symlink("nothing", at("nowhere")).unwrap();
+        assert!(write(&at("nowhere"), b"x").is_err());
+        assert_eq!(names(folder.path()), ["farther", "link", "nowhere"]);
+    }
+
+    #[test]
+    fn a_folder_that_is_not_there_is_named() {
+        let folder = tempfile::tempdir().unwrap();
+        let refused = write(&folder.path().join("none/a"), b"x").unwrap_err();
+        let told = refused.to_string();
+        assert!(told.contains("none does not exist"), "{told}");
+        assert!(!told.contains(ENDING), "{told}");
     }
 
     #[cfg(unix)]

@@ -182,7 +182,7 @@ impl Answered {
         let mut start = [0; 64];
         let read = pounding_files::input::open(path).and_then(|mut file| file.read(&mut start));
         let start = &start[..read.unwrap_or(0)];
-        start.trim_ascii_start().starts_with(b"{")
+        without_mark(start).trim_ascii_start().starts_with(b"{")
     }
 
     /// Reads a file.
@@ -200,7 +200,8 @@ impl Answered {
             found,
             help,
         };
-        let mut values = Deserializer::from_slice(&bytes).into_iter::<Value>();
+        let bytes = without_mark(&bytes);
+        let mut values = Deserializer::from_slice(bytes).into_iter::<Value>();
         let first = values.next().unwrap_or(Ok(Value::Null));
         let whole = bytes[values.byte_offset()..].trim_ascii().is_empty();
         let mut content = match first {
@@ -258,4 +259,8 @@ impl Answered {
 /// The SHA-256 of a value: keys stand in alphabetical order whatever their order in the file.
 fn hash(content: &Value) -> String {
     hexadecimal(&Sha256::digest(content.to_string()))
+}
+/// Bytes of a text without the byte order mark that editors put before it.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes)
 }

@@ -238,7 +238,8 @@ fn make(
             let written = written.map_err(|source| StudyError::Store {
                 folder: store.folder(),
                 source,
-                stored: now.stored,
+                // What another process has removed meanwhile is not.
+                stored: store.parts().standing(),
                 of: total,
             })?;
             now.stored = now.stored_before + now.made - store.waiting();

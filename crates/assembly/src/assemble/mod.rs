@@ -373,9 +373,8 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
             ShearBuildingError::Unstable { .. } => (&b.name.span, Some(OVERTURNED.to_owned())),
             ShearBuildingError::UnstableMatrix { .. } => (at_matrix, Some(OVERTURNED.to_owned())),
             ShearBuildingError::Length { .. } => (at_matrix, None),
-            ShearBuildingError::TooManyStoreys { .. } | ShearBuildingError::Value { .. } => {
-                (&b.name.span, e.help())
-            }
+            ShearBuildingError::TooManyStoreys { .. } => (&b.name.span, e.help()),
+            ShearBuildingError::Value { .. } => (&b.name.span, Some(WITH_UNIT.to_owned())),
             ShearBuildingError::Damping { .. } if b.lateral.is_some() => (
                 &b.damping.span,
                 Some("give ratios, such as { modal = 0.05 }".to_owned()),
@@ -392,6 +391,10 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
     let made = building.with_contact_points(points);
     made.map_err(|e| case.error(b.name.span.clone(), e.to_string(), None))
 }
+
+/// What to do about a mass, a stiffness or a height that cannot be.
+const WITH_UNIT: &str =
+    "correct the value, with its unit, such as \"25 t\" of a mass; plain numbers are SI";
 
 /// What to do about a building that gravity overturns.
 const OVERTURNED: &str =

@@ -102,6 +102,13 @@ impl Reader<'_> {
     pub fn read<T: DeserializeOwned>(&self, help: &str) -> Option<T> {
         let (tree, wrong) = DeTable::parse_recoverable(self.source);
         let mut lines = Vec::new();
+        let of_old_macintosh = self.source.contains('\r') && !self.source.contains('\n');
+        let help = match of_old_macintosh {
+            true => {
+                "its lines end with a carriage return alone: save it with line ends of Unix or Windows"
+            }
+            false => help,
+        };
         for e in wrong {
             let span = e.span().unwrap_or(0..0);
             let line = self.line(&span);

@@ -274,12 +274,19 @@ fn name(reader: &Reader<'_>, given: Optional<String>, what: &str) -> Option<Stri
     Some(check_name(reader, given.located()?, what)?.value)
 }
 
+/// Characters that are shown of what cannot be a name.
+const SHOWN_OF_A_NAME: usize = 80;
+
 /// Refuses names that cannot stand in messages or as a group of the result file.
 fn check_name(reader: &Reader<'_>, name: Located<String>, what: &str) -> Option<Located<String>> {
     if is_name(&name.value) {
         return Some(name);
     }
-    let message = format!("{:?} cannot name a {what}", name.value);
+    let mut shown: String = name.value.chars().take(SHOWN_OF_A_NAME).collect();
+    if shown.len() < name.value.len() {
+        shown.push('\u{2026}');
+    }
+    let message = format!("{shown:?} cannot name a {what}");
     reader.refuse(name.span, message, NAMES)
 }
 

@@ -701,6 +701,30 @@ impl Separation {
 /// has no end.
 const LARGEST_FILE: u64 = 16_000_000;
 
+/// As [`read_text`], of a file that another file names, or that lies beside one: no pipe, which may never
+/// begin, and no device, which may never end.
+///
+/// # Errors
+/// As [`read_text`], and what is no regular file.
+pub fn read_regular_text(path: &Path, what: &str) -> Result<String, CaseError> {
+    if let Ok(found) = std::fs::metadata(path)
+        && !found.is_file()
+    {
+        let kind = match found.is_dir() {
+            true => "this is a folder, not a file",
+            false => "this is no regular file",
+        };
+        let message = format!("cannot read the {what} file: {kind}");
+        let help = Some("give the path of a file".to_owned());
+        return Err(CaseError::unread(
+            &path.display().to_string(),
+            message,
+            help,
+        ));
+    }
+    read_text(path, what)
+}
+
 /// Text of a file that people write, which may be a pipe: it is read once. `what` names it
 /// in messages, such as "case".
 ///

@@ -15,7 +15,7 @@ use crate::failure::Failure;
 use crate::files::{Replaced, reads_too, shard_files};
 use crate::output::{pretty, print, warn};
 use crate::separate::{Reading, by_child, reading, warnings};
-use crate::study::{none_succeeded, shows_a_run};
+use crate::study::{none_succeeded, shows_a_run, table_has_a_place};
 
 /// Merges the results of shards, or says whether they can be merged.
 pub fn merge(arguments: &MergeArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -26,6 +26,9 @@ pub fn merge(arguments: &MergeArguments, mut files: FileUse) -> Result<(), Failu
     if let Some(output) = &arguments.output {
         writable(output)?;
         replaced(output, None).spared(true)?;
+    }
+    if let Some(csv) = &arguments.csv {
+        table_has_a_place(csv)?;
     }
     let child = arguments.read_in_this_process;
     let without_checksum = match &arguments.output {

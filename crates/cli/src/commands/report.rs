@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use pounding_case::read_regular_text;
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_files::checksum::Checksum;
@@ -9,7 +10,7 @@ use pounding_report::{Answered, ReportError, RunResult};
 use pounding_study::ResultReader;
 
 use crate::failure::Failure;
-use crate::files::{name_left_over, page_is_spared};
+use crate::files::{is_judged, name_left_over, page_is_spared};
 use crate::output::{print, warn};
 use crate::separate::{Reading, reading, warnings};
 use crate::{page, plot};
@@ -47,8 +48,12 @@ pub fn report(
             beside
         }
     };
-    if !child {
-        page_is_spared(&output, asked.output.is_some())?;
+    match child {
+        true => is_judged(&output),
+        false => page_is_spared(&output, asked.output.is_some())?,
+    }
+    if let Some(study) = asked.study {
+        read_regular_text(study, "study").map_err(|e| Failure::case(e, ""))?;
     }
     if Answered::may_be(path) {
         return of_answer(asked, &output);

@@ -1,22 +1,22 @@
 //! `pounding status`: how far the shards of a study are, and which command goes on.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::io::{IsTerminal, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, SystemTime};
 
 use pounding_case::Dimension;
 use pounding_catalogue::wording::counted;
-use pounding_files::checksum::{ChecksumError, WithoutChecksum, is_absent};
+use pounding_files::checksum::{ChecksumError, WithoutChecksum};
 use pounding_files::{free_name, same_file};
-use pounding_results::Label;
-use pounding_results::study::ResultReader;
+use pounding_results::OpenError;
+use pounding_results::study::{Part, ResultReader, StudyFileError};
 use pounding_study::{ShardName, ranges};
 use serde::Serialize;
 
 use crate::arguments::{StatusArguments, value};
 use crate::failure::Failure;
-use crate::heartbeat::{Beat, State, read, told};
+use crate::heartbeat::{Beat, State, damaged, read, told};
 use crate::interruption::{resumed, shell_line};
 use crate::output::{note, pretty, print, print_as_it_is};
 use crate::plan::path_word;
@@ -36,10 +36,14 @@ pub fn status(arguments: &StatusArguments) -> Result<(), Failure> {
             "give a time such as \"10 s\", of at least {} s",
             LEAST.as_secs_f64()
         );
-        Failure::input(format!("--every: {every} s is no time to wait"), Some(help))
+        Failure::input(
+            format!("--every: {:?} is no time to wait", arguments.every),
+            Some(help),
+        )
     })?;
+    let mut known = Known::new();
     loop {
-        let studies = look(&arguments.folder)?;
+        let studies = look(&arguments.folder, &mut known)?;
         let done = studies.iter().all(Progress::is_done);
         if arguments.unfinished {
             return print_as_it_is(&list_of_one(&arguments.folder, &studies)?);
@@ -132,6 +136,9 @@ struct Progress {
     /// Shards in whose places results stand that are of no use and that no call replaces.
     #[serde(skip)]
     no_use: Vec<usize>,
+    /// Files in which shards told of themselves, and which are no such files any more.
+    #[serde(rename = "damaged_status_files")]
+    damaged: Vec<PathBuf>,
 }
 
 /// How far a shard is.
@@ -147,8 +154,8 @@ struct Of {
     seconds_since_word: u64,
 }
 
-/// Looks at a folder of shards.
-fn look(folder: &Path) -> Result<Vec<Progress>, Failure> {
+/// Looks at a folder of shards. Results are read to their ends, and not again as long as they are as they were.
+fn look(folder: &Path, known: &mut Known) -> Result<Vec<Progress>, Failure> {
     let failed = |e: std::io::Error| {
         let help = "give the folder that --into named, or that the plan of the study names";
         Failure::input(
@@ -161,7 +168,7 @@ fn look(folder: &Path) -> Result<Vec<Progress>, Failure> {
         let name = entry.map_err(failed)?.file_name();
         let name = name.to_string_lossy();
         if let Some(shard) = ShardName::of(&name) {
-            let found = Found::at(&folder.join(&*name), shard.index);
+            let found = Found::known_at(&folder.join(&*name), &shard, known);
             let shards = studies.entry((shard.study, shard.count)).or_default();
             shards.push(found);
         }
@@ -182,46 +189,76 @@ fn look(folder: &Path) -> Result<Vec<Progress>, Failure> {
         .collect())
 }
 
+/// Runs of a result: all, and those that failed and collapsed.
+type Runs = (usize, [usize; 2]);
+
+/// What was found out of results: again only where size or time of a file are others.
+type Known = HashMap<PathBuf, ((u64, Option<SystemTime>), Found)>;
+
 /// A file under the name of the result of a shard.
+#[derive(Debug, Clone)]
 struct Found {
     shard: usize,
-    is_whole: bool,
-    /// Why it cannot be read here.
-    unreadable: Option<String>,
+    standing: Standing,
     /// Identity of its study, and when it was written.
     version: Option<(SystemTime, String)>,
 }
 
 impl Found {
-    fn at(path: &Path, shard: usize) -> Self {
-        // The end of a result is the last that is written: without it the file was cut off.
-        let checksum = is_absent(path);
-        let is_whole = matches!(checksum, Ok(false));
-        let unreadable = match checksum {
-            Err(ChecksumError::Read(reason)) => Some(reason.to_string()),
-            _ => None,
+    fn known_at(path: &Path, shard: &ShardName, known: &mut Known) -> Self {
+        let Ok(file) = path.metadata() else {
+            return Self::at(path, shard);
         };
-        let version = || {
-            let study = Label::of(path)?.study?;
-            Some((path.metadata().ok()?.modified().ok()?, study.sha256))
-        };
-        Self {
-            shard,
-            is_whole,
-            unreadable,
-            version: is_whole.then(version).flatten(),
+        let stamp = (file.len(), file.modified().ok());
+        match known.get(path) {
+            Some((before, found)) if *before == stamp => found.clone(),
+            _ => {
+                let found = Self::at(path, shard);
+                known.insert(path.to_owned(), (stamp, found.clone()));
+                found
+            }
         }
+    }
+
+    /// Compares a file with its checksum, and counts what stands in it.
+    fn at(path: &Path, shard: &ShardName) -> Self {
+        let of = |standing, version| Self {
+            shard: shard.index,
+            standing,
+            version,
+        };
+        let result = match ResultReader::open(path, WithoutChecksum::Refuse) {
+            Ok(result) => result,
+            Err(StudyFileError::Checksum {
+                source: OpenError::Checksum(ChecksumError::Read(reason)),
+                ..
+            }) => return of(Standing::Unreadable(reason.to_string()), None),
+            Err(_) => return of(Standing::Damaged, None),
+        };
+        let found = &result.description.part;
+        if Part::of(vec![shard.index], shard.count).as_ref() != Some(found) {
+            return of(Standing::OtherShard(found.to_string()), None);
+        }
+        let Ok(ended) = result.failed_and_collapsed() else {
+            return of(Standing::Damaged, None);
+        };
+        let written = path.metadata().and_then(|file| file.modified());
+        let identity = &result.description.study_sha256;
+        let version = written.ok().map(|written| (written, identity.clone()));
+        of(Standing::Result((result.rows, ended)), version)
     }
 }
 
 /// What stands under the name of the result of a shard.
 #[derive(Debug, Clone, PartialEq, Eq)]
 enum Standing {
-    /// A part of the result.
-    Result,
+    /// A part of the result, with its runs.
+    Result(Runs),
     /// The result of another version of the study than that of the last shard that was written.
     OtherVersion,
-    /// What is cut off, or no result.
+    /// The result of other shards than its name says.
+    OtherShard(String),
+    /// What is not as it was written, or no result.
     Damaged,
     /// What cannot be read here, and why.
     Unreadable(String),
@@ -232,8 +269,17 @@ impl Standing {
     fn of_no_use(&self) -> Option<String> {
         match self {
             Self::OtherVersion => Some("its result is of another version of the study".to_owned()),
+            Self::OtherShard(part) => Some(format!("the file of its result holds {part}")),
             Self::Unreadable(reason) => Some(format!("its result cannot be read here: {reason}")),
-            Self::Result | Self::Damaged => None,
+            Self::Result(_) | Self::Damaged => None,
+        }
+    }
+
+    /// The runs of a result that can be merged.
+    fn runs(&self) -> Option<Runs> {
+        match self {
+            Self::Result(runs) => Some(*runs),
+            _ => None,
         }
     }
 }
@@ -242,11 +288,9 @@ impl Standing {
 fn standing(found: &[Found]) -> BTreeMap<usize, Standing> {
     let versions = found.iter().filter_map(|file| file.version.as_ref());
     let last = versions.max().map(|(_, identity)| identity);
-    let standing = |file: &Found| match (&file.version, &file.unreadable) {
-        (_, Some(reason)) => Standing::Unreadable(reason.clone()),
-        _ if !file.is_whole => Standing::Damaged,
-        (Some((_, identity)), _) if Some(identity) != last => Standing::OtherVersion,
-        _ => Standing::Result,
+    let standing = |file: &Found| match &file.version {
+        Some((_, identity)) if Some(identity) != last => Standing::OtherVersion,
+        _ => file.standing.clone(),
     };
     found
         .iter()
@@ -269,9 +313,12 @@ impl Progress {
             command: None,
             commands: Vec::new(),
             no_use: Vec::new(),
+            damaged: Vec::new(),
         };
         for index in 1..=count {
-            let beat = read(folder, &progress.shard(index));
+            let shard = progress.shard(index);
+            let beat = read(folder, &shard);
+            progress.damaged.extend(damaged(folder, &shard));
             // A call that was refused or failed leaves what stood there, which may be no part of
             // this study.
             let failed = beat.as_ref().is_some_and(|b| b.state == State::Failed);
@@ -279,18 +326,13 @@ impl Progress {
             if found.is_some_and(|found| found.of_no_use().is_some()) {
                 progress.no_use.push(index);
             }
-            let mut stands = found == Some(&Standing::Result) && !failed;
-            if stands && beat.as_ref().is_none_or(|b| b.state != State::Done) {
-                // Nothing was told of what stands: it was copied here, or what told of it is lost. What cannot
-                // be counted is damaged, and not done.
-                let counted = counted_in(&folder.join(progress.shard(index).result()));
-                stands = counted.is_some();
-                let (finished, ended) = counted.unwrap_or_default();
+            // Runs of a result that is gone are gone; those of one that stands are counted there, whatever was
+            // told of them.
+            let counted = found.and_then(Standing::runs).filter(|_| !failed);
+            let stands = counted.is_some();
+            if let Some((finished, ended)) = counted {
                 progress.count(finished, ended);
-            }
-            // Runs of a result that is gone are gone; those of one that stands were told when it was done.
-            let is_told = |b: &&Beat| stands == (b.state == State::Done);
-            if let Some(beat) = beat.as_ref().filter(is_told) {
+            } else if let Some(beat) = beat.as_ref().filter(|beat| beat.state != State::Done) {
                 progress.count(beat.finished, [beat.failed, beat.collapsed]);
             }
             if let Some(beat) = &beat {
@@ -353,9 +395,13 @@ impl Progress {
     }
 
     fn count(&mut self, finished: usize, [failed, collapsed]: [usize; 2]) {
-        self.finished += finished;
-        self.failed += failed;
-        self.collapsed += collapsed;
+        for (sum, count) in [
+            (&mut self.finished, finished),
+            (&mut self.failed, failed),
+            (&mut self.collapsed, collapsed),
+        ] {
+            *sum = sum.saturating_add(count);
+        }
     }
 
     fn is_done(&self) -> bool {
@@ -438,6 +484,12 @@ impl Progress {
         if !self.missing.is_empty() {
             text.push_str(&format!("  not begun: {}\n", ranges(&self.missing)));
         }
+        for path in self.damaged.iter().take(SHOWN) {
+            text.push_str(&format!(
+                "  {} is a damaged status file, which is left out: delete it\n",
+                path.display()
+            ));
+        }
         let rate: f64 = self.running.iter().map(|of| of.rate).sum();
         if rate > 0.0 {
             let left = self.running.iter().filter_map(|of| of.remaining_seconds);
@@ -491,13 +543,6 @@ fn moved(path: &Path) -> String {
     format!("mv {} && ", shell_line(&words))
 }
 
-/// How many runs stand in the result of a shard, and how many of them failed and collapsed; `None` if it
-/// is damaged.
-fn counted_in(result: &Path) -> Option<(usize, [usize; 2])> {
-    let result = ResultReader::open(result, WithoutChecksum::Refuse).ok()?;
-    Some((result.rows, result.failed_and_collapsed().ok()?))
-}
-
 impl Of {
     /// One that has told nothing of itself.
     fn untold(shard: usize, how: String) -> Self {
@@ -536,7 +581,7 @@ fn how(beat: &Beat, found: Option<&Standing>) -> String {
         }
         State::Done => text.push_str(&match found.and_then(Standing::of_no_use) {
             Some(why) => format!("; {why}"),
-            None => "; it was done, but its result is gone or cut off".to_owned(),
+            None => "; it was done, but its result is gone or damaged".to_owned(),
         }),
         State::Interrupted => text.push_str(&format!(", {} stored; interrupted", beat.stored)),
         State::Failed => text.push_str(&format!("; {}", beat.message)),

@@ -2,7 +2,7 @@
 #![cfg(unix)]
 
 use std::os::unix::fs::PermissionsExt;
-use std::process::{Command, Stdio};
+use std::process::{Command, Output, Stdio};
 
 use super::fixture::{Fixture, message};
 use crate::support::part_files::no_part_file;
@@ -334,4 +334,87 @@ fn an_empty_name_is_no_file() {
         assert!(said.contains("the name of a file is empty"), "{said}");
     }
     assert_eq!(std::fs::read_dir(fixture.path("")).unwrap().count(), before);
+}
+
+/// What an argument names is replaced with a note where it is no earlier output of the same kind, whichever
+/// command writes it.
+#[test]
+fn what_is_replaced_is_named() {
+    let fixture = Fixture::new();
+    let run = |command: &str| fixture.run(&command.split(' ').collect::<Vec<_>>());
+    for (command, file, again) in [
+        ("motion convert record.csv -o", "mine.toml", true),
+        ("motion spectrum record.csv --csv", "mine.csv", true),
+        ("motion spectrum record.csv --svg", "mine.svg", true),
+        ("sweep study.toml -o new.h5 --csv", "table.csv", true),
+        ("gap case.toml --points 2 --csv", "gap.csv", true),
+        ("gap case.toml --points 0 --report", "page.html", true),
+        ("report run.h5 -o", "report.html", true),
+    ] {
+        run("run case.toml -o run.h5");
+        std::fs::write(fixture.path(file), "mine\n").unwrap();
+        let note = format!("{file} is replaced, which was no");
+        let output = run(&format!("{command} {file}"));
+        let told = message(&output);
+        // A gap may be too small.
+        let answered = |output: &Output| output.status.code().is_some_and(|code| code < 2);
+        assert!(answered(&output), "{command}: {told}");
+        assert_eq!(told.matches(&note).count(), 1, "{command}: {told}");
+        let output = run(&format!("{command} {file}"));
+        let told = message(&output);
+        assert!(answered(&output), "{command}: {told}");
+        assert_eq!(!told.contains(&note), again, "{command}: {told}");
+    }
+    // A record of another file, and the pages of a folder.
+    let told = message(&run("motion convert second.csv -o mine.toml"));
+    assert!(told.contains("mine.toml is replaced"), "{told}");
+    std::fs::create_dir(fixture.path("man")).unwrap();
+    std::fs::write(fixture.path("man/pounding-run.1"), "mine\n").unwrap();
+    let told = message(&run("man --pages man"));
+    assert_eq!(told.matches("is replaced").count(), 1, "{told}");
+    assert!(told.contains("pounding-run.1 is replaced"), "{told}");
+    let told = message(&run("man --pages man"));
+    assert!(!told.contains("is replaced"), "{told}");
+}
+
+/// What a process has opened is no place for a file: neither the link is replaced that leads there, nor what
+/// the shell writes into.
+#[cfg(target_os = "linux")]
+#[test]
+fn descriptors_are_no_outputs() {
+    let fixture = Fixture::new();
+    std::os::unix::fs::symlink("/proc/self/fd/1", fixture.path("link")).unwrap();
+    for command in [
+        "motion convert record.csv -o",
+        "gap case.toml --points 0 --csv",
+        "gap case.toml --points 0 -o",
+        "run case.toml -o",
+        "sweep study.toml -o new.h5 --csv",
+    ] {
+        for output in ["link", "/proc/self/fd/1"] {
+            for before in ["echo precious > log;", "echo precious > log; rm log;"] {
+                let program = env!("CARGO_BIN_EXE_pounding");
+                let script = match before.contains("rm") {
+                    false => format!("{before} {program} {command} {output} >> log"),
+                    true => format!(
+                        "echo precious > log; exec 3>> log; rm log; {program} {command} {output} >&3"
+                    ),
+                };
+                let output = Command::new("sh")
+                    .args(["-c", &script])
+                    .env("NO_COLOR", "1")
+                    .current_dir(fixture.path("."))
+                    .output()
+                    .unwrap();
+                let told = message(&output);
+                assert_eq!(output.status.code(), Some(4), "{script}: {told}");
+                assert!(told.contains("not a regular file"), "{script}: {told}");
+                assert!(fixture.path("link").is_symlink(), "{script}");
+                if !before.contains("rm") {
+                    let log = std::fs::read(fixture.path("log")).unwrap();
+                    assert!(log.starts_with(b"precious"), "{script}");
+                }
+            }
+        }
+    }
 }

@@ -304,3 +304,95 @@ fn a_merged_result_says_of_which_study_it_is() {
     bench.text("sweep study.toml -o whole.h5");
     assert!(bench.bytes("given.h5") == bench.bytes("whole.h5"));
 }
+
+/// The table of a merge takes the place of no result, shard or answer, and nothing does of what the shards
+/// keep beside their results.
+#[test]
+fn the_table_of_a_merge_spares_what_a_study_has_made() {
+    let bench = Bench::new(&MIXED.replace("MOTIONS/el_centro_1940_ns.csv", "own.csv"));
+    let record = super::root().join("ground_motions/el_centro_1940_ns.csv");
+    std::fs::copy(record, bench.path("own.csv")).unwrap();
+    for shard in 1..=2 {
+        bench.text(&format!("sweep study.toml --shard {shard}/2 --into all"));
+    }
+    bench.text("sweep study.toml --shard 1/2 -o other.h5");
+    bench.text("run case.toml -o run.h5");
+    bench.run("gap case.toml --points 0 -o answer.json");
+    assert!(bench.path("answer.json").is_file());
+    bench.text("gap case.toml --points 2 --shard 1/2 --into checks");
+    let store = |folder: &str, list: bool| {
+        let mut files: Vec<String> = std::fs::read_dir(bench.path(folder))
+            .unwrap()
+            .map(|e| format!("{folder}/{}", e.unwrap().file_name().to_str().unwrap()))
+            .filter(|name| name.ends_with("list.json") == list)
+            .collect();
+        files.sort();
+        files
+    };
+    let mut kept = vec![
+        "run.h5".to_owned(),
+        "other.h5".to_owned(),
+        "answer.json".to_owned(),
+        "checks/case.gap-shard-1-of-2.runs".to_owned(),
+    ];
+    kept.extend(store("all/records", false));
+    kept.extend(store("all/records", true));
+    kept.extend(store("all/status", false));
+    for file in &kept {
+        let before = bench.bytes(file);
+        for command in [
+            "merge all -o merged.h5 --csv",
+            "gap case.toml --points 0 --csv",
+            "motion convert own.csv -o",
+            "run case.toml -o",
+        ] {
+            // A result is replaced by one of its kind.
+            let replaces = command.starts_with("run") && file == "run.h5";
+            // The ending of a table may be refused before.
+            if !replaces {
+                let output = bench.run(&format!("{command} {file}"));
+                assert_ne!(output.status.code(), Some(0), "{command} {file}");
+                assert!(bench.bytes(file) == before, "{command} {file}");
+            }
+        }
+        let told = bench.run(&format!("merge all -o merged.h5 --csv {file}"));
+        assert_eq!(told.status.code(), Some(4), "{file}");
+    }
+    bench.text("merge all -o merged.h5 --csv table.csv");
+}
+
+/// A check reads what a merge reads: rows of other runs, and damage below a checksum that matches.
+#[test]
+fn a_check_reads_all_rows() {
+    let bench = Bench::new(MIXED);
+    shards(&bench, 2);
+    std::fs::create_dir(bench.path("all")).unwrap();
+    for shard in 1..=2 {
+        let to = bench.path(&format!("all/study.shard-{shard}-of-2.h5"));
+        std::fs::copy(bench.path(&format!("{shard}.h5")), to).unwrap();
+    }
+    // A file of another name is not merged, which is said.
+    std::fs::copy(bench.path("2.h5"), bench.path("all/copy.h5")).unwrap();
+    for command in ["merge all --check", "merge all -o merged.h5"] {
+        let output = bench.run(command);
+        assert_eq!(output.status.code(), Some(0));
+        let told = String::from_utf8(output.stderr).unwrap();
+        let note = "all/copy.h5 holds shard 2/2 of a study and is not called as a shard is";
+        assert_eq!(told.matches(note).count(), 1, "{told}");
+    }
+    // Runs that are not those of the shard.
+    let path = bench.path("1.h5");
+    let file = hdf5::File::open_rw(&path).unwrap();
+    let run = file.dataset("run").unwrap();
+    let mut runs: Vec<i64> = run.read_raw().unwrap();
+    runs[0] += 1;
+    run.write_raw(&runs).unwrap();
+    drop((run, file));
+    pounding_files::checksum::append(&path).unwrap();
+    let told = bench.complaint("merge 1.h5 2.h5 -o out.h5", 2);
+    assert!(told.contains("1.h5 does not have the runs 0 to"), "{told}");
+    let output = bench.run("merge 1.h5 2.h5 --check");
+    assert_eq!(output.status.code(), Some(1));
+    let told = String::from_utf8(output.stdout).unwrap();
+    assert!(told.contains("1.h5 does not have the runs 0 to"), "{told}");
+}

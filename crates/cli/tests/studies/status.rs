@@ -202,10 +202,92 @@ fn what_cannot_be_merged_is_not_done() {
     let refused = bench.run("sweep study.toml --shard 1/2 --into all --keep-going");
     assert_eq!(refused.status.code(), Some(2));
     assert_eq!(bench.bytes(&result), before);
-    let output = bench.run("status all");
-    assert_eq!(output.status.code(), Some(1));
-    let told = String::from_utf8(output.stdout).unwrap();
-    assert!(told.contains("1 of 2 shards done"), "{told}");
+    // What stands there is done all the same, be it told of or not.
+    assert!(bench.text("status all").contains("2 of 2 shards done"));
+    std::fs::remove_dir_all(bench.path("all/status")).unwrap();
+    let refused = bench.run("sweep study.toml --shard 1/2 --into all --keep-going");
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(bench.text("status all").contains("2 of 2 shards done"));
+}
+
+/// What a damaged status file says is not counted, and it is named; runs of finished shards are counted
+/// where they stand.
+#[test]
+fn damaged_status_files_are_named() {
+    let bench = Bench::new(MIXED);
+    for shard in 1..=2 {
+        bench.text(&format!("sweep study.toml --shard {shard}/2 --into all"));
+    }
+    let whole = bench.text("status all");
+    assert!(whole.contains("60 runs finished\n"), "{whole}");
+    let name = bench.folder.path().canonicalize().unwrap();
+    let name = name.file_name().unwrap().to_str().unwrap().to_owned();
+    let file = format!("all/status/{name}.shard-1-of-2.json");
+    let beat: Value = serde_json::from_slice(&bench.bytes(&file)).unwrap();
+    let with = |changes: &[(&str, Value)]| {
+        let mut beat = beat.clone();
+        for (key, value) in changes {
+            beat[*key] = value.clone();
+        }
+        std::fs::write(bench.path(&file), beat.to_string()).unwrap();
+    };
+    let most = json!(u64::MAX);
+    for changes in [
+        &[("finished", most.clone())][..],
+        &[("runs", most.clone()), ("finished", most)],
+        &[("finished", json!(7)), ("failed", json!(400))],
+        &[("failed", json!(99_999))],
+        &[("rate", json!(-1.0))],
+    ] {
+        with(changes);
+        let told = bench.text("status all");
+        let named = format!("{file} is a damaged status file");
+        assert!(told.contains(&named), "{told}");
+        assert!(told.contains("60 runs finished\n"), "{told}");
+        let json: Value = serde_json::from_str(&bench.text("status all --json")).unwrap();
+        assert_eq!(json["studies"][0]["finished"], 60);
+        assert_eq!(json["studies"][0]["damaged_status_files"], json!([file]));
+    }
+    // Numbers that can be, of other runs than stand there.
+    with(&[("finished", json!(20)), ("failed", json!(20))]);
+    assert_eq!(bench.text("status all"), whole);
+}
+
+/// A shard is what its content says: a copy of another one is not done, and neither is one that was changed
+/// anywhere.
+#[test]
+fn a_shard_is_what_stands_in_it() {
+    let bench = Bench::new(MIXED);
+    for shard in 1..=2 {
+        bench.text(&format!("sweep study.toml --shard {shard}/2 --into all"));
+    }
+    let name = bench.folder.path().canonicalize().unwrap();
+    let name = name.file_name().unwrap().to_str().unwrap().to_owned();
+    let [first, second] = [1, 2].map(|shard| format!("all/{name}.shard-{shard}-of-2.h5"));
+    let whole = bench.bytes(&first);
+    let told = || {
+        let output = bench.run("status all");
+        assert_eq!(output.status.code(), Some(1));
+        let told = String::from_utf8(output.stdout).unwrap();
+        assert!(told.contains("1 of 2 shards done"), "{told}");
+        told
+    };
+    std::fs::copy(bench.path(&second), bench.path(&first)).unwrap();
+    let copied = told();
+    assert!(
+        copied.contains("the file of its result holds shard 2/2"),
+        "{copied}"
+    );
+    assert!(copied.contains("28 runs finished"), "{copied}");
+    let mut damaged = whole.clone();
+    damaged[whole.len() / 2] ^= 1;
+    std::fs::write(bench.path(&first), damaged).unwrap();
+    let damaged = told();
+    assert!(
+        damaged.contains("its result is gone or damaged"),
+        "{damaged}"
+    );
+    goes_on_as_told(&bench);
 }
 
 /// A call that is refused since a record has changed leaves the finished shard, and what was told of

@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use pounding_files::checksum::{Checksum, WithoutChecksum};
 
 use super::{Description, Part, ResultReader, Row, StudyFileError, Value, numbers, ranges};
-use crate::Stamp;
+use crate::{Label, Stamp};
 
 /// How shards are merged.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -98,18 +98,20 @@ impl Distinct {
 }
 
 /// Looks at the results of shards one after another, each of which is read to its end and
-/// compared with its checksum. The study is that of most files.
+/// compared with its checksum, and of which all rows are read as a merge reads them. The study is that of
+/// most files.
 #[must_use]
 pub fn survey(files: &[PathBuf], without: WithoutChecksum) -> Survey {
-    look(files, without).0
+    look(files, without, true).0
 }
 
-fn look(files: &[PathBuf], without: WithoutChecksum) -> (Survey, Vec<String>) {
+/// See [`survey`]; a merge reads the `rows` later.
+fn look(files: &[PathBuf], without: WithoutChecksum, rows: bool) -> (Survey, Vec<String>) {
     let mut survey = Survey::default();
     let (mut builds, mut versions) = (Distinct::default(), Distinct::default());
     let mut heads = Vec::new();
     for path in files {
-        match head(path, without, &mut builds, &mut versions) {
+        match head(path, (without, rows), &mut builds, &mut versions) {
             Ok(head) => heads.push(head),
             Err(error) => survey.faults.push(Fault {
                 path: path.clone(),
@@ -202,19 +204,33 @@ fn of_most(heads: &[Head]) -> Option<usize> {
 /// What is kept of one file, which is closed again.
 fn head(
     path: &Path,
-    without: WithoutChecksum,
+    (without, rows): (WithoutChecksum, bool),
     builds: &mut Distinct,
     versions: &mut Distinct,
 ) -> Result<Head, StudyFileError> {
     let reader = ResultReader::open(path, without)?;
-    if reader.checksum == Checksum::Absent {
-        // Read to its end: if that fails, or brings the HDF5 library down, nothing is
+    let d = &reader.description;
+    if let Some(label) = Label::of(path).and_then(|label| label.study)
+        && (label.part != d.part || label.sha256 != d.study_sha256)
+    {
+        return Err(StudyFileError::Merge {
+            reason: format!(
+                "{} is damaged: its label says that it is {}, its content that it is {}",
+                path.display(),
+                label.part,
+                d.part
+            ),
+        });
+    }
+    if rows || reader.checksum == Checksum::Absent {
+        // Of a file without a checksum: if reading fails, or brings the HDF5 library down, nothing is
         // written yet.
-        for start in (0..reader.rows).step_by(READ_AT_ONCE) {
-            reader.block(start..(start + READ_AT_ONCE).min(reader.rows))?;
+        for number in 0..d.runs.div_ceil(d.chunk) {
+            if d.part.place(number).is_some() {
+                rows_of_chunk(&reader, path, number)?;
+            }
         }
     }
-    let d = &reader.description;
     let builds = match several(&d.build, &d.part) {
         Some(lines) => lines
             .into_iter()
@@ -231,6 +247,30 @@ fn head(
         builds,
         version: versions.number(&d.version),
         stamp: reader.stamp.clone(),
+    })
+}
+
+/// The rows of a chunk of the study, which are those of its runs.
+fn rows_of_chunk(
+    reader: &ResultReader,
+    path: &Path,
+    number: usize,
+) -> Result<Vec<(Row, Vec<Value>)>, StudyFileError> {
+    let d = &reader.description;
+    let start = number * d.chunk;
+    let expected = d.chunk.min(d.runs - start);
+    let from = d.part.place(number).unwrap_or_default() * d.chunk;
+    let block = reader.block(from..(from + expected).min(reader.rows))?;
+    let found = block.iter().map(|(row, _)| row.run);
+    if block.len() == expected && found.eq(start..start + expected) {
+        return Ok(block);
+    }
+    Err(StudyFileError::Merge {
+        reason: format!(
+            "{} does not have the runs {start} to {}",
+            path.display(),
+            start + expected - 1
+        ),
     })
 }
 
@@ -276,7 +316,7 @@ impl Shards {
     /// [`StudyFileError::Merge`] if the files are not all shards of one study,
     /// [`StudyFileError::MixedBuilds`], or [`StudyFileError::File`].
     pub fn open(files: &[PathBuf], options: MergeOptions) -> Result<Self, StudyFileError> {
-        let (survey, versions) = look(files, options.without_checksum);
+        let (survey, versions) = look(files, options.without_checksum, false);
         let wrong = |reason: String| StudyFileError::Merge { reason };
         let others = survey.faults.len().saturating_sub(1);
         if let Some(fault) = survey.faults.into_iter().next() {
@@ -409,22 +449,7 @@ impl Shards {
                 let head = &self.heads[owner];
                 let reader = ResultReader::open_again(&head.path, &head.stamp)?;
                 for at in places {
-                    let (number, _) = window[at];
-                    let start = number * chunk;
-                    let expected = chunk.min(runs - start);
-                    let from = head.part.place(number).unwrap_or_default() * chunk;
-                    let block = reader.block(from..(from + expected).min(reader.rows))?;
-                    let found = block.iter().map(|(r, _)| r.run);
-                    if block.len() != expected || !found.eq(start..start + expected) {
-                        return Err(E::from(StudyFileError::Merge {
-                            reason: format!(
-                                "{} does not have the runs {start} to {}",
-                                head.path.display(),
-                                start + expected - 1
-                            ),
-                        }));
-                    }
-                    rows[at] = block;
+                    rows[at] = rows_of_chunk(&reader, &head.path, window[at].0)?;
                 }
             }
             for (row, point) in rows.into_iter().flatten() {
@@ -439,9 +464,6 @@ impl Shards {
 const HELD: usize = 32 << 20;
 /// Memory of a row beside its values (bytes).
 const ROW: usize = 160;
-
-/// Rows that are read at once to see whether they can be read.
-const READ_AT_ONCE: usize = 1024;
 
 /// Says which shards are missing, as far as a list helps anybody.
 fn missing(missing: &[usize], count: usize) -> String {

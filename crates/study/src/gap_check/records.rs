@@ -272,8 +272,10 @@ fn no_record(file: &Path) -> Option<&'static str> {
         return Some(what);
     }
     let mut first = [0; 2];
-    let read = std::fs::File::open(file).and_then(|mut f| f.read_exact(&mut first));
-    (read.is_ok() && first == *b"#!").then_some("a script")
+    // A pipe may never begin.
+    let open = || std::fs::File::open(file);
+    let read = file.is_file() && open().is_ok_and(|mut f| f.read_exact(&mut first).is_ok());
+    (read && first == *b"#!").then_some("a script")
 }
 
 /// A record that counts twice would make the answer look surer than it is.

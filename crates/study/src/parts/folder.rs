@@ -78,7 +78,7 @@ impl Parts {
             let path = path.clone();
             move |source| StudyError::File { what, path, source }
         };
-        match std::fs::read_to_string(&path) {
+        match pounding_files::input::read_to_string(&path) {
             Ok(text) if text != self.study => Err(self.other(&text)),
             Ok(_) => {
                 self.look();
@@ -142,6 +142,16 @@ impl Parts {
         Some(self.pieces.get(usize::try_from(piece).ok()?)?.as_path())
     }
 
+    /// How many runs are stored in pieces that are still there.
+    pub(crate) fn standing(&self) -> usize {
+        let there: Vec<bool> = self.pieces.iter().map(|piece| piece.is_file()).collect();
+        let stands = |piece: &&u32| {
+            let number = usize::try_from(**piece).ok();
+            number.and_then(|number| there.get(number)) == Some(&true)
+        };
+        self.stored.iter().filter(stands).count()
+    }
+
     /// Runs that are not stored, in order.
     pub(crate) fn left(&self) -> Vec<usize> {
         let all = self.chunks.iter().flat_map(Clone::clone);
@@ -193,7 +203,7 @@ impl Parts {
     /// Whether finished runs of this very study, shard and build are kept for a result.
     pub(crate) fn hold(result: &Path, study: &str) -> bool {
         let path = Self::folder(result).join(STUDY);
-        std::fs::read_to_string(path).is_ok_and(|text| text == study)
+        pounding_files::input::read_to_string(&path).is_ok_and(|text| text == study)
     }
 
     /// Removes the folder of a result that stands complete, if it holds runs of this very
@@ -309,6 +319,11 @@ fn lock(folder: &Path) -> Result<File, StudyError> {
     loop {
         tries += 1;
         std::fs::create_dir_all(folder).map_err(failed("make the folder", folder))?;
+        // A pipe would be waited for until somebody reads it.
+        if path.metadata().is_ok_and(|found| !found.is_file()) {
+            let source = Error::other("this is no regular file");
+            return Err(failed("write", &path)(source));
+        }
         let lock = match File::create(&path) {
             // Another process has finished and removed the folder in between.
             Err(e) if e.kind() == ErrorKind::NotFound && tries < TRIES => continue,

@@ -79,7 +79,7 @@ impl SharedRecords {
         // Periods of buildings and target spectra, which records are measured by or fitted to.
         named_files(study).iter().for_each(|f| hash.update(f));
         let study = hexadecimal(&hash.finalize());
-        let list = std::fs::read(folder.join(LIST)).ok();
+        let list = pounding_files::input::read(&folder.join(LIST)).ok();
         let list = list.and_then(|text| serde_json::from_slice::<List>(&text).ok());
         let list = list.filter(|list| list.study == study);
         Self {
@@ -177,7 +177,7 @@ pub(super) fn copy(folder: &Path, source: &RecordSource, sha256: &str) -> Option
     };
     let path = folder.join(FOLDER).join(name(&file(source)?, sha256));
     let path = std::path::absolute(path).ok()?;
-    let bytes = std::fs::read(&path).ok()?;
+    let bytes = pounding_files::input::read(&path).ok()?;
     if hexadecimal(&Sha256::digest(bytes)) != sha256 {
         return None;
     }

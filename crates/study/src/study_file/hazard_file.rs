@@ -4,7 +4,7 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use pounding_case::document::schema_of;
-use pounding_case::{Dimension, parse_quantity, read_text};
+use pounding_case::{Dimension, parse_quantity, read_regular_text};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
 use super::IntensityMeasure;
@@ -108,7 +108,7 @@ struct Table<'t> {
 /// # Errors
 /// A file that cannot be read.
 pub(super) fn text(path: &Path) -> Result<String, Vec<Refusal>> {
-    read_text(path, "hazard").map_err(|e| {
+    read_regular_text(path, "hazard").map_err(|e| {
         let relative = "a path in a study is relative to the folder of the study".to_owned();
         let help = match path.is_file() {
             true => e.help.clone().unwrap_or(relative),

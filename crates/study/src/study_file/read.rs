@@ -297,7 +297,7 @@ fn read_case(reader: &Reader<'_>, name: Field<String>, context: &mut Context, ow
         return;
     };
     let path = context.folder.join(name);
-    let source = match pounding_case::read_text(&path, "case") {
+    let source = match pounding_case::read_regular_text(&path, "case") {
         Ok(source) => source,
         Err(e) => {
             let relative = "`case` is relative to the folder of the study".to_owned();

@@ -98,6 +98,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     if let Some(line) = last.filter(|line| !in_columns(*line) && !source.ends_in_a_line_end())
         && rows > 0
         && others == 1
+        && line.bytes.len() <= COUNTS.width * COUNTS.per_line
         && line.bytes.trim_ascii_end().len() % COUNTS.width != COUNTS.width - 1
         && let Some((column, field)) = line.fields().last()
     {

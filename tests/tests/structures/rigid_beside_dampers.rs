@@ -40,7 +40,7 @@ fn row(random: &mut ChaCha20Rng, yields: bool) -> String {
     text + "[ground_motion]\nfile = \"../ground_motions/el_centro_1940_ns.csv\"\n[analysis]\nduration = 4\n"
 }
 
-/// The row of a user, in which a damper came to its transition velocity while floors were held.
+/// A row in which a damper came to its transition velocity while floors were held.
 const STOPPED: &str = r#"
 [[building]]
 name = "b0"
@@ -92,7 +92,7 @@ duration = 3.2
 "#;
 
 /// Two methods that find events, and one of fixed steps, which has nothing in common with them but
-/// the laws: it took 158.954 kJ in a second program's hands as well.
+/// the laws.
 fn by_three_methods(text: &str) -> [Outcome; 3] {
     let assembly = assembled(text);
     let methods = [
@@ -111,7 +111,7 @@ fn by_three_methods(text: &str) -> [Outcome; 3] {
     methods.map(|method| {
         let options = RunOptions {
             method,
-            ..assembly.options.clone()
+            ..assembly.options
         };
         go(&assembly.system, &options)
     })
@@ -137,6 +137,7 @@ fn agree(text: &str) {
 #[test]
 fn dampers_at_their_transition_velocity() {
     agree(STOPPED);
+    // By Newmark and by Runge and Kutta's fourth order with 0.2 ms, which do not locate branches.
     let [events, ..] = by_three_methods(STOPPED);
     assert!((events.energy.end.input / 158.954e3 - 1.0).abs() < 1e-4);
 }

@@ -43,7 +43,7 @@ pub struct HysteresisArguments {
     #[arg(long, default_value = "500", value_parser = clap::value_parser!(u32).range(1..=100_000))]
     pub steps: u32,
 
-    /// Dissipation of steady cycles over amplitudes from the first to the second, such as
+    /// Dissipation of cycles over amplitudes from the first to the second, such as
     /// "0.1 mm,10 mm", and its log-log slope
     #[arg(
         long,

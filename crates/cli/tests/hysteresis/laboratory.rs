@@ -178,6 +178,38 @@ fn the_dissipation_curve_of_micro_slip_is_a_power() {
     close(&pairs[8][0], 9.0e-5, 1.0e-12);
 }
 
+/// Cycles of a law that deteriorates are not steady: the second and the third are those of a loop that
+/// stays at the amplitude.
+#[test]
+fn cycles_that_are_not_steady_are_said_to_be_none() {
+    let law = "ibarra_medina_krawinkler_2005_bilinear";
+    let asked = format!("{law} --dissipation 40mm,50mm --points 2");
+    let result = json(&asked);
+    let found = &result["dissipation"]["unsteady"];
+    close(&found["amplitude"], 0.05, 1.0e-12);
+    let cycles = json(&format!("{law} --cycles 50mm,50mm,50mm --steps 1000"));
+    let cycles = &cycles["loop"]["cycles"];
+    close(
+        &found["second_cycle"],
+        number(&cycles[1]["dissipated"]),
+        1.0e-9,
+    );
+    close(
+        &found["third_cycle"],
+        number(&cycles[2]["dissipated"]),
+        1.0e-9,
+    );
+    assert!(number(&found["third_cycle"]) < 0.9 * number(&found["second_cycle"]));
+    let shown = text(&asked);
+    assert!(
+        shown.contains("not steady") && !shown.contains("Steady cycles"),
+        "{shown}"
+    );
+    let steady = format!("{BILINEAR} --dissipation 20mm,50mm --points 2");
+    assert!(text(&steady).contains("Steady cycles"));
+    assert_eq!(json(&steady)["dissipation"]["unsteady"], Value::Null);
+}
+
 #[test]
 fn a_history_is_followed_row_by_row() {
     let folder = tempfile::tempdir().unwrap();

@@ -1,4 +1,4 @@
-//! Dissipation of steady cycles over their amplitude.
+//! Dissipation of cycles over their amplitude, each the second one of a new element.
 
 use pounding_case::Dimension;
 use pounding_catalogue::numbers::significant;
@@ -18,7 +18,31 @@ pub struct DissipationCurve {
     pub pairs: Vec<(f64, f64)>,
     /// Period of the cycles (s) where it matters.
     period: Option<f64>,
+    /// Where the third cycle differs most from the second: its amplitude (m) and energies (J); `None`
+    /// where cycles are steady.
+    unsteady: Option<Unsteady>,
 }
+
+/// Two cycles of one amplitude that differ.
+#[derive(Debug, Clone, Copy, Serialize)]
+struct Unsteady {
+    /// Amplitude (m).
+    amplitude: f64,
+    /// Energy of the second cycle (J).
+    second_cycle: f64,
+    /// Energy of the third (J).
+    third_cycle: f64,
+}
+
+impl Unsteady {
+    fn difference(&self) -> f64 {
+        (self.third_cycle - self.second_cycle).abs()
+            / self.second_cycle.abs().max(self.third_cycle.abs())
+    }
+}
+
+/// Part of its energy by which a steady cycle differs at most from the one before it.
+const STEADY: f64 = 1.0e-3;
 
 /// The curve of the arguments, if they ask for one.
 pub fn curve(
@@ -49,8 +73,23 @@ pub fn curve(
         period: period(arguments)?,
     };
     let pairs = checked_dissipation_curve(specimen, &amplitudes, cycling)?;
+    let later = Cycling {
+        cycles_before: cycling.cycles_before + 1,
+        ..cycling
+    };
+    let third = checked_dissipation_curve(specimen, &amplitudes, later)?;
+    let both = pairs.iter().zip(&third);
+    let both = both.map(|((amplitude, second), (_, third))| Unsteady {
+        amplitude: *amplitude,
+        second_cycle: *second,
+        third_cycle: *third,
+    });
+    let unsteady = both
+        .filter(|cycles| cycles.difference() > STEADY)
+        .max_by(|a, b| a.difference().total_cmp(&b.difference()));
     Ok(Some(DissipationCurve {
         pairs,
+        unsteady,
         period: specimen.descriptor.rate_dependent.then_some(cycling.period),
     }))
 }
@@ -87,8 +126,20 @@ impl DissipationCurve {
         let how = self.period.map_or_else(String::new, |period| {
             format!(", harmonic, {} s each", significant(period))
         });
+        let (which, remark) = match &self.unsteady {
+            None => ("Steady cycles", String::new()),
+            Some(cycles) => (
+                "Second cycle of each amplitude",
+                format!(
+                    "Cycles of this law are not steady: at {0} mm the third dissipates {1} J after {2} J of the second; --cycles \"{0} mm, {0} mm, {0} mm\" follows them\n",
+                    significant(1.0e3 * cycles.amplitude),
+                    significant(cycles.third_cycle),
+                    significant(cycles.second_cycle)
+                ),
+            ),
+        };
         format!(
-            "\nSteady cycles{how}\n{table}\nslope of all by least squares: {}\n",
+            "\n{which}{how}\n{table}\nslope of all by least squares: {}\n{remark}",
             shown(self.slope())
         )
     }
@@ -100,6 +151,7 @@ impl DissipationCurve {
             curve: &self.pairs,
             log_log_slope: self.slope(),
             period: self.period,
+            unsteady: self.unsteady,
         }
     }
 }
@@ -111,4 +163,6 @@ pub struct ShownCurve<'c> {
     curve: &'c [(f64, f64)],
     log_log_slope: Option<f64>,
     period: Option<f64>,
+    /// Where the third cycle differs most from the second; `null` where cycles are steady.
+    unsteady: Option<Unsteady>,
 }

@@ -26,7 +26,7 @@ pub use chart::{Chart, DASHES, PAGE};
 pub use conversion::{Converted, PictureFormat};
 pub use error::ReportError;
 pub use figure::{Curve, Panel, Reference, figure, figure_with_references};
-pub use loops::cycle_cells;
+pub use loops::{CYCLE_COLUMNS, cycle_cells};
 pub use result::{
     BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResponses,
     LevelResult, LinkResult, NamedResponse, RunResult, StoreyPeaks, Table,

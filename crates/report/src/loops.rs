@@ -83,7 +83,17 @@ fn distance(point: Point, from: Point, to: Point) -> f64 {
     (x - part * along_x).hypot(y - part * along_y)
 }
 
-/// Ends (mm), force (kN), energy (J), stiffness (kN/m) and damping (%) of a cycle, as texts.
+/// What [`cycle_cells`] shows of a cycle. A cycle of a history begins at either of its extremes.
+pub const CYCLE_COLUMNS: [&str; 6] = [
+    "greatest (mm)",
+    "least (mm)",
+    "peak force (kN)",
+    "dissipated (J)",
+    "secant stiffness (kN/m)",
+    "equivalent damping (%)",
+];
+
+/// Extremes (mm), force (kN), energy (J), stiffness (kN/m) and damping (%) of a cycle, as texts.
 #[must_use]
 pub fn cycle_cells(cycle: &Cycle) -> [String; 6] {
     let range = cycle.maximum - cycle.minimum;

@@ -12,7 +12,9 @@ use pounding_case::Case;
 use pounding_catalogue::numbers::{fixed, shown_unit, six_digits};
 use pounding_catalogue::wording::counted;
 use pounding_gap_element::Verification;
-use pounding_time_history::{ContactLevel, LevelOutcome, NamedPeak, Outcome, Peak, System};
+use pounding_time_history::{
+    ContactLevel, LevelOutcome, NamedPeak, Outcome, Peak, System, VELOCITY_JUMPS,
+};
 
 pub use collapsed::collapsed;
 use elements::kilojoules;
@@ -215,7 +217,7 @@ fn gap(run: &Run<'_>, index: usize) -> String {
     let mut text = format!("\nGap {} ({model}): {total}\n{table}\n", gap.name);
     text.push_str(&secondary_sources(levels));
     if rigid {
-        text.push_str("Rigid impacts are jumps of the velocity: they have impulses, and floor accelerations leave them out.\n");
+        text.push_str(&format!("{VELOCITY_JUMPS}\n"));
     }
     text.push_str(&held_and_widened(&outcome.levels, levels));
     text.push_str(&isolators::clearances(&outcome.levels, levels));

@@ -43,10 +43,15 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
         &provided(answer),
     ));
     if !answer.at("/sweep").is_null() {
-        let inside = note(
-            "Peaks with pounding over those of the isolated buildings at many widths, the maximum over \
+        let varied = match answer.text("/sweep/gap") {
+            "" if gaps > 1 => "of all gaps, all of the same width".to_owned(),
+            "" => "of the gap".to_owned(),
+            gap => format!("of gap {gap}, the others as provided"),
+        };
+        let inside = note(&format!(
+            "Peaks with pounding over those of the isolated buildings at many widths {varied}, the maximum over \
              storeys and records: a gap a little too small can be worse than none.",
-        );
+        ));
         let inside = inside + &pictures(drawn.iter().filter(|p| p.name == WIDTHS)) + &swept(answer);
         body.push_str(&section("Other widths", &inside));
     }

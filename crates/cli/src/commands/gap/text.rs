@@ -6,6 +6,7 @@ use pounding_shear_building::OVERTURNING_RATIO;
 use pounding_study::gap_check::{
     Amplification, GapCheck, GapSweep, RecordDemand, collapsed_building,
 };
+use pounding_time_history::VELOCITY_JUMPS;
 
 use super::answer::answer;
 use super::rules;
@@ -211,8 +212,6 @@ fn maximum(storeys: &[Amplification], quantity: fn(&Amplification) -> f64) -> St
     format!("x{} (storey {})", decimal(top.1, 3), top.0 + 1)
 }
 
-const JUMPS: &str = "Rigid impacts are jumps of the velocity: accelerations leave them out, here and in the sweep.\n";
-
 /// Whether some impact was a jump, which has no force.
 pub fn rigid(check: &GapCheck) -> bool {
     let runs = check
@@ -264,7 +263,8 @@ fn provided(check: &GapCheck) -> String {
             table.add_row(row);
         }
     }
-    let jumps = if rigid(check) { JUMPS } else { "" };
+    let jumps = rigid(check).then(|| format!("{VELOCITY_JUMPS}\n"));
+    let jumps = jumps.unwrap_or_default();
     format!(
         "\nAt the provided gaps: maximum over storeys of the ratio of a storey's peak with pounding to that without contact\n{table}\n{failures}{jumps}{}",
         columns(check)

@@ -2,21 +2,13 @@
 
 use pounding_catalogue::numbers::significant;
 use pounding_hysteresis::laboratory::Loop;
-use pounding_report::cycle_cells;
+use pounding_report::{CYCLE_COLUMNS, cycle_cells};
 
 use crate::tables::new_table;
 
 /// The cycles in a table, below what they are.
 pub fn text(driven: &Loop, description: &str) -> String {
-    let mut table = new_table([
-        "cycle",
-        "from (mm)",
-        "to (mm)",
-        "peak force (kN)",
-        "dissipated (J)",
-        "secant stiffness (kN/m)",
-        "equivalent damping (%)",
-    ]);
+    let mut table = new_table(std::iter::once("cycle").chain(CYCLE_COLUMNS));
     for (i, cycle) in driven.cycles.iter().enumerate() {
         table.add_row(std::iter::once((i + 1).to_string()).chain(cycle_cells(cycle)));
     }

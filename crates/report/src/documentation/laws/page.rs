@@ -6,7 +6,7 @@ use pounding_hysteresis::{LawDescriptor, build};
 
 use super::super::{Head, PARAMETERS, parameter, quoted, traps};
 use super::{Example, dependence};
-use crate::loops::cycle_cells;
+use crate::loops::{CYCLE_COLUMNS, cycle_cells};
 
 /// The page as Markdown.
 pub fn page(example: &Example) -> String {
@@ -74,9 +74,11 @@ fn cycles(example: &Example) -> String {
         ""
     };
     let mut text = format!(
-        "## Example\n\n{}.{rate}\n\n![Force over deformation of the example, {1}]({1}.svg)\n\nEach cycle from its positive peak back there:\n\n| from (mm) | to (mm) | peak force (kN) | dissipated (J) | secant stiffness (kN/m) | equivalent damping (%) |\n|---|---|---|---|---|---|\n",
+        "## Example\n\n{}.{rate}\n\n![Force over deformation of the example, {1}]({1}.svg)\n\nEach cycle from its positive peak back there:\n\n| {2} |\n|{3}\n",
         values.join(", "),
         specimen.descriptor.name,
+        CYCLE_COLUMNS.join(" | "),
+        "---|".repeat(CYCLE_COLUMNS.len()),
     );
     for cycle in &example.driven.cycles {
         text.push_str(&format!("| {} |\n", cycle_cells(cycle).join(" | ")));

@@ -288,7 +288,7 @@ impl GroundMotionError {
                 "give `time_step` (at most {mean:.6} s) to have the record resampled to even steps by linear interpolation"
             ),
             Self::MissingSensitivity { .. } => {
-                "give the station's StationXML, `response = \"FILE\"` in [ground_motion] of a case, `--response FILE` with `pounding motion`; or `sensitivity` in counts per m/s2".to_owned()
+                "give the station's StationXML, `response = \"FILE\"` in [ground_motion] of a case, `--response FILE` with `pounding motion`; or `sensitivity` in counts per m/s2; or, of floats that are no counts, `unit`".to_owned()
             }
             Self::Unsupported { remedy, .. } => (*remedy).to_owned(),
             Self::Unit { .. } => "use g, mg, g/10, m/s2, cm/s2, mm/s2, gal, in/s2 or ft/s2".to_owned(),

@@ -3,7 +3,8 @@
 
 use crate::common::{self, COUNT, Fixture, all};
 use pounding_ground_motion::{
-    Format, GroundMotionError, ReadOptions, Sampling, read_all_bytes, read_bytes,
+    AccelerationUnit, Format, GroundMotionError, Offset, ReadOptions, Sampling, read_all_bytes,
+    read_bytes,
 };
 
 /// Reads the file and holds everything against the truth.
@@ -271,7 +272,7 @@ fn initial_values() {
 fn values_that_may_stand_for_missing_are_named() {
     let options = ReadOptions {
         time_step: Some(0.01),
-        unit: Some(pounding_ground_motion::AccelerationUnit::Gal),
+        unit: Some(AccelerationUnit::Gal),
         ..ReadOptions::default()
     };
     let record = read_bytes("file", b"0.1\n-999.0\n0.3\n", &options).unwrap();
@@ -367,5 +368,54 @@ fn spectra_are_refused() {
             read_all_bytes("file", bytes, &ReadOptions::default()),
             Err(GroundMotionError::Unsupported { .. })
         ));
+    }
+}
+
+/// Floats in a unit that the user names; integers are counts whatever he says, and a sensitivity
+/// makes counts of floats too.
+#[test]
+fn floats_of_mini_seed_in_a_unit() {
+    use crate::common::binary::{Seed, record};
+    let values = [1.5_f32, -0.25, 0.75];
+    let seed = |encoding: u8, data: Vec<u8>| {
+        record(&Seed {
+            channel: b"HNE",
+            encoding,
+            big: true,
+            start: 0,
+            count: 3,
+            data,
+        })
+    };
+    let floats = seed(4, values.iter().flat_map(|v| v.to_be_bytes()).collect());
+    let integers = seed(
+        3,
+        [1_i32, -5, 9]
+            .iter()
+            .flat_map(|c| c.to_be_bytes())
+            .collect(),
+    );
+    let read = |bytes: &[u8], unit: Option<AccelerationUnit>, sensitivity: Option<f64>| {
+        let options = ReadOptions {
+            unit,
+            sensitivity,
+            offset: Offset::Keep,
+            ..ReadOptions::default()
+        };
+        read_bytes("file", bytes, &options)
+    };
+    let gal = Some(AccelerationUnit::Gal);
+    let read_in_gal = read(&floats, gal, None).unwrap();
+    for (sample, value) in read_in_gal.samples().iter().zip(values) {
+        assert!((sample - 0.01 * f64::from(value)).abs() < 1.0e-15);
+    }
+    let counted = read(&floats, None, Some(10.0)).unwrap();
+    assert!((counted.samples()[0] - 0.15).abs() < 1.0e-15);
+    for (bytes, unit, sensitivity) in [
+        (&floats, None, None),
+        (&integers, gal, None),
+        (&floats, gal, Some(10.0)),
+    ] {
+        assert!(read(bytes, unit, sensitivity).is_err());
     }
 }

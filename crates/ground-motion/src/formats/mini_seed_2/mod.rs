@@ -79,6 +79,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         let name = component(first, &channels);
         let known = match known {
             Some(Ok(known)) => Some(known),
+            // Values that a program has brought to a unit are written as floats; the user knows which.
+            Some(Err(_)) if source.options.unit.is_some() && in_floats(channel) => None,
             Some(Err(error)) => {
                 without.push((name, first.label(), error));
                 continue;
@@ -122,6 +124,11 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         source.is_without(WithoutSensitivity { component, reason });
     }
     Ok(series)
+}
+
+/// Whether all samples of a channel are floats, which instruments do not count in.
+fn in_floats(channel: &[Record]) -> bool {
+    channel.iter().all(Record::is_of_floats)
 }
 
 /// The code of a channel, with that of its location where another one differs by it alone.
@@ -223,7 +230,11 @@ fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionE
     for record in channel {
         record.decode(source, &mut samples)?;
     }
-    let mut draft = Draft::new(samples, DraftUnit::Counts, (1, 1, 1));
+    let unit = match source.options.sensitivity {
+        None if in_floats(channel) => DraftUnit::Unstated,
+        _ => DraftUnit::Counts,
+    };
+    let mut draft = Draft::new(samples, unit, (1, 1, 1));
     draft.title = first.label();
     draft.start_time = first.start_text.to_string();
     draft.times = Times::Step(Some(1.0 / first.rate));

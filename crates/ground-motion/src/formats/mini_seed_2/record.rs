@@ -168,6 +168,11 @@ impl Record {
         })
     }
 
+    /// Whether the samples are floats of 32 or 64 bits.
+    pub(super) fn is_of_floats(&self) -> bool {
+        matches!(self.encoding, 4 | 5)
+    }
+
     /// Whether bytes that are no blanks stand where its samples would, in an encoding of numbers:
     /// records of logs hold text, those of detections nothing.
     pub(super) fn has_data(&self, source: &Source<'_>) -> bool {

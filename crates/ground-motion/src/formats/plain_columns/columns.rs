@@ -1,6 +1,7 @@
 //! Columns by name: the times, the components, and what is passed over.
 
 use super::header::{self, Role};
+use super::names;
 use super::survey::{Survey, nearly_times};
 use super::{Header, OTHERS, Said, rows};
 use crate::cut_numbers::Forms;
@@ -65,7 +66,7 @@ impl Columns {
                     ("t".to_owned(), None)
                 }
                 // The name of one that says no more than that it is an acceleration.
-                Role::Acceleration(name, unit) if !several && header::is_acceleration(name) => {
+                Role::Acceleration(name, unit) if !several && names::is_acceleration(name) => {
                     ("a".to_owned(), *unit)
                 }
                 // Names that mean something else here, or stand twice.

@@ -15,12 +15,15 @@ use crate::time_column::mostly_times;
 
 mod columns;
 mod decimal;
+mod faults;
 mod header;
+mod names;
 mod stated;
 mod survey;
 
 use columns::{Columns, columns};
-use header::{Fault, Header, Role};
+use faults::Fault;
+use header::{Header, Role};
 use stated::Stated;
 use survey::{Arrangement, Head, Survey};
 
@@ -105,7 +108,7 @@ fn fault(source: &Source<'_>, header: Option<&Header>) -> Option<Faulty> {
         .iter()
         .filter(|cells| cells.line != after)
         .filter_map(|cells| {
-            let (text, fault) = header::fault_of(cells)?;
+            let (text, fault) = faults::fault_of(cells)?;
             let line = cells.line;
             Some(Faulty { line, text, fault })
         })
@@ -124,7 +127,7 @@ impl Faulty {
     fn refused(&self, source: &Source<'_>) -> Option<GroundMotionError> {
         let refused = match self.fault {
             Fault::NoAcceleration(..) | Fault::Spectrum(..) | Fault::Foreign(..) => true,
-            Fault::MotionUnit(_, ref unit) => header::is_foreign_unit(unit),
+            Fault::MotionUnit(_, ref unit) => names::is_foreign_unit(unit),
             Fault::TimeUnit(..) => source.options.layout.is_none(),
             _ => false,
         };
@@ -148,7 +151,7 @@ impl Faulty {
                 format!("the header \"{text}\" names no acceleration: \"{name}\" is none"),
                 "give a file that holds the accelerations; if the line says nothing of the values, take it out, or pass it over by `skip_lines`",
             ),
-            Fault::MotionUnit(name, unit) if header::is_foreign_unit(unit) => (
+            Fault::MotionUnit(name, unit) if names::is_foreign_unit(unit) => (
                 format!(
                     "the values of the column \"{name}\" are in {unit}, which is no unit of acceleration"
                 ),

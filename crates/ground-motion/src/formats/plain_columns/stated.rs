@@ -2,7 +2,7 @@
 //! cm/s2`, `Sampling rate (Hz): 100`, `NPTS: 400`. It is used where the user says nothing, and held
 //! against what the user and the rows say.
 
-use super::header;
+use super::{faults, header, names};
 use crate::draft::Draft;
 use crate::error::{GroundMotionError, bound};
 use crate::number;
@@ -130,7 +130,7 @@ impl Stated {
             }
         };
         if unit.quantity != Quantity::Acceleration {
-            let fault = header::Fault::NoAcceleration(unit.quantity, unit.symbol.to_owned());
+            let fault = faults::Fault::NoAcceleration(unit.quantity, unit.symbol.to_owned());
             let (line, text) = (line.number, line.text().trim().to_owned());
             return Err(super::Faulty { line, text, fault }.error(source));
         }
@@ -184,7 +184,7 @@ impl Stated {
             };
             let seconds = || match unit {
                 "" => Some(1.0),
-                unit => header::time_unit(unit),
+                unit => names::time_unit(unit),
             };
             let hertz = ["", "hz", "sps", "samples/s", "samples/sec", "1/s", "/s"].contains(&unit);
             if ends(&STEPS) {
@@ -340,7 +340,7 @@ fn unit_of(lower: &str) -> Unit {
         .strip_prefix(['(', '['])
         .and_then(|u| u.strip_suffix([')', ']']))
         .unwrap_or(bare);
-    if let Some(unit) = header::motion_unit(alone).filter(|_| alone.len() > 1 || alone == "g") {
+    if let Some(unit) = names::motion_unit(alone).filter(|_| alone.len() > 1 || alone == "g") {
         return Unit::Known(unit);
     }
     if let Some(unit) = beside_seconds(bare) {
@@ -383,8 +383,8 @@ fn beside_seconds(bare: &str) -> Option<SeriesUnit> {
         .collect();
     let (times, motions): (Vec<&String>, Vec<&String>) = units
         .iter()
-        .partition(|unit| header::time_unit(unit).is_some());
-    let known: Option<Vec<SeriesUnit>> = motions.iter().map(|u| header::motion_unit(u)).collect();
+        .partition(|unit| names::time_unit(unit).is_some());
+    let known: Option<Vec<SeriesUnit>> = motions.iter().map(|u| names::motion_unit(u)).collect();
     let mut known = known?.into_iter();
     let accelerates = |unit: &SeriesUnit| unit.quantity == Quantity::Acceleration;
     let first = known
@@ -396,7 +396,7 @@ fn beside_seconds(bare: &str) -> Option<SeriesUnit> {
 /// The unit behind a key; units of the times may stand beside it.
 fn value_of(value: &str) -> Unit {
     let value = value.trim().trim_end_matches(['.', ';', ',']);
-    if let Some(unit) = header::motion_unit(value) {
+    if let Some(unit) = names::motion_unit(value) {
         return Unit::Known(unit);
     }
     let joined = value.replace(' ', "");
@@ -405,7 +405,7 @@ fn value_of(value: &str) -> Unit {
     if value.is_empty() || NO_UNIT.contains(&value) || value.contains([',', ';']) {
         return Unit::None;
     }
-    if word || of_gravity || header::is_foreign_unit(value) {
+    if word || of_gravity || names::is_foreign_unit(value) {
         return Unit::Unknown(value.to_owned());
     }
     Unit::None

@@ -1,0 +1,298 @@
+//! What the names and units of columns mean, in the words of those who write them.
+
+use crate::quantity::SeriesUnit;
+
+pub(super) const TIME: [&str; 11] = [
+    "t",
+    "time",
+    "times",
+    "elapsed time",
+    "zeit",
+    "temps",
+    "tiempo",
+    "tempo",
+    "zaman",
+    "時間",
+    "时间",
+];
+pub(super) const ACCELERATION: [&str; 9] = [
+    "a",
+    "ag",
+    "a g",
+    "acc",
+    "accel",
+    "acceleration",
+    "accelerations",
+    "ground acceleration",
+    "ground accel",
+];
+pub(super) const MOTION: [&str; 8] = [
+    "v",
+    "vel",
+    "velocity",
+    "ground velocity",
+    "d",
+    "disp",
+    "displacement",
+    "ground displacement",
+];
+pub(super) const COUNTER: [&str; 14] = [
+    "-",
+    "#",
+    "n",
+    "no",
+    "nr",
+    "row",
+    "index",
+    "sample",
+    "id",
+    "step",
+    "point",
+    "count",
+    "line",
+    "record no",
+];
+/// Words of names of columns that hold no motion.
+pub(super) const FOREIGN: [&str; 27] = [
+    "force",
+    "forces",
+    "load",
+    "loads",
+    "moment",
+    "shear",
+    "pressure",
+    "stress",
+    "strain",
+    "drift",
+    "temp",
+    "temperature",
+    "humidity",
+    "volt",
+    "volts",
+    "voltage",
+    "current",
+    "gyro",
+    "rotation",
+    "angle",
+    "tilt",
+    "flag",
+    "status",
+    "arias",
+    "energy",
+    "husid",
+    "counts",
+];
+/// Names of columns of response spectra and Fourier spectra.
+const SPECTRAL: [&str; 19] = [
+    "sa",
+    "psa",
+    "spa",
+    "s a",
+    "sv",
+    "psv",
+    "sd",
+    "period",
+    "periods",
+    "natural period",
+    "frequency",
+    "freq",
+    "damping",
+    "damping ratio",
+    "spectrum",
+    "response spectrum",
+    "psd",
+    "power",
+    "response acceleration",
+];
+/// Words that stand in sentences, and in no name of a column between blanks.
+pub(super) const PROSE: [&str; 17] = [
+    "history",
+    "histories",
+    "series",
+    "of",
+    "in",
+    "the",
+    "and",
+    "for",
+    "at",
+    "with",
+    "from",
+    "by",
+    "record",
+    "data",
+    "motion",
+    "component",
+    "is",
+];
+/// Units that no acceleration has.
+const FOREIGN_UNITS: [&str; 23] = [
+    "count", "counts", "cts", "lsb", "adc", "v", "mv", "uv", "volt", "volts", "n", "kn", "mn",
+    "lbf", "kip", "kips", "pa", "kpa", "mpa", "rad/s", "deg/s", "strain", "deg",
+];
+/// Names behind which a unit may follow after a blank or an underscore alone. `a_g` is not
+/// one: it may be the symbol of the ground's acceleration, or an acceleration in g.
+pub(super) const LONG: [&str; 10] = [
+    "t",
+    "time",
+    "times",
+    "elapsed time",
+    "acc",
+    "accel",
+    "acceleration",
+    "accelerations",
+    "ground acceleration",
+    "ground accel",
+];
+
+/// Whether a name says that a column holds accelerations, and nothing else of it.
+pub(super) fn is_acceleration(name: &str) -> bool {
+    ACCELERATION.contains(&plain(name).as_str())
+}
+
+/// Whether a name is that of a column of times; they may be numbered, `t1` and `t2`.
+pub(super) fn is_time(known: &str) -> bool {
+    TIME.contains(
+        &known
+            .trim_end_matches(|c: char| c.is_ascii_digit())
+            .trim_end(),
+    )
+}
+
+/// Units of time (s).
+pub(super) fn time_unit(text: &str) -> Option<f64> {
+    match text.trim().trim_end_matches('.').to_lowercase().as_str() {
+        "s" | "sec" | "secs" | "second" | "seconds" | "seg" | "segs" | "segundos" | "saniye"
+        | "sn" => Some(1.0),
+        "ms" | "msec" | "millisecond" | "milliseconds" => Some(1.0e-3),
+        _ => None,
+    }
+}
+
+/// A unit of motion in any of its spellings: `m/s²`, `m/s^2`, `m s-2`, `m_s2`, `m/s**2`.
+pub(in crate::formats) fn motion_unit(text: &str) -> Option<SeriesUnit> {
+    let plain = text
+        .trim()
+        .to_lowercase()
+        .replace('²', "2")
+        .replace(['−', '⁻'], "-");
+    let spaced = ["s-2", "s^-2", "sec-2", "sec^-2"].iter().find_map(|end| {
+        let length = plain.strip_suffix(end)?;
+        let length = length.strip_suffix([' ', '.', '·', '*', '_'])?;
+        Some(format!("{length}/s2"))
+    });
+    if plain == "g/1000" {
+        return Some(SeriesUnit::MILLI_G);
+    }
+    // SeriesUnit takes stops out, which are none of a unit of a header.
+    let known = |text: &str| SeriesUnit::parse(text).filter(|_| !text.contains('.'));
+    known(&spaced.unwrap_or_else(|| plain.clone())).or_else(|| known(&plain.replacen('_', "/", 1)))
+}
+
+/// Whether a name is that of a component or of one of several instruments: `ns`, `acc1`, `ch 3`.
+pub(super) fn is_channel(known: &str) -> bool {
+    let base = known.trim_end_matches(|c: char| c.is_ascii_digit());
+    let numbered = base.len() < known.len() && !base.is_empty();
+    let base = base.trim_end_matches([' ', '#', '-']);
+    let instrument = ["ch", "chan", "channel", "sensor", "rsn", "rec"].contains(&base);
+    is_component(known)
+        || numbered && (instrument || ACCELERATION.contains(&base) || is_component(base))
+}
+
+/// Whether a name is that of an ordinate or abscissa of a spectrum, with or without a unit.
+pub(super) fn is_spectral(cell: &str) -> bool {
+    let cell = unquoted(cell);
+    let name = cell.split(['(', '[']).next().unwrap_or(cell);
+    let known = plain(&name.replace('-', " "));
+    let words: Vec<&str> = known.split(' ').collect();
+    let is_unit =
+        |unit: &str| motion_unit(unit).is_some() || time_unit(unit).is_some() || unit == "hz";
+    let named = |count: usize| SPECTRAL.contains(&words[..count].join(" ").as_str());
+    let with_unit = |count: usize| named(count) && is_unit(&words[count..].join("_"));
+    let starts = ["spectral", "pseudo", "rotd", "fourier", "gmrot"];
+    let motions = [
+        "acceleration",
+        "acc",
+        "velocity",
+        "displacement",
+        "amplitude",
+        "sa",
+        "psa",
+    ];
+    named(words.len())
+        || (1..words.len()).any(with_unit)
+        || starts.iter().any(|start| known.starts_with(start))
+            && (words.len() == 1 || motions.iter().any(|motion| words.contains(motion)))
+}
+
+/// A cell without quotes and blanks around it.
+pub(super) fn unquoted(cell: &str) -> &str {
+    cell.trim().trim_matches(['"', '\'']).trim()
+}
+
+/// Whether a column is what the ordinates of a spectrum stand over.
+pub(super) fn is_abscissa(name: &str) -> bool {
+    is_spectral(name)
+        && ["period", "natural period", "freq"]
+            .iter()
+            .any(|n| plain(name).starts_with(n))
+}
+
+/// Whether a unit is that of something else than motion: counts, volts, forces.
+pub(super) fn is_foreign_unit(unit: &str) -> bool {
+    FOREIGN_UNITS.contains(&unit.trim().to_lowercase().as_str())
+}
+
+/// Whether a name is one of a component and of nothing else, so that what follows an
+/// underscore is its unit: `ns_g`, `up_m_s2`, `hne_gal`, `acc_x_g`. Single letters are not:
+/// `x_g` and `z_g` may be symbols of the ground's displacement.
+pub(super) fn is_component(known: &str) -> bool {
+    const DIRECTIONS: [&str; 22] = [
+        "ns",
+        "ew",
+        "ud",
+        "sn",
+        "we",
+        "n-s",
+        "e-w",
+        "u-d",
+        "north",
+        "east",
+        "south",
+        "west",
+        "up",
+        "vert",
+        "vertical",
+        "north south",
+        "east west",
+        "h1",
+        "h2",
+        "longitudinal",
+        "transverse",
+        "radial",
+    ];
+    let code = |name: &str| {
+        // Band, instrument and orientation of SEED.
+        let [band, instrument, orientation] = name.as_bytes() else {
+            return false;
+        };
+        b"hbesc".contains(band) && b"nlg".contains(instrument) && b"enz123".contains(orientation)
+    };
+    let azimuth = |name: &str| {
+        let digits = name.strip_suffix(" deg").unwrap_or(name);
+        (2..=3).contains(&digits.len()) && digits.parse().is_ok_and(|a: u16| a <= 360)
+    };
+    let own = |name: &str| DIRECTIONS.contains(&name) || code(name) || azimuth(name);
+    let single = |name: &str| ["x", "y", "z", "n", "e", "s", "w", "1", "2", "3"].contains(&name);
+    let of_motion = known
+        .split_once(' ')
+        .filter(|(motion, _)| ["a", "acc", "accel", "acceleration"].contains(motion))
+        .is_some_and(|(_, rest)| own(rest) || single(rest));
+    own(known) || of_motion
+}
+
+/// Lower case, blanks for underscores, without a stop at the end.
+pub(super) fn plain(name: &str) -> String {
+    let lower = name.trim().trim_end_matches(['.', ':', '_']).to_lowercase();
+    let words: Vec<&str> = lower.split(['_', ' ']).filter(|w| !w.is_empty()).collect();
+    words.join(" ")
+}

@@ -331,16 +331,16 @@ fn run(command: &mut Command, bytes: u64) -> std::io::Result<Ended> {
             printed
         })
     });
-    let mut said = Vec::new();
     let pipe = child.stderr.take();
     #[cfg(unix)]
-    let ending = {
+    let (ending, said) = {
+        let mut said = Vec::new();
         // What was read until the pipe broke is all there is.
         let _ = pipe.map(|mut pipe| pipe.read_to_end(&mut said));
-        Ending::Exit(child.wait()?)
+        (Ending::Exit(child.wait()?), said)
     };
     #[cfg(not(unix))]
-    let ending = {
+    let (ending, said) = {
         let time = TIME + Duration::from_secs(bytes / BYTES_PER_SECOND);
         let reader = std::thread::spawn(move || {
             let mut said = Vec::new();
@@ -359,8 +359,7 @@ fn run(command: &mut Command, bytes: u64) -> std::io::Result<Ended> {
             }
             std::thread::sleep(Duration::from_millis(10));
         };
-        said = reader.join().unwrap_or_default();
-        ending
+        (ending, reader.join().unwrap_or_default())
     };
     known(None);
     let printed = printing.and_then(|thread| thread.join().ok());

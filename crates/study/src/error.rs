@@ -192,6 +192,15 @@ pub enum StudyError {
         /// What to ask for instead.
         help: &'static str,
     },
+    /// Records of buildings or across the row that keep no proportion, for want of the record of
+    /// the case.
+    #[error(
+        "records of buildings and across the row keep their proportion to the record of the case, and that has no intensity: {reason}"
+    )]
+    Proportion {
+        /// Why it has none.
+        reason: String,
+    },
     /// Counts or a hazard curve that allow no answer.
     #[error("{what}: {reason}")]
     Evaluation {
@@ -284,6 +293,9 @@ impl StudyError {
                 "write the record of the case under a header [ground_motion], with `scale` as one entry of it"
             }
             Self::NoDemand { help, .. } => help,
+            Self::Proportion { .. } => {
+                "give [ground_motion] of the case the record that the others belong to, in `file`"
+            }
             Self::Evaluation { .. } => {
                 "choose levels of intensity from where no record pounds to where all do, and more records"
             }

@@ -1,13 +1,14 @@
 //! One run of a study as a case of its own.
 
-use pounding_assembly::{AssemblyError, further_record, scale_record};
+use pounding_assembly::{AssemblyError, further_record};
 use pounding_case::{Case, GroundMotion};
-use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::processing::Scale;
 
 use crate::case_text::{Edit, Path, apply, entry, with_motion};
 use crate::error::StudyError;
-use crate::runs::{Runner, factor, motion, wanted, written};
+use crate::runs::{
+    Runner, factor, factor_of_further, further_motions, intensity_of_case, motion, wanted, written,
+};
 use crate::study_file::{RecordKind, Study};
 
 /// The case of one run as a text that `pounding run` takes, if it lies in the folder of
@@ -43,9 +44,13 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
         if let Some(scale) = factor(Some(intensity), Ok(&motion)).map_err(not_shown)? {
             let case = Case::parse(&text, &study.base.file);
             let case = case.map_err(|e| not_shown(e.to_string()))?;
-            if let Some(record) = &motion.record {
-                scales =
-                    further_scales(&case, record, scale).map_err(|e| not_shown(e.to_string()))?;
+            if let Some(record) = &motion.record
+                && !further_motions(&case).is_empty()
+            {
+                let brought = (&**record, intensity, scale);
+                let of_further = factor_of_further(&case, intensity_of_case(study)?, brought)
+                    .and_then(|factor| further_scales(&case, factor));
+                scales = of_further.map_err(|e| not_shown(e.to_string()))?;
             }
             scales.push(("ground_motion.scale".to_owned(), scale));
         }
@@ -66,35 +71,13 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
     }
 }
 
-/// Places of the scales of records beside that of the case, with the factors that keep their
-/// proportion to it where that one is scaled by `scale`.
-fn further_scales(
-    case: &Case,
-    record: &Accelerogram,
-    scale: f64,
-) -> Result<Vec<(String, f64)>, AssemblyError> {
-    let further = further_motions(case);
-    if further.is_empty() {
-        return Ok(Vec::new());
-    }
-    let by_case = scale_record(case, record.clone())?.scale() / record.scale();
-    let scaled = further.into_iter().map(|(place, motion)| {
+/// Places of the scales of records beside that of the case, with their own scales times `factor`.
+fn further_scales(case: &Case, factor: f64) -> Result<Vec<(String, f64)>, AssemblyError> {
+    let scaled = further_motions(case).into_iter().map(|(place, motion)| {
         let own = further_record(case, motion)?.scale();
-        Ok((place, own * (scale / by_case)))
+        Ok((place, own * factor))
     });
     scaled.collect()
-}
-
-/// Records beside that of the case, with the places of their scales.
-fn further_motions(case: &Case) -> Vec<(String, &GroundMotion)> {
-    let across = case.ground_motion.across.as_ref();
-    let across = across.map(|a| ("ground_motion.across.scale".to_owned(), &*a.value));
-    let buildings = case.buildings.iter().enumerate();
-    let own = buildings.filter_map(|(b, building)| {
-        let motion = building.ground.as_ref()?.value.motion.as_ref()?;
-        Some((format!("building.{b}.ground.scale"), motion))
-    });
-    own.chain(across).collect()
 }
 
 /// The scales of a case that are plain factors, with their places.

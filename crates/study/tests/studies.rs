@@ -700,6 +700,85 @@ fn an_intensity_scales_records_of_buildings_too() {
     assert!((roofs[1][0] / roofs[0][0] - 2.5).abs() < 1e-9, "{roofs:?}");
 }
 
+/// At one intensity the record of a building is as strong whatever record takes the place of that
+/// of the case, however strongly that was recorded: its proportion is to the record of the case.
+#[test]
+fn records_of_buildings_keep_their_proportion_to_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = |name: &str| root().join("ground_motions").join(name);
+    let [first, second] = ["el_centro_1940_ns.csv", "kobe_1995_jma_ns.csv"].map(record);
+    let building = |name: &str, ground: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = [\"25 t\"]\nstiffness = \"3 MN/m\"\nheight = 3\n\
+             damping = {{ modal = 0.05 }}\n{ground}"
+        )
+    };
+    let own = format!("ground = {{ file = {second:?}, scale = 1.5 }}\n");
+    let case = format!(
+        "{}{}[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = 9\nmodel = \"linear_elastic\"\nstiffness = 1e8\n\
+         [ground_motion]\nfile = {first:?}\nscale = {{ pga = \"0.2 g\" }}\n[analysis]\nduration = 6\n",
+        building("A", ""),
+        building("B", &own),
+    );
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let text = format!(
+        "case = \"case.toml\"\n[[variable]]\nrecords = [{first:?}, {second:?}]\n\
+         [[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.1 g\", \"0.4 g\"]\n"
+    );
+    let study = Study::parse(&text, &folder.path().join("study.toml")).unwrap();
+    let rows = rows(&study, folder.path());
+    assert_eq!(rows.len(), 4);
+    for (row, _) in &rows {
+        let text = case_of_run(&study, row.run).unwrap();
+        let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+        let ground = case.buildings[1].ground.as_ref().unwrap();
+        let scale = &ground
+            .value
+            .motion
+            .as_ref()
+            .unwrap()
+            .scale
+            .as_ref()
+            .unwrap();
+        // The case has 0.2 g, of which these are a half and twice as much.
+        let expected = [0.75, 3.0][row.run % 2];
+        match scale.value {
+            pounding_ground_motion::processing::Scale::Factor(scale) => {
+                assert!((scale / expected - 1.0).abs() < 1e-12, "{scale}")
+            }
+            ref other => panic!("{other:?}"),
+        }
+        let assembly = assemble(&case).unwrap();
+        let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+        for building in &outcome.buildings {
+            let roof = building.storeys[0].displacement.value;
+            let found = row.values.iter().any(|x| (x / roof - 1.0).abs() < 1e-12);
+            assert!(found, "{roof} is not in {:?}", row.values);
+        }
+    }
+    std::fs::write(
+        folder.path().join("zero.csv"),
+        "time_s,acceleration_m/s2\n0,0\n1,0\n",
+    )
+    .unwrap();
+    let still = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    let still = still.replacen(
+        &format!("[ground_motion]\nfile = {first:?}\nscale = {{ pga = \"0.2 g\" }}"),
+        "[ground_motion]\nfile = \"zero.csv\"",
+        1,
+    );
+    std::fs::write(folder.path().join("case.toml"), still).unwrap();
+    let study = Study::parse(&text, &folder.path().join("study.toml")).unwrap();
+    let refused = sweep(&study, &options(folder.path()), &mut |_| {
+        std::ops::ControlFlow::Continue(())
+    });
+    let said = refused.unwrap_err().to_string();
+    assert!(
+        said.contains("keep their proportion to the record of the case"),
+        "{said}"
+    );
+}
+
 /// The case of an example, changed, in a folder of its own, and a study of it.
 fn study_of_example(
     folder: &Path,

@@ -156,8 +156,8 @@ fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
                 answer.say(&at("minimum/width"), 1.0e3)
             ),
             true => format!(
-                "The intensities do not reach far enough to find the gap {name} for {asked} 1/year: even a \
-                 gap as wide as the maximum demand has {frequency} 1/year."
+                "The intensities or the hazard curve do not reach far enough to find the gap {name} for {asked} \
+                 1/year: even a gap as wide as the maximum demand has {frequency} 1/year."
             ),
         });
         let remarks = 0..answer.list(&at("minimum/remarks")).len();

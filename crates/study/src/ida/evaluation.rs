@@ -50,17 +50,32 @@ pub struct LimitResult {
     pub frequency_bounds: Option<FrequencyBounds>,
 }
 
-/// Whether remarks say that a frequency is an upper bound.
-fn is_at_most(remarks: &[FitRemark]) -> bool {
-    let at_most = |remark: &FitRemark| matches!(remark, FitRemark::AtMost { .. });
-    remarks.iter().any(at_most)
-}
-
 impl LimitResult {
     /// Whether the frequency is an upper bound, as the counts give no curve.
     #[must_use]
     pub fn frequency_is_at_most(&self) -> bool {
-        is_at_most(&self.remarks)
+        let at_most = |remark: &FitRemark| matches!(remark, FitRemark::AtMost { .. });
+        self.remarks.iter().any(at_most)
+    }
+
+    /// What the frequency is: an `estimate`, an `upper bound`, or, where the counts give no curve
+    /// and the hazard curve begins too high for a bound, an `assumption`.
+    #[must_use]
+    pub fn frequency_is(&self) -> &'static str {
+        let assumed = |remark: &FitRemark| {
+            matches!(
+                remark,
+                FitRemark::BelowHazard {
+                    assumed: Some(_),
+                    ..
+                }
+            )
+        };
+        match self.frequency_is_at_most() {
+            true => "upper bound",
+            false if self.remarks.iter().any(assumed) => "assumption",
+            false => "estimate",
+        }
     }
 }
 
@@ -76,23 +91,41 @@ pub struct GapResult {
 /// The least gap for a mean annual frequency.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MinimumGap {
-    /// Width (m); `None` if the intensities of the analysis do not reach far enough to tell,
-    /// or no width does because the isolated buildings collapse.
+    /// Width (m); `None` if the intensities of the analysis or the hazard curve do not reach far
+    /// enough to tell, or no width does because the isolated buildings collapse.
     pub width: Option<f64>,
     /// Frequency of pounding at this width (1/year); without a width that of a gap as wide as the
-    /// maximum demand.
+    /// maximum demand, infinite where there is none.
     pub frequency: f64,
     /// What the intensities leave open: then the width is an upper bound.
     pub open: Option<OpenGap>,
-    /// What must be said of the frequency.
-    pub remarks: Vec<FitRemark>,
+    /// Where the hazard curve begins, if at the next narrower width, or without a width at any, what
+    /// it leaves out below decides: then the width is an upper bound, too.
+    pub hazard_begins: Option<ShownIntensity>,
+    /// Pounding at this width, or at the maximum demand.
+    pub result: LimitResult,
 }
 
 impl MinimumGap {
-    /// Whether the frequency is an upper bound, as the counts give no curve.
+    /// Whether the width is an upper bound.
     #[must_use]
-    pub fn frequency_is_at_most(&self) -> bool {
-        is_at_most(&self.remarks)
+    pub fn is_at_most(&self) -> bool {
+        self.width.is_some() && (self.open.is_some() || self.hazard_begins.is_some())
+    }
+
+    /// What must be said of it, what leaves it open first.
+    #[must_use]
+    pub fn remarks(&self) -> Vec<String> {
+        let open = self.open.iter().map(ToString::to_string);
+        let begins = self.hazard_begins.iter().map(|first| {
+            let narrower = match self.width {
+                Some(_) => "at narrower gaps what weaker motions add",
+                None => "what weaker motions add",
+            };
+            format!("the hazard curve begins at {first}, and {narrower} may pass the target frequency; begin the curve lower")
+        });
+        let remarks = self.result.remarks.iter().map(ToString::to_string);
+        open.chain(begins).chain(remarks).collect()
     }
 }
 
@@ -579,39 +612,47 @@ impl Evaluation<'_> {
         demands.push(0.0);
         demands.sort_by(|a, b| b.total_cmp(a));
         demands.dedup();
-        let mut best: Option<MinimumGap> = None;
-        let fitted = |width: f64| fit(&self.counts(&|r| r.demands[column] > width));
+        let reached = |width: f64| move |r: &Run| r.demands[column] > width;
+        let fitted = |width: f64| fit(&self.counts(&reached(width)));
+        let at = |width: Option<f64>, demand: f64, frequency: f64| -> Result<_, StudyError> {
+            Ok(MinimumGap {
+                width,
+                frequency,
+                open: None,
+                hazard_begins: None,
+                result: self.limit(&pounding_at(gap, demand), &reached(demand))?,
+            })
+        };
+        let mut best: Option<(f64, f64)> = None;
         for (i, width) in demands.iter().enumerate() {
             let fit = fitted(*width);
             let frequency = Self::frequency(&fit, hazard, gap)?.unwrap_or(f64::INFINITY);
-            if frequency <= target {
-                best = Some(MinimumGap {
-                    width: Some(*width),
-                    frequency,
-                    open: None,
-                    remarks: self.of_frequency(&fit, hazard),
-                });
+            // A gap is wide enough if it is with what the curve leaves out.
+            let by_curve = frequency <= target;
+            if frequency + hazard::uncounted(&fit, hazard, frequency) <= target {
+                best = Some((*width, frequency));
                 continue;
             }
-            let Some(best) = &mut best else {
-                return Ok(Some(MinimumGap {
-                    width: None,
-                    frequency,
-                    open: None,
-                    remarks: Vec::new(),
-                }));
+            let mut least = match best {
+                Some((width, frequency)) => at(Some(width), width, frequency)?,
+                None => at(None, *width, frequency)?,
             };
-            if least_frequency(&fit, hazard) <= target {
-                best.open = Some(self.open(&fit, hazard, target, || {
+            if by_curve {
+                least.hazard_begins = Some(self.shown(hazard.points[0].0));
+            } else if best.is_some() && least_frequency(&fit, hazard) <= target {
+                least.open = Some(self.open(&fit, hazard, target, || {
                     // Up to the next demand no run tells gaps apart.
                     let too_narrow = |w: &f64| least_frequency(&fitted(*w), hazard) > target;
                     let narrow = demands[i..].iter().position(too_narrow)?;
                     (i + narrow).checked_sub(1).map(|next| demands[next])
                 }));
             }
-            break;
+            return Ok(Some(least));
         }
-        Ok(best)
+        match best {
+            Some((width, frequency)) => at(Some(width), width, frequency).map(Some),
+            None => Ok(None),
+        }
     }
 
     /// What a fit leaves open of a least gap.

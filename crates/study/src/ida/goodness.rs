@@ -107,6 +107,9 @@ pub enum FitRemark {
         first: ShownIntensity,
         /// Probability of the state there (-).
         probability: f64,
+        /// Where the counts give no curve: the intensity right above which the state is taken as
+        /// reached, though nobody reaches it there.
+        assumed: Option<ShownIntensity>,
         /// What is left out if the first power law went on (1/year).
         uncounted: f64,
     },
@@ -219,11 +222,20 @@ impl fmt::Display for FitRemark {
             Self::BelowHazard {
                 first,
                 probability,
+                assumed,
                 uncounted,
             } => {
+                let reached = match assumed {
+                    Some(above) => format!(
+                        "above {above}, from which on the state is taken as reached, as no record reaches it up to there: the frequency is neither an estimate nor a bound, and what weaker"
+                    ),
+                    None => format!(
+                        "where the probability of the state is {probability:.2} already: what weaker"
+                    ),
+                };
                 write!(
                     f,
-                    "the hazard curve begins at {first}, where the probability of the state is {probability:.2} already: what weaker motions add is not counted, neither in the frequency nor in its bounds ({} if the first power law of the curve went on); begin the curve lower",
+                    "the hazard curve begins at {first}, {reached} motions add is not counted, neither in the frequency nor in its bounds ({} if the first power law of the curve went on); begin the curve lower",
                     match uncounted.is_finite() {
                         true => format!("{} per year", figures(*uncounted)),
                         false => "without bound".to_owned(),

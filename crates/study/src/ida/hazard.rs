@@ -112,6 +112,26 @@ const FROM_ABOVE: f64 = 0.25;
 /// Part of a frequency that may come from intensities of which no run tells, without a word.
 const FROM_OUTSIDE: f64 = 0.25;
 
+/// What a frequency leaves out below the first point of the curve (1/year), if the first power law
+/// went on there; zero where that is negligible.
+pub(super) fn uncounted(fit: &FragilityFit, hazard: &HazardCurve, frequency: f64) -> f64 {
+    let first = hazard.points[0];
+    let uncounted = match fit {
+        FragilityFit::Lognormal(f) => {
+            let law = PowerLaw::between(first, hazard.points[1]);
+            part(f, law, 0.0, first.0)
+        }
+        FragilityFit::Step { lower: x, .. } | FragilityFit::Never { up_to: x } => {
+            hazard.missing_above(*x)
+        }
+        FragilityFit::Always { .. } | FragilityFit::None => 0.0,
+    };
+    match uncounted <= NEGLIGIBLE * frequency {
+        true => 0.0,
+        false => uncounted,
+    }
+}
+
 /// What must be said of a frequency: where the hazard curve or the intensities of the analysis,
 /// which rise, leave out what it needs.
 pub(super) fn remarks(
@@ -124,31 +144,29 @@ pub(super) fn remarks(
         return Vec::new();
     };
     let (first, last) = (hazard.points[0], hazard.points[hazard.points.len() - 1]);
-    let reached_above = |x: f64| (hazard.missing_above(x), f64::from(x > last.0), 1.0);
-    let (uncounted, above, probability) = match fit {
+    // Where counts give no curve the state is taken as reached right above an intensity.
+    let (assumed, above, probability) = match fit {
         FragilityFit::Lognormal(f) => {
-            let law = PowerLaw::between(first, hazard.points[1]);
             let above = hazard.between(f, last.0, f64::INFINITY) / frequency;
-            (part(f, law, 0.0, first.0), above, f.probability(first.0))
+            (None, above, f.probability(first.0))
         }
-        FragilityFit::Step { lower, .. } => reached_above(*lower),
-        FragilityFit::Never { up_to } => reached_above(*up_to),
+        FragilityFit::Step { lower: x, .. } | FragilityFit::Never { up_to: x } => {
+            (Some(*x), f64::from(*x > last.0), 1.0)
+        }
         FragilityFit::Always { .. } | FragilityFit::None => return Vec::new(),
     };
     let mut remarks = Vec::new();
-    let complete = uncounted <= NEGLIGIBLE * frequency;
-    if let (true, FragilityFit::Step { lower: above, .. } | FragilityFit::Never { up_to: above }) =
-        (complete, fit)
-    {
-        remarks.push(FitRemark::AtMost {
-            above: shown(*above),
-        });
-    }
-    if !complete {
+    let uncounted = uncounted(fit, hazard, frequency);
+    if uncounted > 0.0 {
         remarks.push(FitRemark::BelowHazard {
             first: shown(first.0),
             probability,
+            assumed: assumed.map(&shown),
             uncounted,
+        });
+    } else if let Some(above) = assumed {
+        remarks.push(FitRemark::AtMost {
+            above: shown(above),
         });
     }
     if above > FROM_ABOVE {

@@ -3,6 +3,7 @@
 mod cache;
 mod engine;
 mod motions;
+mod proportion;
 mod runner;
 mod shared_records;
 mod varied;
@@ -14,4 +15,5 @@ pub use pounding_results::study::{
     Axis, Ending, Layout, Place, Quantity, RESPONSES, Response, Row,
 };
 pub(crate) use pounding_results::study::{ID, is_result};
+pub(crate) use proportion::{factor_of_further, further_motions, intensity_of_case};
 pub(crate) use runner::{Runner, factor, wanted, written};

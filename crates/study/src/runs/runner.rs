@@ -16,6 +16,7 @@ use sha2::{Digest, Sha256};
 
 use super::cache::Cache;
 use super::motions::{Motion, Motions};
+use super::proportion::{factor_of_further, intensity_of_case};
 use super::varied::leave_out_varied;
 use super::{Ending, ID, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
@@ -56,6 +57,8 @@ pub(crate) struct Runner<'s> {
     /// Hashes of matrices, target spectra, further records and forces, which the case says by the
     /// names of their files alone.
     named_files: Vec<String>,
+    /// Intensity (SI) of the record of the case, to which further records keep their proportion.
+    intensity_of_case: Option<f64>,
     buildings: Cache<Result<Arc<System>, String>>,
     demands: Cache<Result<Arc<Vec<f64>>, String>>,
 }
@@ -150,6 +153,7 @@ impl<'s> Runner<'s> {
             warnings,
             lines: Lines::of(base.tree()),
             named_files: named_files(study),
+            intensity_of_case: intensity_of_case(study)?,
             base,
             study,
             motions,
@@ -255,10 +259,13 @@ impl<'s> Runner<'s> {
         };
         let base = match factor {
             // All that moves the ground is scaled as its first motion is.
-            Some(_) if base.has_further_records() => {
-                let by_case = |case: &Case| scale_record(case, Accelerogram::clone(read));
-                let by_case = variant.make(&case, by_case).map_err(said)?.scale();
-                Arc::new(base.with_further_records_scaled(record.scale() / by_case))
+            Some(scale) if base.has_further_records() => {
+                let (_, intensity) = wanted(self.study, point).ok_or_else(unread)?;
+                let brought = (&**read, intensity, scale);
+                let of_further =
+                    |case: &Case| factor_of_further(case, self.intensity_of_case, brought);
+                let of_further = variant.make(&case, of_further).map_err(said)?;
+                Arc::new(base.with_further_records_scaled(of_further))
             }
             _ => base,
         };
@@ -328,6 +335,9 @@ impl<'s> Runner<'s> {
             Err(_) => hash.update(format!("unreadable {name}")),
         }
         hash.update(factor.map_or([0; 8], f64::to_le_bytes));
+        if let Some(of_case) = self.intensity_of_case {
+            hash.update(of_case.to_le_bytes());
+        }
         hash.update(self.version);
         self.named_files.iter().for_each(|f| hash.update(f));
         let mut id = [0; ID];
@@ -353,6 +363,9 @@ impl<'s> Runner<'s> {
             hash.update(motion.as_ref().map_or("unreadable", |m| m.sha256.as_str()));
         }
         hash.update(self.layout.signature());
+        if let Some(of_case) = self.intensity_of_case {
+            hash.update(of_case.to_le_bytes());
+        }
         self.named_files.iter().for_each(|f| hash.update(f));
         hexadecimal(&hash.finalize())
     }

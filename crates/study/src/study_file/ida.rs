@@ -357,6 +357,20 @@ impl IdaTable {
                 Some((Some(curve), file))
             }
         });
+        let place = self.target_frequency.span();
+        let target_frequency = self.target_frequency.number();
+        if let (Some((Some(curve), _)), Some(target), Some(place)) =
+            (&hazard, target_frequency, place)
+        {
+            let most = curve.points[0].1;
+            if target >= most {
+                let message = format!(
+                    "the target frequency is not below {most} 1/year, with which the hazard curve begins: no gap could pass it"
+                );
+                let help = "begin the curve at lower intensities, or lower the target";
+                reader.refuse::<()>(place, message, help)?;
+            }
+        }
         let (record, intensity) = variables?;
         let (hazard, hazard_file) = hazard?;
         Some(IdaSettings {
@@ -367,7 +381,7 @@ impl IdaTable {
             limits: limits?,
             hazard,
             hazard_file,
-            target_frequency: self.target_frequency.number(),
+            target_frequency,
             confidence: self.confidence.number_or(0.95)?,
         })
     }

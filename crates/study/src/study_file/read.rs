@@ -229,6 +229,7 @@ impl StudyFile {
         read_case(reader, self.case, context, !names_records);
         let read = list.map(|list| variables(reader, list, context));
         let whole = read.as_ref().filter(|read| read.whole && all_known);
+        let design_place = self.design.span();
         let design = design(
             reader,
             self.design,
@@ -242,9 +243,12 @@ impl StudyFile {
         let ida = self.ida.stated().and_then(|ida| match ida {
             None => Some(None),
             Some(Located { value, span }) => {
-                let is_grid = matches!(design, Some(Design::Grid { .. }));
-                let both =
-                    whole.and_then(|read| ida_variables(reader, span, &read.variables, is_grid));
+                let place = design_place.unwrap_or_else(|| span.clone());
+                let both = whole.and_then(|read| {
+                    let both = ida_variables(reader, span, &read.variables)?;
+                    each_once(reader, place, design.as_ref()?, &read.variables)?;
+                    Some(both)
+                });
                 value.read(reader, context, both, measure).map(Some)
             }
         });
@@ -557,36 +561,68 @@ fn intensity_of(variable: &Variable) -> Option<IntensityMeasure> {
     }
 }
 
+/// Whether the runs of a design are those of an incremental dynamic analysis, each record once at
+/// an intensity, and several at each: sampled designs have as many intensities as runs, and take the
+/// values of lists several times.
+fn each_once(
+    reader: &Reader<'_>,
+    place: Range<usize>,
+    design: &Design,
+    variables: &[Variable],
+) -> Option<()> {
+    let help = "remove [design], or use kind = \"grid\"";
+    let sampled = match design {
+        Design::Grid { .. } => {
+            let mut intensities = variables.iter().filter(|v| intensity_of(v).is_some());
+            let twice = intensities.find_map(|v| Some((repeated_number(v)?, &v.unit)));
+            let Some((repeated, unit)) = twice else {
+                return Some(());
+            };
+            let message = format!(
+                "the intensity {repeated} {unit} stands twice, and the same runs would count as more records"
+            );
+            return reader.refuse(place, message, "give each intensity once");
+        }
+        Design::List { runs } => {
+            let mut taken: Vec<Vec<u64>> = (0..*runs)
+                .map(|run| design.point(run, variables))
+                .map(|point| point.iter().map(|x| x.bits()).collect())
+                .collect();
+            taken.sort_unstable();
+            if taken.windows(2).all(|pair| pair[0] != pair[1]) {
+                return Some(());
+            }
+            let message =
+                "two runs have the same record and intensity, and would count as more records";
+            return reader.refuse(place, message, help);
+        }
+        Design::LatinHypercube { .. } => "latin_hypercube",
+        Design::Sobol { .. } => "sobol",
+    };
+    let message = format!(
+        "an incremental dynamic analysis takes every record at every intensity, which {sampled} does not"
+    );
+    reader.refuse(place, message, help)
+}
+
 /// Indices of the two variables that an incremental dynamic analysis is made of: the record
 /// and the intensity.
 fn ida_variables(
     reader: &Reader<'_>,
     place: Range<usize>,
     variables: &[Variable],
-    is_grid: bool,
 ) -> Option<(usize, usize)> {
     let at = |is: &dyn Fn(&Variable) -> bool| variables.iter().position(is);
     let record = at(&|v| matches!(v.target, Target::Record));
     let intensity = at(&|v| intensity_of(v).is_some());
     match (record, intensity) {
         (Some(record), Some(intensity)) if variables.len() == 2 => {
-            match variables[intensity].values {
-                Values::Range { count: None, .. } => {
-                    let message = "the range of intensities has no `count`";
-                    reader.refuse(place, message, "add `count = ...`")
-                }
-                _ if is_grid => match repeated_number(&variables[intensity]) {
-                    None => Some((record, intensity)),
-                    Some(repeated) => {
-                        let message = format!(
-                            "the intensity {repeated} {} stands twice, and the same runs would count as more records",
-                            variables[intensity].unit
-                        );
-                        reader.refuse(place, message, "give each intensity once")
-                    }
-                },
-                _ => Some((record, intensity)),
+            let variable = &variables[intensity];
+            if let Values::Range { count: None, .. } = variable.values {
+                let message = "the range of intensities has no `count`";
+                return reader.refuse(place, message, "add `count = ...`");
             }
+            Some((record, intensity))
         }
         _ => reader.refuse(
             place,

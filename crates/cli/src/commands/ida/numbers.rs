@@ -57,7 +57,7 @@ struct Limit<'a> {
     goodness_of_fit: Option<Goodness>,
     remarks: Vec<String>,
     mean_annual_frequency: Option<f64>,
-    /// Whether that is an estimate or an upper bound.
+    /// Whether that is an estimate, an upper bound or an assumption.
     mean_annual_frequency_is: Option<&'static str>,
     /// By a bootstrap over records, at the confidence of the study; one that is null is not known.
     mean_annual_frequency_bounds: Option<[Option<f64>; 2]>,
@@ -128,11 +128,14 @@ struct Width<'a> {
 struct Minimum {
     width: Option<f64>,
     mean_annual_frequency: f64,
-    /// Whether that is an estimate or an upper bound.
+    /// Whether that is an estimate, an upper bound or an assumption.
     mean_annual_frequency_is: &'static str,
-    /// Whether the width is an upper bound, as runs are missing at narrower ones.
+    mean_annual_frequency_bounds: Option<[Option<f64>; 2]>,
+    goodness_of_fit: Option<Goodness>,
+    /// Whether the width is an upper bound, as runs are missing at narrower ones or the hazard
+    /// curve begins too high for them.
     upper_bound: bool,
-    /// Width that is too narrow whatever the missing runs would say.
+    /// Width below which every gap is too narrow whatever the missing runs would say.
     wider_than: Option<f64>,
     remarks: Vec<String>,
 }
@@ -181,25 +184,36 @@ impl<'a> Analysis<'a> {
     }
 }
 
-/// What a frequency is.
-fn word(at_most: bool) -> &'static str {
-    match at_most {
-        true => "upper bound",
-        false => "estimate",
+/// The bounds of a frequency, if one of them is known.
+fn bounds(limit: &LimitResult) -> Option<[Option<f64>; 2]> {
+    let bounds = limit.frequency_bounds.map(|b| [b.low, b.high]);
+    bounds.filter(|b| b.iter().any(Option::is_some))
+}
+
+impl Goodness {
+    fn of(limit: &LimitResult) -> Option<Self> {
+        limit.goodness.map(|g| Self {
+            statistic: g.statistic,
+            degrees_of_freedom: g.degrees_of_freedom,
+            p_value: g.p_value,
+            poor: g.p_value < POOR,
+            largest_distance: g.distance.0,
+            intensity_of_largest_distance: g.distance.1,
+        })
     }
 }
 
 impl Minimum {
     fn of(minimum: &MinimumGap) -> Self {
-        let open = minimum.open.iter().map(ToString::to_string);
-        let remarks = minimum.remarks.iter().map(ToString::to_string);
         Self {
             width: minimum.width,
             mean_annual_frequency: minimum.frequency,
-            mean_annual_frequency_is: word(minimum.frequency_is_at_most()),
-            upper_bound: minimum.open.is_some(),
+            mean_annual_frequency_is: minimum.result.frequency_is(),
+            mean_annual_frequency_bounds: bounds(&minimum.result),
+            goodness_of_fit: Goodness::of(&minimum.result),
+            upper_bound: minimum.is_at_most(),
             wider_than: minimum.open.map(|open| open.wider_than),
-            remarks: open.chain(remarks).collect(),
+            remarks: minimum.remarks(),
         }
     }
 }
@@ -232,21 +246,11 @@ impl<'a> Limit<'a> {
             name: &limit.name,
             counts: counts.collect(),
             fit,
-            goodness_of_fit: limit.goodness.map(|g| Goodness {
-                statistic: g.statistic,
-                degrees_of_freedom: g.degrees_of_freedom,
-                p_value: g.p_value,
-                poor: g.p_value < POOR,
-                largest_distance: g.distance.0,
-                intensity_of_largest_distance: g.distance.1,
-            }),
+            goodness_of_fit: Goodness::of(limit),
             remarks: limit.remarks.iter().map(ToString::to_string).collect(),
             mean_annual_frequency: limit.frequency,
-            mean_annual_frequency_is: limit.frequency.map(|_| word(limit.frequency_is_at_most())),
-            mean_annual_frequency_bounds: limit
-                .frequency_bounds
-                .map(|b| [b.low, b.high])
-                .filter(|b| b.iter().any(Option::is_some)),
+            mean_annual_frequency_is: limit.frequency.map(|_| limit.frequency_is()),
+            mean_annual_frequency_bounds: bounds(limit),
         }
     }
 }

@@ -2,8 +2,8 @@
 
 use pounding_catalogue::wording::counted;
 use pounding_study::{
-    FitRemark, FragilityFit, FrequencyBounds, IdaReport, IdaSettings, LimitResult, MinimumGap,
-    POOR, PoundingDemand, RESAMPLES,
+    FitRemark, FragilityFit, FrequencyBounds, IdaReport, IdaSettings, LimitResult, POOR,
+    PoundingDemand, RESAMPLES,
 };
 
 use crate::tables::{Table, new_table};
@@ -226,22 +226,24 @@ fn widths(
         text.push_str(&poor_fits(report, named));
     }
     if let (Some(minimum), Some(target)) = (&gap.minimum, settings.target_frequency) {
+        let frequency = match minimum.frequency.is_finite() {
+            true => frequency(&minimum.result, report.shown_intensity()),
+            false => "none that the counts give".to_owned(),
+        };
         text.push_str(&match minimum.width {
             Some(width) => format!(
-                "Least gap of {} for a mean annual frequency of {}: {}{:.1} mm, with {}\n{}",
+                "Least gap of {} for a mean annual frequency of {}: {}{:.1} mm, with {frequency}\n",
                 gap.gap,
                 digits(target),
-                if minimum.open.is_some() {
-                    "at most "
-                } else {
-                    ""
-                },
+                if minimum.is_at_most() { "at most " } else { "" },
                 width * 1e3,
-                frequency_of(minimum),
-                beside(minimum)
             ),
             None => format!(
-                "The intensities do not reach far enough{} to find the gap of {} for a mean annual frequency of {}: even a gap as wide as the maximum demand has {}\n",
+                "The {} not reach far enough{} to find the gap of {} for a mean annual frequency of {}: even a gap as wide as the maximum demand has {frequency}\n",
+                match minimum.hazard_begins {
+                    Some(_) => "hazard curve does",
+                    None => "intensities do",
+                },
                 if collapsed {
                     ", or the buildings collapse too often by themselves,"
                 } else {
@@ -249,29 +251,12 @@ fn widths(
                 },
                 gap.gap,
                 digits(target),
-                frequency_of(minimum)
             ),
         });
+        let remarks = minimum.remarks();
+        text.extend(remarks.iter().map(|said| format!("  {said}\n")));
     }
     text
-}
-
-/// The frequency at a least gap.
-fn frequency_of(minimum: &MinimumGap) -> String {
-    let at_most = match minimum.frequency_is_at_most() {
-        true => "at most ",
-        false => "",
-    };
-    format!("{at_most}{}", digits(minimum.frequency))
-}
-
-/// What must be said of a least gap, a line each.
-fn beside(minimum: &MinimumGap) -> String {
-    let open = minimum.open.iter().map(ToString::to_string);
-    let remarks = minimum.remarks.iter().map(ToString::to_string);
-    open.chain(remarks)
-        .map(|said| format!("  {said}\n"))
-        .collect()
 }
 
 fn counts(limit: &LimitResult) -> String {

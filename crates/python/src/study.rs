@@ -112,7 +112,7 @@ fn run_study(
             let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
             let result = result.map_err(|e| failed(e.into()))?;
             let report = evaluate(&read, &result).map_err(failed)?;
-            json(&Analysis::of(&report, settings.confidence))
+            json(&Analysis::of(&report, settings))
         });
         Ok::<_, Problem>((finished, analysis.transpose()?, note))
     })?;

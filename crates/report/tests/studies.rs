@@ -143,7 +143,7 @@ fn empty_answers() {
     for html in [
         gap(&nothing, &[], &inputs()),
         comparison(&nothing, &[], &inputs()),
-        ida(&nothing, Some(1.0e-3), &[], &inputs()),
+        ida(&nothing, &[], &inputs()),
         motion(&nothing, &[], &inputs()),
     ] {
         is_whole(&html);

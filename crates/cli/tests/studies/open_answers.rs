@@ -58,3 +58,98 @@ fn an_intensity_stands_once() {
         "{said}"
     );
 }
+
+/// A sampled design has as many intensities as runs, each of which would stand for the first.
+#[test]
+fn an_analysis_is_no_sampled_design() {
+    let hazard = "[[\"0.02 g\", 0.5], [\"0.2 g\", 5e-3], [\"9 g\", 2e-6]]";
+    let with = |range: &str, design: &str| {
+        let study = study("\"0.1 g\", \"3 g\"", hazard);
+        let study = study.replace("values = [\"0.1 g\", \"3 g\"]", range);
+        Bench::new(&format!("{study}[design]\n{design}\n"))
+    };
+    let range = "from = \"0.1 g\"\nto = \"3 g\"\ncount = 3";
+    for kind in ["latin_hypercube", "sobol"] {
+        let bench = with(range, &format!("kind = \"{kind}\"\nruns = 8"));
+        for command in ["ida", "sweep"] {
+            let said = bench.complaint(&format!("{command} study.toml -o out.h5"), 2);
+            let expected = format!("takes every record at every intensity, which {kind} does not");
+            assert!(said.contains(&expected), "{said}");
+        }
+    }
+}
+
+/// Where even the first frequency of the hazard curve is below the target, any gap would do.
+#[test]
+fn a_target_lies_below_the_hazard_curve() {
+    let hazard = "[[\"0.2 g\", 2.1e-3], [\"9 g\", 2e-6]]";
+    let bench = Bench::new(&study("\"0.1 g\", \"3 g\"", hazard));
+    let said = bench.complaint("ida study.toml -o out.h5", 2);
+    let expected =
+        "the target frequency is not below 0.0021 1/year, with which the hazard curve begins";
+    assert!(said.contains(expected), "{said}");
+    assert!(said.contains("target_frequency = 2.1e-3"), "{said}");
+}
+
+/// The least gap says of its fit what the same width asked for says, and who reads numbers or page
+/// finds the hazard that both are of.
+#[test]
+fn a_least_gap_says_what_its_width_does() {
+    let hazard = "[[\"0.02 g\", 0.5], [\"0.2 g\", 5e-3], [\"9 g\", 2e-12]]";
+    let intensities = "\"0.05 g\", \"0.1 g\", \"0.2 g\", \"0.4 g\", \"0.8 g\", \"1.6 g\"";
+    let bench = Bench::new(&study(intensities, hazard));
+    let told = |arguments: &str| -> serde_json::Value {
+        serde_json::from_str(&bench.text(arguments)).unwrap()
+    };
+    let first = told("ida study.toml -o out.h5 --json");
+    let width = first["gaps"][0]["minimum"]["width"].as_f64().unwrap();
+    let text = std::fs::read_to_string(bench.path("study.toml")).unwrap();
+    std::fs::write(
+        bench.path("study.toml"),
+        text.replace("gaps = [\"20 mm\"]", &format!("gaps = [{width:?}]")),
+    )
+    .unwrap();
+    let told = told("ida study.toml -o out.h5 --resume --json --report page.html");
+    let (least, asked) = (&told["gaps"][0]["minimum"], &told["gaps"][0]["widths"][0]);
+    for key in [
+        "width",
+        "mean_annual_frequency",
+        "mean_annual_frequency_is",
+        "mean_annual_frequency_bounds",
+        "goodness_of_fit",
+    ] {
+        assert_eq!(least[key], asked[key], "{key}");
+    }
+    let said = |of: &serde_json::Value| -> Vec<String> {
+        let remarks = of["remarks"].as_array().unwrap().iter();
+        remarks.map(|r| r.as_str().unwrap().to_owned()).collect()
+    };
+    let beside = said(least);
+    assert!(said(asked).iter().all(|remark| beside.contains(remark)));
+    assert!(!said(asked).is_empty());
+    assert_eq!(told["hazard"][1][1], 5e-3);
+    assert_eq!(told["target_frequency"], 2.1e-3);
+    let page = String::from_utf8(bench.bytes("page.html")).unwrap();
+    for part in ["Hazard at the site", "2.000e-12", "0.005000"] {
+        assert!(page.contains(part), "{part}");
+    }
+}
+
+/// A shard has no page of fragilities; its file is named, and what to do.
+#[test]
+fn a_shard_has_no_page_of_an_analysis() {
+    let hazard = "[[\"0.02 g\", 0.5], [\"9 g\", 2e-6]]";
+    let bench = Bench::new(&study("\"0.1 g\", \"0.2 g\", \"3 g\"", hazard));
+    let text = std::fs::read_to_string(bench.path("study.toml")).unwrap();
+    std::fs::write(
+        bench.path("study.toml"),
+        format!("{text}[output]\nchunk = 1\n"),
+    )
+    .unwrap();
+    bench.text("ida study.toml -o out.h5 --shard 1/2");
+    let said = bench.complaint("report out.h5 --study study.toml -o page.html", 2);
+    for part in ["out.h5 is shard 1/2", "pounding merge"] {
+        assert!(said.contains(part), "{said}");
+    }
+    bench.text("report out.h5 -o page.html");
+}

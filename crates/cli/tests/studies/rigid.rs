@@ -51,6 +51,22 @@ fn a_limit_on_accelerations_of_rigid_impacts_is_refused() {
     assert!(said.contains("drift_ratio"), "{said}");
 }
 
+/// What no run can have is refused before the first of them, with its place.
+#[test]
+fn a_limit_on_forces_of_rigid_impacts_is_refused_before_runs() {
+    let bench = bench(
+        "[[ida.limit]]\nname = \"hard\"\ndemand = \"contact_force\"\nlevel = 2\nexceeds = 1e6\n",
+    );
+    let said = bench.complaint("ida study.toml -o out.h5", 2);
+    for part in [
+        "rigid impacts have no contact force",
+        "demand = \"impulse\"",
+        "study.toml:10:10",
+    ] {
+        assert!(said.contains(part), "{said}");
+    }
+}
+
 /// The number stays in the result, and the warning beside it; also where a variable brings the
 /// model in, and not where it takes the place of one.
 #[test]

@@ -9,7 +9,7 @@ use pounding_catalogue::{STANDARD_GRAVITY, numbers};
 use serde_json::Value;
 
 use super::html::{self, escaped};
-use super::numbers::figures;
+use super::numbers::{figures, figures_of};
 use super::table::{Column, Row, table};
 
 /// The object that a command prints.
@@ -76,7 +76,7 @@ impl<'a> Answer<'a> {
 
     /// A number in a sentence, as HTML that says where it comes from.
     pub(super) fn say(self, source: &str, factor: f64) -> String {
-        let text = figures(factor * self.number(source, ""));
+        let text = figures_of(source, factor * self.number(source, ""));
         html::number(source, factor, &text)
     }
 
@@ -118,7 +118,7 @@ impl<'a> Answer<'a> {
         let whole = column.counts() || source.starts_with("count ") || self.is_whole(source, row);
         match whole && value.is_finite() {
             true => format!("{value}"),
-            false => figures(value),
+            false => figures_of(source, value),
         }
     }
 

@@ -21,14 +21,13 @@ fn at_most(answer: Answer<'_>, path: &str) -> &'static str {
     }
 }
 
-/// The page of what `ida --json` prints; `target` is the frequency that the study asks a gap
-/// for (1/year).
+/// The page of what `ida --json` prints.
 #[must_use]
-pub fn ida(answer: &Value, target: Option<f64>, drawn: &[Picture], inputs: &Inputs) -> String {
+pub fn ida(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
     let answer = Answer(answer);
     let mut body = section(
         "How likely is pounding?",
-        &(sentences(&points(answer, target)) + &warnings(&inputs.warnings)),
+        &(sentences(&points(answer)) + &warnings(&inputs.warnings)),
     );
     body.push_str(&section(
         "Fragility",
@@ -55,10 +54,14 @@ pub fn ida(answer: &Value, target: Option<f64>, drawn: &[Picture], inputs: &Inpu
         false => sentences(&remarks),
     };
     body.push_str(&section("Demands by intensity", &(said + &demands(answer))));
+    if !answer.at("/hazard").is_null() {
+        body.push_str(&section("Hazard at the site", &hazard(answer)));
+    }
     inputs.page(&body)
 }
 
-fn points(answer: Answer<'_>, target: Option<f64>) -> Vec<String> {
+fn points(answer: Answer<'_>) -> Vec<String> {
+    let target = answer.at("/target_frequency").as_f64();
     let mut points = Vec::new();
     for l in 0..answer.list("/limits").len() {
         let at = |path: &str| format!("/limits/{l}/{path}");
@@ -291,6 +294,24 @@ fn numbered(answer: Answer<'_>) -> Vec<(String, String)> {
     levels
         .map(|i| (i.to_string(), (i + 1).to_string()))
         .collect()
+}
+
+/// The points of the hazard curve, as the study gives them.
+fn hazard(answer: Answer<'_>) -> String {
+    let (scale, unit) = intensity_of(answer);
+    let columns = [
+        Column::new("number"),
+        Column::of(
+            format!("intensity{}", bracketed(unit)),
+            "/hazard/*/0",
+            scale,
+        ),
+        Column::of("mean annual frequency (1/year)", "/hazard/*/1", 1.0),
+    ];
+    let points = 0..answer.list("/hazard").len();
+    let points = points.map(|i| (i.to_string(), (i + 1).to_string()));
+    answer.table("Hazard at the site", &columns, points)
+        + &note("Frequencies with which the intensity is exceeded; a power law between points.")
 }
 
 /// Fractiles of demands, by intensity.

@@ -1,13 +1,29 @@
 //! Numbers as engineers write them.
 
+/// Parts of the names of numbers that may be as small as they like: round-off leaves none of them.
+const SMALL: [&str; 4] = ["mean_annual_frequency", "/hazard/", "residual", "p_value"];
+
+/// Four figures of the number of this name or path; a dash for what is not known.
+pub(super) fn figures_of(name: &str, x: f64) -> String {
+    match SMALL.iter().any(|part| name.contains(part)) {
+        true => figures_above(0.0, x),
+        false => figures(x),
+    }
+}
+
 /// Four figures; a dash for what is not known.
 pub(super) fn figures(x: f64) -> String {
+    // What is smaller may be what round-off leaves of millimetres and kilojoules.
+    figures_above(1.0e-12, x)
+}
+
+/// The same, where what is below `least` is none.
+fn figures_above(least: f64, x: f64) -> String {
     if !x.is_finite() {
         return "\u{2013}".to_owned();
     }
     let size = x.abs();
-    // Smaller than what round-off leaves of millimetres and kilojoules.
-    if size < 1.0e-12 {
+    if size < least || size == 0.0 {
         return "0".to_owned();
     }
     if !(1.0e-4..1.0e7).contains(&size) {
@@ -69,6 +85,9 @@ mod tests {
         assert_eq!(ratio(3.0, 0.0), "\u{2013}");
         assert_eq!(ratio(3.0, 1.0e-28), "3.0e28");
         assert_eq!(figures(-1.8e-15), "0");
+        assert_eq!(figures_of("energy_residual", 2.8e-15), "2.800e-15");
+        assert_eq!(figures_of("/limits/*/mean_annual_frequency", 0.0), "0");
+        assert_eq!(figures_of("peak_force", 2.8e-15), "0");
         assert_eq!(percent(1.0, 8.0), "12.5 %");
         assert_eq!(percent(-2.3e-8, 5.0e7), "0.0 %");
     }

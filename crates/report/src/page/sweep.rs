@@ -8,7 +8,7 @@ use super::answer::{in_parentheses, unit_of};
 use super::document::Document;
 use super::document::listing;
 use super::html::{escaped, figure, note, number, section, sentences, warnings};
-use super::numbers::figures;
+use super::numbers::{self, figures};
 use super::table::{Column, Row, facts, table};
 use crate::error::ReportError;
 use crate::figure::{Curve, Panel, figure_of_size};
@@ -381,7 +381,7 @@ fn cells_of(values: &[f64], quantity: &Quantity) -> [String; 4] {
     let shown = |x: f64| match quantity.name {
         "impacts" if x.fract() == 0.0 => x.to_string(),
         _ if x == f64::INFINITY => "infinite".to_owned(),
-        _ => figures(factor * x),
+        name => numbers::figures_of(name, factor * x),
     };
     [
         shown(least),

@@ -38,6 +38,12 @@ pub struct ResultReader {
 }
 
 impl ResultReader {
+    /// The file.
+    #[must_use]
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Opens a result whose checksum matches; one without a checksum only if that is
     /// accepted.
     ///

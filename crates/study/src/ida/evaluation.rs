@@ -780,6 +780,40 @@ mod tests {
         assert!(steep.frequency <= 2e-3 && steep.open.is_none(), "{steep:?}");
     }
 
+    /// A curve cut off where it passes the target leaves out what decides of narrow gaps: the width is
+    /// at most that which is enough with its first power law going on, or there is none.
+    #[test]
+    fn a_curve_that_begins_late_bounds_the_least_gap() {
+        let quantile = pounding_ground_motion::distributions::normal_quantile;
+        let per_g =
+            (0..30).map(|record| 0.2 * (0.4 * quantile((f64::from(record) + 0.5) / 30.0)).exp());
+        let per_g: Vec<f64> = per_g.collect();
+        let fine: Vec<f64> = (0..16).map(|i| 0.05 * 1.35_f64.powi(i)).collect();
+        // Exceeded with 2e-4 / x^2, x in g, from this intensity on.
+        let from = |first: f64| {
+            let points = [first, 2.0 * first, 10.0];
+            let points = points.map(|x| (x * STANDARD_GRAVITY, 2e-4 / (x * x)));
+            least_gap_under(&per_g, &fine, (&points, 2e-3))
+        };
+        let whole = from(0.02);
+        let late = from(0.29);
+        let first = late.hazard_begins.unwrap().si;
+        assert!((first / STANDARD_GRAVITY - 0.29).abs() < 1e-12);
+        assert!(whole.hazard_begins.is_none() && !whole.is_at_most());
+        assert_eq!(late.width, whole.width);
+        assert!(late.is_at_most() && late.frequency < whole.frequency);
+        let said = late.remarks();
+        assert!(
+            said[0].contains("the hazard curve begins at 0.290 g"),
+            "{said:?}"
+        );
+        // Steep at its beginning, it leaves out more than any number.
+        let points = [(0.29, 2.38e-3), (0.2901, 2.37e-3), (10.0, 2e-6)];
+        let points = points.map(|(x, y)| (x * STANDARD_GRAVITY, y));
+        let steep = least_gap_under(&per_g, &fine, (&points, 2.2e-3));
+        assert!(steep.hazard_begins.is_some(), "{steep:?}");
+    }
+
     /// The frequency of a width `w` is `k0 (w / 0.2)^-2 exp(2 beta^2)`: the target asks for
     /// 0.2 sqrt(0.1 exp(0.32)) = 74.2 mm. Intensities that reach around 0.316 g find it; those
     /// that lie above or below give an upper bound, and say so with what lies below it.
@@ -792,7 +826,7 @@ mod tests {
             (found.width.unwrap() / exact - 1.0).abs() < 0.06,
             "{found:?}"
         );
-        assert_eq!((found.open, found.remarks.len()), (None, 0));
+        assert_eq!((found.open, found.remarks()), (None, Vec::new()));
         for (intensities, place) in [
             (vec![3.0, 4.0], "intensities below"),
             (vec![0.05, 0.06], "intensities above"),

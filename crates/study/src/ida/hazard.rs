@@ -474,6 +474,7 @@ mod tests {
             FitRemark::BelowHazard {
                 first,
                 probability,
+                assumed: None,
                 uncounted,
             },
         ] = said[..]

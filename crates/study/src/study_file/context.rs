@@ -16,6 +16,8 @@ pub(super) struct Base {
     pub fundamental_periods: Vec<f64>,
     /// Names of the contact levels of all gaps, in the order of results.
     pub levels: Vec<String>,
+    /// Whether impacts at each of them are rigid.
+    pub rigid: Vec<bool>,
 }
 
 /// What is known of the case.

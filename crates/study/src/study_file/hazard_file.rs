@@ -27,13 +27,8 @@ enum Column {
 const ANY_INTENSITY: [&str; 3] = ["intensity", "im", "intensity_measure"];
 const GROUND_ACCELERATION: [&str; 2] = ["pga", "peak_ground_acceleration"];
 const GROUND_VELOCITY: [&str; 2] = ["pgv", "peak_ground_velocity"];
-const SPECTRAL: [&str; 5] = [
-    "sa",
-    "psa",
-    "sa_avg",
-    "spectral_acceleration",
-    "average_spectral_acceleration",
-];
+const SPECTRAL: [&str; 3] = ["sa", "psa", "spectral_acceleration"];
+const AVERAGE_SPECTRAL: [&str; 4] = ["sa_avg", "avg_sa", "saavg", "average_spectral_acceleration"];
 /// Frequencies that say by their name that they are those of a year.
 const ANNUAL: [&str; 5] = [
     "mean_annual_frequency",
@@ -44,6 +39,9 @@ const ANNUAL: [&str; 5] = [
 ];
 const FREQUENCY: [&str; 3] = ["frequency", "rate", "lambda"];
 const PER_YEAR: [&str; 6] = ["1/year", "1/yr", "1/a", "per_year", "year^-1", "yr^-1"];
+
+/// Part by which a period in a header may differ from that of the study: it is rounded.
+const PERIOD_TOLERANCE: f64 = 0.01;
 
 /// The points of a hazard curve, as a schema knows them.
 pub(super) struct Points;
@@ -73,7 +71,7 @@ impl JsonSchema for Points {
                             "peak_ground_acceleration": GROUND_ACCELERATION,
                             "peak_ground_velocity": GROUND_VELOCITY,
                             "spectral_acceleration": SPECTRAL,
-                            "average_spectral_acceleration": SPECTRAL,
+                            "average_spectral_acceleration": AVERAGE_SPECTRAL,
                         },
                     },
                     {
@@ -258,8 +256,17 @@ impl Table<'_> {
         };
         let known = |name: &str| is_frequency(name) || self.names().any(|n| n == name);
         if let Some((name, rest)) = cell.split_once(['(', '[']) {
-            let unit = rest.trim_end_matches([')', ']']).trim().to_owned();
+            // `Sa(1.0 s) (g)`: a period, then the unit.
+            let (period, unit) = match rest.split_once([')', ']']) {
+                Some((period, unit)) if !unit.trim().is_empty() => (Some(period), unit),
+                _ => (None, rest),
+            };
+            let brackets = ['(', '[', ')', ']', ' ', '_', ','];
+            let unit = unit.trim_matches(brackets).to_owned();
             if known(&plain(name)) {
+                if let Some(period) = period {
+                    self.at_period(line, cell, period)?;
+                }
                 return Ok((plain(name), Some(unit)));
             }
         } else {
@@ -289,15 +296,41 @@ impl Table<'_> {
         ))
     }
 
+    /// Whether a period in a name is that of the study's intensity.
+    fn at_period(&self, line: usize, cell: &str, period: &str) -> Result<(), Refusal> {
+        let stated = parse_quantity(period).ok();
+        let stated = stated.filter(|q| q.dimension.is_none_or(|d| d == Dimension::TIME));
+        let own = match self.measure {
+            IntensityMeasure::SpectralAcceleration { periods, .. } => periods.as_slice(),
+            _ => &[],
+        };
+        let near = |own: f64, stated: f64| (own - stated).abs() <= PERIOD_TOLERANCE * own;
+        match (stated, own) {
+            (Some(stated), [own]) if near(*own, stated.value) => Ok(()),
+            _ => Err(self.wrong(
+                line,
+                &format!(
+                    "the intensity of this study is {}, which \"{cell}\" is not",
+                    self.measure.title()
+                ),
+                &self.example(),
+            )),
+        }
+    }
+
     /// Names of the intensity that the study has.
     fn names(&self) -> impl Iterator<Item = &'static str> + use<> {
-        let own: &[&str] = match self.measure {
-            IntensityMeasure::PeakGroundAcceleration => &GROUND_ACCELERATION,
-            IntensityMeasure::PeakGroundVelocity => &GROUND_VELOCITY,
-            IntensityMeasure::SpectralAcceleration { .. }
-            | IntensityMeasure::AverageSpectralAcceleration { .. } => &SPECTRAL,
+        let (own, more): (&[&str], &[&str]) = match self.measure {
+            IntensityMeasure::PeakGroundAcceleration => (&GROUND_ACCELERATION, &[]),
+            IntensityMeasure::PeakGroundVelocity => (&GROUND_VELOCITY, &[]),
+            // The mean at several periods is an average.
+            IntensityMeasure::SpectralAcceleration { periods, .. } if periods.len() > 1 => {
+                (&SPECTRAL, &AVERAGE_SPECTRAL)
+            }
+            IntensityMeasure::SpectralAcceleration { .. } => (&SPECTRAL, &[]),
+            IntensityMeasure::AverageSpectralAcceleration { .. } => (&AVERAGE_SPECTRAL, &[]),
         };
-        ANY_INTENSITY.iter().chain(own).copied()
+        ANY_INTENSITY.iter().chain(own).chain(more).copied()
     }
 
     fn example(&self) -> String {
@@ -384,6 +417,8 @@ mod tests {
             "sa (g),lambda (1/yr)",
             "Sa_g,frequency_per_year",
             "\"spectral acceleration (g)\",rate [1/year]",
+            "Sa(1.0 s) (g),mafe",
+            "sa(1 s)_g,mafe",
         ] {
             assert_eq!(of(&spectral(), &text(header)).unwrap(), si, "{header}");
         }
@@ -398,6 +433,12 @@ mod tests {
             let found = of(&spectral(), &text(&format!("{header},annual_rate"))).unwrap();
             assert_eq!(found, [(0.5 * unit, 1e-2), (2.0 * unit, 1e-4)], "{header}");
         }
+        let average = IntensityMeasure::AverageSpectralAcceleration {
+            periods: vec![0.5, 1.0],
+            damping: 0.05,
+        };
+        assert_eq!(of(&average, &text("sa_avg (g),mafe")).unwrap(), si);
+        assert!(of(&average, &text("sa (g),mafe")).is_err());
         let velocity = IntensityMeasure::PeakGroundVelocity;
         let found = of(&velocity, "pgv_cm_s,mafe\n50,1e-2\n").unwrap();
         assert_eq!(found, [(0.5, 1e-2)]);
@@ -428,6 +469,12 @@ mod tests {
                 "neither the intensity",
             ),
             ("intensity (g),sa (g)\n1,2\n", 1, "twice"),
+            ("sa_avg (g),mafe\n1,2\n", 1, "neither the intensity"),
+            (
+                "Sa(0.5 s) (g),mafe\n1,2\n",
+                1,
+                "of this study is Sa(1.0000 s)",
+            ),
             ("0.5,1e-2\n1.0,x\n", 2, "\"x\" is not a finite number"),
             (
                 "0.5g,1e-2\n1.0,1e-3\n",

@@ -509,8 +509,8 @@ impl LimitTable {
 
     /// The limit, without its name.
     fn read(self, reader: &Reader<'_>, context: &Context) -> Option<Limit> {
+        let demand_at = self.demand.span();
         let demand = self.demand.value();
-        let exceeds_at = self.exceeds.span();
         let exceeds = self.exceeds.located().and_then(|exceeds| {
             let value = match demand {
                 // More than none is one.
@@ -570,7 +570,7 @@ impl LimitTable {
                 None => buildings.iter(),
             };
             if !asked.any(has) {
-                let span = places.0.clone().unwrap_or(exceeds_at?);
+                let span = places.0.clone().unwrap_or(demand_at?);
                 let message = format!("{name} is known of buildings {of} only");
                 let help = format!("ask for `storey_shear`, or for a building {of}");
                 return reader.refuse(span, message, help);
@@ -583,10 +583,22 @@ impl LimitTable {
                 None => buildings.iter(),
             };
             if !asked.any(|b| b.plan.is_some()) {
-                let span = places.0.unwrap_or(exceeds_at?);
+                let span = places.0.unwrap_or(demand_at?);
                 let message = "it is known of buildings with a plan only, whose floors turn";
                 let help = "ask for `displacement` or `acceleration_absolute`, or for a building with a `plan`";
                 return reader.refuse(span, message, help);
+            }
+        }
+        if demand == DemandKind::ContactForce {
+            let rigid = &context.base.as_ref()?.rigid;
+            let asked = match &level {
+                Some(level) => rigid.get(level.value.0.checked_sub(1)?..=level.value.0 - 1)?,
+                None => rigid,
+            };
+            if !asked.is_empty() && asked.iter().all(|rigid| *rigid) {
+                let message = "rigid impacts have no contact force";
+                let help = "ask for the impulse instead: demand = \"impulse\"";
+                return reader.refuse(demand_at?, message, help);
             }
         }
         if demand == DemandKind::ColumnShear {
@@ -595,7 +607,7 @@ impl LimitTable {
             if !gaps.iter().flat_map(|g| &g.levels).any(hit) {
                 let message = "no gap of the case lets floors hit columns";
                 let help = "ask for `contact_force`, or add `column` to a gap of the case";
-                return reader.refuse(exceeds_at?, message, help);
+                return reader.refuse(demand_at?, message, help);
             }
         }
         Some(Limit {

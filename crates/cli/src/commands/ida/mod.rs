@@ -84,8 +84,7 @@ fn tell(
 ) -> Result<(), Failure> {
     if arguments.json {
         return print(&pretty(&numbers::Answer {
-            analysis: said
-                .map(|(report, settings)| numbers::Analysis::of(report, settings.confidence)),
+            analysis: said.map(|(report, settings)| numbers::Analysis::of(report, settings)),
             sweep: Finished::of(sweep, options),
         })?);
     }
@@ -178,6 +177,19 @@ pub fn page_of_result(
             Some("leave --study away: the page of a sweep needs none".to_owned()),
         ));
     }
+    if !d.part.is_whole() {
+        return Err(Failure::input(
+            format!(
+                "{} is {}, of which --study makes no page",
+                result.path().display(),
+                d.part
+            ),
+            Some(
+                "merge all shards first (pounding merge), or leave --study away: the page of the runs needs none"
+                    .to_owned(),
+            ),
+        ));
+    }
     let report = evaluate(&study, result)?;
     write_page(output, &study, result, &report)
 }
@@ -212,8 +224,8 @@ fn write_page(
             ("The case file".to_owned(), d.case.clone()),
         ],
     };
-    let answer = page::answer(&numbers::Analysis::of(report, settings.confidence))?;
-    let html = pounding_report::page::ida(&answer, settings.target_frequency, &drawn, &inputs);
+    let answer = page::answer(&numbers::Analysis::of(report, settings))?;
+    let html = pounding_report::page::ida(&answer, &drawn, &inputs);
     plot::write(output, &html)
 }
 

@@ -1,6 +1,6 @@
 //! The analysis for machines: SI units, full precision.
 
-use pounding_study::{FragilityFit, IdaReport, LimitResult, MinimumGap, POOR};
+use pounding_study::{FragilityFit, IdaReport, IdaSettings, LimitResult, MinimumGap, POOR};
 use serde::Serialize;
 
 use crate::study::Finished;
@@ -25,6 +25,12 @@ pub struct Analysis<'a> {
     levels: Vec<Level<'a>>,
     limits: Vec<Limit<'a>>,
     gaps: Vec<Gap<'a>>,
+    /// Points of the hazard curve: intensity and mean annual frequency (1/year).
+    hazard: Option<&'a [(f64, f64)]>,
+    /// Mean annual frequency of pounding that is aimed at (1/year).
+    target_frequency: Option<f64>,
+    /// Confidence of all bounds (-).
+    confidence: f64,
 }
 
 /// Demands at one intensity.
@@ -141,8 +147,9 @@ struct Minimum {
 }
 
 impl<'a> Analysis<'a> {
-    /// The evaluation, with bounds at this confidence.
-    pub fn of(report: &'a IdaReport, confidence: f64) -> Self {
+    /// The evaluation, and what the study asked for.
+    pub fn of(report: &'a IdaReport, settings: &'a IdaSettings) -> Self {
+        let confidence = settings.confidence;
         let levels = report.levels.iter().map(|l| {
             let demands = report.demands.iter().zip(&l.fractiles);
             let demands = demands.map(|((name, unit), &[p16, p50, p84])| Demand {
@@ -180,6 +187,9 @@ impl<'a> Analysis<'a> {
             levels: levels.collect(),
             limits: limits.collect(),
             gaps: gaps.collect(),
+            hazard: settings.hazard.as_ref().map(|curve| &*curve.points),
+            target_frequency: settings.target_frequency,
+            confidence,
         }
     }
 }

@@ -7,7 +7,8 @@ use pounding_ground_motion::processing::Scale;
 use crate::case_text::{Edit, Path, apply, entry, with_motion};
 use crate::error::StudyError;
 use crate::runs::{
-    Runner, factor, factor_of_further, further_motions, intensity_of_case, motion, wanted, written,
+    FurtherFactors, Runner, factor, factors_of_further, further_motions, intensity_of_case, motion,
+    wanted, written,
 };
 use crate::study_file::{RecordKind, Study};
 
@@ -48,8 +49,10 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
                 && !further_motions(&case).is_empty()
             {
                 let brought = (&**record, intensity, scale);
-                let of_further = factor_of_further(&case, intensity_of_case(study)?, brought)
-                    .and_then(|factor| further_scales(&case, factor));
+                let brings = source.kind.brings_across();
+                let of_further =
+                    factors_of_further(&case, intensity_of_case(study)?, brings, brought)
+                        .and_then(|factors| further_scales(&case, factors));
                 scales = of_further.map_err(|e| not_shown(e.to_string()))?;
             }
             scales.push(("ground_motion.scale".to_owned(), scale));
@@ -71,9 +74,17 @@ pub fn case_of_run(study: &Study, run: usize) -> Result<String, StudyError> {
     }
 }
 
-/// Places of the scales of records beside that of the case, with their own scales times `factor`.
-fn further_scales(case: &Case, factor: f64) -> Result<Vec<(String, f64)>, AssemblyError> {
+/// Places of the scales of records beside that of the case, with their own scales times these
+/// factors.
+fn further_scales(
+    case: &Case,
+    factors: FurtherFactors,
+) -> Result<Vec<(String, f64)>, AssemblyError> {
     let scaled = further_motions(case).into_iter().map(|(place, motion)| {
+        let factor = match place.starts_with("ground_motion") {
+            true => factors.across,
+            false => factors.of_buildings,
+        };
         let own = further_record(case, motion)?.scale();
         Ok((place, own * factor))
     });

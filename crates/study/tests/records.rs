@@ -4,8 +4,9 @@
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::assemble;
-use pounding_case::Case;
+use pounding_case::{Case, GroundMotion};
 use pounding_files::checksum::WithoutChecksum;
+use pounding_ground_motion::processing::Scale;
 use pounding_study::{
     ResultReader, Row, Shard, Study, StudyError, SweepOptions, case_of_run, sweep,
 };
@@ -389,6 +390,59 @@ fn records_bring_their_own_across_the_row() {
     assert!(
         differs.clone().all(|(a, c)| (a / c - 1.0).abs() > 1e-3),
         "{found:?}"
+    );
+}
+
+/// At an intensity a record across the row that comes with one along it keeps its proportion to that
+/// one; that of the case to the record of the case.
+#[test]
+fn records_across_the_row_keep_their_proportions() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::create_dir_all(folder.path().join("studies")).unwrap();
+    let record = std::fs::read_to_string(Path::new(&motions()).join("el_centro_1940_ns.csv"));
+    let record = record.unwrap();
+    std::fs::write(folder.path().join("studies/own.csv"), &record).unwrap();
+    let halved: String = record
+        .lines()
+        .map(|line| match line.split_once(',') {
+            Some((time, a)) if a.parse::<f64>().is_ok() => {
+                format!("{time},{:?}\n", 0.5 * a.parse::<f64>().unwrap())
+            }
+            _ => format!("{line}\n"),
+        })
+        .collect();
+    std::fs::write(folder.path().join("studies/half.csv"), halved).unwrap();
+    let text = "[[variable]]\nrecords = [{ name = \"a\", file = \"own.csv\", across = { file = \"own.csv\" } }, { name = \"b\", file = \"half.csv\", across = { file = \"own.csv\" } }, { name = \"c\", file = \"half.csv\" }]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.1 g\", \"0.3 g\"]\n";
+    let across = "across = { file = \"MOTIONS/kobe_1995_jma_ns.csv\", scale = 0.5 }\n";
+    let study = study_that_turns(folder.path(), across, text).unwrap();
+    let (found, reader) = rows(&study, folder.path(), false);
+    let found = column(&found, &reader, "peak_displacement_across");
+    let factor = |motion: &GroundMotion| match motion.scale.as_ref().map(|s| &s.value) {
+        Some(Scale::Factor(factor)) => *factor,
+        other => panic!("{other:?}"),
+    };
+    let scales: Vec<[f64; 2]> = (0..6)
+        .map(|number| {
+            let shown = case_of_run(&study, number).unwrap();
+            let alone = across_alone(&shown, folder.path());
+            for (a, b) in found[number].iter().zip(&alone) {
+                assert!((a / b - 1.0).abs() < 1e-9, "{shown}: {a} {b}");
+            }
+            let case = Case::parse(&shown, &folder.path().join("case.toml")).unwrap();
+            let across = &case.ground_motion.across.as_ref().unwrap().value;
+            [factor(&case.ground_motion), factor(across)]
+        })
+        .collect();
+    let near = |a: f64, b: f64| assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}: {scales:?}");
+    for [along, across] in &scales[..4] {
+        near(across / along, scales[0][1] / scales[0][0]);
+    }
+    near(scales[2][0] / scales[0][0], 2.0);
+    near(scales[5][1] / scales[4][1], 3.0);
+    // The case's own record is as strong as that of `a`: half of what `c` would have by its own.
+    near(
+        scales[4][1] / scales[4][0],
+        0.25 * scales[0][1] / scales[0][0],
     );
 }
 

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use pounding_assembly::assemble;
 use pounding_case::Case;
 use pounding_files::checksum::WithoutChecksum;
+use pounding_ground_motion::processing::Scale;
 use pounding_study::{
     Axis, Ending, IntensityMeasure, ResultReader, Row, Shard, Study, StudyError, SweepOptions,
     Value, case_of_run, sweep,
@@ -743,7 +744,7 @@ fn records_of_buildings_keep_their_proportion_to_the_case() {
         // The case has 0.2 g, of which these are a half and twice as much.
         let expected = [0.75, 3.0][row.run % 2];
         match scale.value {
-            pounding_ground_motion::processing::Scale::Factor(scale) => {
+            Scale::Factor(scale) => {
                 assert!((scale / expected - 1.0).abs() < 1e-12, "{scale}")
             }
             ref other => panic!("{other:?}"),

@@ -15,5 +15,7 @@ pub use pounding_results::study::{
     Axis, Ending, Layout, Place, Quantity, RESPONSES, Response, Row,
 };
 pub(crate) use pounding_results::study::{ID, is_result};
-pub(crate) use proportion::{factor_of_further, further_motions, intensity_of_case};
+pub(crate) use proportion::{
+    FurtherFactors, factors_of_further, further_motions, intensity_of_case,
+};
 pub(crate) use runner::{Runner, factor, wanted, written};

@@ -2,7 +2,7 @@
 //! motion they keep their proportion to the record of the case.
 
 use pounding_assembly::{AssemblyError, read_record, scale_record};
-use pounding_case::{Case, GroundMotion};
+use pounding_case::{Building, Case, GroundMotion};
 use pounding_ground_motion::Accelerogram;
 
 use crate::error::StudyError;
@@ -21,7 +21,7 @@ pub(crate) fn further_motions(case: &Case) -> Vec<(String, &GroundMotion)> {
 }
 
 /// The intensity (SI) of the record of the case, scaled as there, if records of the study take its
-/// place at an intensity: it is the strength to which further records keep their proportion. That of
+/// place at an intensity, and other records stay: it is the strength to which further records keep their proportion. That of
 /// the records of the study is none: they are recorded as strongly as it happens.
 ///
 /// # Errors
@@ -39,7 +39,11 @@ pub(crate) fn intensity_of_case(study: &Study) -> Result<Option<f64>, StudyError
         Target::Entry { path, .. } => path.table() == "building" && path.leads_through("ground"),
         _ => false,
     };
-    if further_motions(&study.base).is_empty() && !targets().any(gives_ground) {
+    let base = &study.base;
+    let own = |b: &Building| b.ground.as_ref().is_some_and(|g| g.value.motion.is_some());
+    let kept = || study.records.iter().any(|r| !r.kind.brings_across());
+    let along = base.buildings.iter().any(own) || targets().any(gives_ground);
+    if !(along || base.ground_motion.across.is_some() && kept()) {
         return Ok(None);
     }
     let refused = |reason: String| StudyError::Proportion { reason };
@@ -52,19 +56,31 @@ pub(crate) fn intensity_of_case(study: &Study) -> Result<Option<f64>, StudyError
     }
 }
 
-/// The factor on top of their own scales by which further records are scaled where `record`, as
-/// recorded, is brought to `intensity` by `scale`.
+/// Factors of further records, on top of their own scales.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct FurtherFactors {
+    /// Of those of buildings.
+    pub of_buildings: f64,
+    /// Of that across the row.
+    pub across: f64,
+}
+
+/// By what further records are scaled where `record`, as recorded, is brought to `intensity` by
+/// `scale`; one across the row that `brings_across` says comes with it keeps its proportion to it.
 ///
 /// # Errors
 /// A scale of the case that the record cannot have.
-pub(crate) fn factor_of_further(
+pub(crate) fn factors_of_further(
     case: &Case,
     of_case: Option<f64>,
+    brings_across: bool,
     (record, intensity, scale): (&Accelerogram, f64, f64),
-) -> Result<f64, AssemblyError> {
-    match of_case {
-        Some(of_case) => Ok(intensity / of_case),
-        // The record is that of the case.
-        None => Ok(scale / (scale_record(case, record.clone())?.scale() / record.scale())),
-    }
+) -> Result<FurtherFactors, AssemblyError> {
+    let by_case = scale_record(case, record.clone())?.scale() / record.scale();
+    let by_record = scale / by_case;
+    let kept = of_case.map_or(by_record, |of_case| intensity / of_case);
+    Ok(FurtherFactors {
+        of_buildings: kept,
+        across: if brings_across { by_record } else { kept },
+    })
 }

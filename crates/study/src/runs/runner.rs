@@ -16,7 +16,7 @@ use sha2::{Digest, Sha256};
 
 use super::cache::Cache;
 use super::motions::{Motion, Motions};
-use super::proportion::{factor_of_further, intensity_of_case};
+use super::proportion::{factors_of_further, intensity_of_case};
 use super::varied::leave_out_varied;
 use super::{Ending, ID, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
@@ -262,10 +262,13 @@ impl<'s> Runner<'s> {
             Some(scale) if base.has_further_records() => {
                 let (_, intensity) = wanted(self.study, point).ok_or_else(unread)?;
                 let brought = (&**read, intensity, scale);
-                let of_further =
-                    |case: &Case| factor_of_further(case, self.intensity_of_case, brought);
-                let of_further = variant.make(&case, of_further).map_err(said)?;
-                Arc::new(base.with_further_records_scaled(of_further))
+                let brings = self.study.records[self.study.motion_of(point)]
+                    .kind
+                    .brings_across();
+                let factors =
+                    |case: &Case| factors_of_further(case, self.intensity_of_case, brings, brought);
+                let by = variant.make(&case, factors).map_err(said)?;
+                Arc::new(base.with_further_records_scaled(by.of_buildings, by.across))
             }
             _ => base,
         };

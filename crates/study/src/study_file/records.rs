@@ -115,6 +115,17 @@ fn files_in<'v>(
     }
 }
 
+impl RecordKind {
+    /// Whether a record across the row comes with it, in the place of that of the case.
+    pub(crate) fn brings_across(&self) -> bool {
+        let is_across = |edit: &Edit| edit.entry.path.to_string() == "ground_motion.across";
+        match self {
+            Self::File { edits, .. } => edits.iter().any(is_across),
+            Self::Made { .. } | Self::Refused(_) => false,
+        }
+    }
+}
+
 /// What the user should know of a study whose records stand beside the record across the row
 /// that its case names: the two may be of different earthquakes.
 pub(crate) fn beside_that_across(study: &Study) -> Option<String> {
@@ -123,14 +134,7 @@ pub(crate) fn beside_that_across(study: &Study) -> Option<String> {
     if !study.variables.iter().any(varies) {
         return None;
     }
-    let keeps = |record: &&RecordSource| match &record.kind {
-        RecordKind::File { edits, .. } => {
-            let is_across = |edit: &Edit| edit.entry.path.to_string() == "ground_motion.across";
-            !edits.iter().any(is_across)
-        }
-        RecordKind::Made { .. } | RecordKind::Refused(_) => true,
-    };
-    let kept = study.records.iter().filter(keeps);
+    let kept = study.records.iter().filter(|r| !r.kind.brings_across());
     let kept: Vec<&str> = kept.map(|record| record.name.as_str()).collect();
     let remedy = "give a record its own";
     across_of_another(&kept, study.records.len(), (across, remedy))

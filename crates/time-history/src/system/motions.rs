@@ -359,10 +359,20 @@ impl Motions {
         this
     }
 
-    /// The same with all motions scaled that are not of this record.
-    pub(super) fn with_others_scaled(&self, first: &GroundAcceleration, factor: f64) -> Self {
+    /// The same with all motions scaled that are not of this record, those across the row by a
+    /// factor of their own.
+    pub(super) fn with_others_scaled(
+        &self,
+        first: &GroundAcceleration,
+        [along, across]: [f64; 2],
+    ) -> Self {
         let mut this = self.clone();
-        for motion in this.motions.iter_mut().filter(|m| !m.is_of(first)) {
+        let is_across = |motion: usize| self.supports.iter().any(|s| s.across == Some(motion));
+        for (index, motion) in this.motions.iter_mut().enumerate() {
+            if motion.is_of(first) {
+                continue;
+            }
+            let factor = if is_across(index) { across } else { along };
             let samples = motion.acceleration.samples.iter();
             motion.acceleration.samples = Arc::new(samples.map(|a| factor * a).collect());
         }

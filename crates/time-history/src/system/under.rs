@@ -37,10 +37,12 @@ impl System {
         others.next().is_some()
     }
 
-    /// The same with all ground motions scaled that are not the first one, sooner or later.
+    /// The same with all ground motions scaled that are not the first one, sooner or later: by the
+    /// factor `along`, those across the row by `across`.
     #[must_use]
-    pub fn with_further_records_scaled(&self, factor: f64) -> Self {
-        let scaled = |m: &Arc<Motions>| Arc::new(m.with_others_scaled(&self.ground, factor));
+    pub fn with_further_records_scaled(&self, along: f64, across: f64) -> Self {
+        let factors = [along, across];
+        let scaled = |m: &Arc<Motions>| Arc::new(m.with_others_scaled(&self.ground, factors));
         Self {
             motions: self.motions.as_ref().map(scaled),
             ..self.clone()

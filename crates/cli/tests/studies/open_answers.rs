@@ -153,3 +153,17 @@ fn a_shard_has_no_page_of_an_analysis() {
     }
     bench.text("report out.h5 -o page.html");
 }
+
+/// A value that a grid has twice is made twice, which is said.
+#[test]
+fn a_value_that_stands_twice_is_told() {
+    let of = |values: &str| {
+        let text = format!(
+            "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = {values}\n"
+        );
+        Bench::new(&text).text("sweep study.toml -o out.h5")
+    };
+    let said = "variable \"gap_0_width\" has the value 0.01 m more than once";
+    assert!(of("[0.01, 0.02, \"10 mm\"]").contains(said));
+    assert!(!of("[0.01, 0.02]").contains("more than once"));
+}

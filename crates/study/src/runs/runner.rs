@@ -20,6 +20,7 @@ use super::proportion::{factors_of_further, intensity_of_case};
 use super::varied::leave_out_varied;
 use super::{Ending, ID, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
+use crate::design::Design;
 use crate::error::StudyError;
 use crate::gap_check::{Repeated, of_each_record, of_reading};
 use crate::study_file::{
@@ -133,6 +134,15 @@ impl<'s> Runner<'s> {
                 missing.join(", ")
             ));
         }
+        let gridded = matches!(study.design, Design::Grid { .. });
+        let twice = study.variables.iter().filter(|_| gridded);
+        warnings.extend(twice.filter_map(|v| {
+            let repeated = v.repeated()?;
+            Some(format!(
+                "variable \"{}\" has the value {repeated} {} more than once: its runs are made, and count, as often",
+                v.name, v.unit
+            ))
+        }));
         let known = |r: usize| Some(&motions.all[r].as_ref().ok()?.first);
         // One file that is read in several ways is no repetition.
         let once = study.readings.is_empty();

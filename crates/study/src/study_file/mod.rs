@@ -133,6 +133,19 @@ pub(crate) enum RecordKind {
     Refused(Box<CaseError>),
 }
 
+impl Variable {
+    /// A number (SI) that it takes more than once, but for round-off as of a unit.
+    pub(crate) fn repeated(&self) -> Option<f64> {
+        let Values::Numbers(numbers) = &self.values else {
+            return None;
+        };
+        let mut sorted = numbers.clone();
+        sorted.sort_by(f64::total_cmp);
+        let same = |pair: &&[f64]| pair[1] - pair[0] <= 1.0e-9 * pair[1].abs();
+        sorted.windows(2).find(same).map(|pair| pair[0])
+    }
+}
+
 impl Study {
     /// Reads a study and its case.
     ///

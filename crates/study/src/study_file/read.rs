@@ -578,7 +578,7 @@ fn each_once(
     let sampled = match design {
         Design::Grid { .. } => {
             let mut intensities = variables.iter().filter(|v| intensity_of(v).is_some());
-            let twice = intensities.find_map(|v| Some((repeated_number(v)?, &v.unit)));
+            let twice = intensities.find_map(|v| Some((v.repeated()?, &v.unit)));
             let Some((repeated, unit)) = twice else {
                 return Some(());
             };
@@ -623,15 +623,4 @@ fn ida_variables(
             "give these two, or remove [ida]",
         ),
     }
-}
-
-/// A number (SI) that a variable takes more than once, but for round-off as of a unit.
-fn repeated_number(variable: &Variable) -> Option<f64> {
-    let Values::Numbers(numbers) = &variable.values else {
-        return None;
-    };
-    let mut sorted = numbers.clone();
-    sorted.sort_by(f64::total_cmp);
-    let same = |pair: &&[f64]| pair[1] - pair[0] <= 1.0e-9 * pair[1].abs();
-    sorted.windows(2).find(same).map(|pair| pair[0])
 }

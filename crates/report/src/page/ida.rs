@@ -118,16 +118,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
                     answer.say_percent(&at("fit/confidence"))
                 ),
             };
-            let bound = |place: usize| {
-                let path = at(&format!("mean_annual_frequency_bounds/{place}"));
-                (!answer.at(&path).is_null()).then(|| answer.say(&path, 1.0))
-            };
-            let range = match (bound(0), bound(1)) {
-                (Some(low), Some(high)) => format!("{low} to {high}"),
-                (Some(low), None) => format!("at least {low}"),
-                (None, Some(high)) => format!("at most {high}"),
-                (None, None) => "without bounds".to_owned(),
-            };
+            let range = range_of(answer, &at("mean_annual_frequency_bounds"));
             sentence.push_str(&format!(
                 " ({range}{confidence}, by a bootstrap over the records)"
             ));
@@ -151,10 +142,15 @@ fn points(answer: Answer<'_>) -> Vec<String> {
             at_most(answer, &at("minimum/mean_annual_frequency_is")),
             answer.say(&at("minimum/mean_annual_frequency"), 1.0)
         );
+        let bounds = at("minimum/mean_annual_frequency_bounds");
+        let bounds = match answer.at(&bounds).is_null() {
+            true => String::new(),
+            false => format!(" ({})", range_of(answer, &bounds)),
+        };
         points.push(match minimum["width"].is_null() {
             false => format!(
                 "<strong>Gap {name} needs {}{} mm</strong> for a mean annual frequency of {asked} 1/year; there it \
-                 is {frequency} 1/year.",
+                 is {frequency} 1/year{bounds}.",
                 if minimum["upper_bound"] == true { "at most " } else { "" },
                 answer.say(&at("minimum/width"), 1.0e3)
             ),
@@ -178,6 +174,20 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         answer.quote("/measure"),
     ));
     points
+}
+
+/// The bounds at a path, of which one may be unknown.
+fn range_of(answer: Answer<'_>, path: &str) -> String {
+    let bound = |place: usize| {
+        let path = format!("{path}/{place}");
+        (!answer.at(&path).is_null()).then(|| answer.say(&path, 1.0))
+    };
+    match (bound(0), bound(1)) {
+        (Some(low), Some(high)) => format!("{low} to {high}"),
+        (Some(low), None) => format!("at least {low}"),
+        (None, Some(high)) => format!("at most {high}"),
+        (None, None) => "without bounds".to_owned(),
+    }
 }
 
 /// What must be said of the fragilities by width.

@@ -370,7 +370,7 @@ mod tests {
             });
             let answer = json!({ "unit": "m s-2", "limits": [state], "gaps": [], "levels": [],
                 "records": 2, "measure": "PGA" });
-            points(Answer(&answer), None)[0].clone()
+            points(Answer(&answer))[0].clone()
         };
         assert!(told(json!(2e-3), json!(4e-3)).contains("bootstrap"));
         let open = told(json!(2e-3), Value::Null);

@@ -4,10 +4,11 @@
 
 use std::sync::Arc;
 
-use pounding_gap_element::{ImpactModel, SeparationRule, registry};
+use pounding_gap_element::{ImpactModel, ModelParameters, SeparationRule, registry};
 use pounding_shear_building::{Damping, ShearBuilding};
 use pounding_time_history::{
-    Floor, GroundAcceleration, MethodChoice, Outcome, RunOptions, System, TimeHistoryError, run,
+    Floor, FloorForce, ForceHistory, GroundAcceleration, MethodChoice, Outcome, RunOptions, System,
+    TimeHistoryError, run,
 };
 
 const FAST: MethodChoice = MethodChoice::EventDriven {
@@ -158,4 +159,96 @@ fn floors_that_overlap_at_time_zero_are_refused() {
         "{error}"
     );
     assert!(error.to_string().contains("0.015"), "{error}");
+}
+
+/// Three single storeys without a gap. A rigid impact of the first two throws the second on the
+/// third, with which it has a compliant contact, and against which its dashpot presses it at the same
+/// instant: the contact begins with the velocity after the jump, that of momentum and restitution, as
+/// it does a picometre apart.
+#[test]
+fn a_contact_that_closes_at_a_jump_begins_after_it() {
+    let storey = |name: &str, dashpot: f64| {
+        let damping = Damping::Dashpots {
+            coefficients: vec![dashpot],
+        };
+        let parts = (vec![1e5], vec![4e6], vec![3.0]);
+        Arc::new(ShearBuilding::new(name.into(), parts.0, parts.1, parts.2, damping).unwrap())
+    };
+    let rigid = ModelParameters::from_pairs(&[("restitution", 0.3)]);
+    let rigid: Arc<dyn ImpactModel> = registry::build("stereomechanical", &rigid).unwrap().into();
+    let velocities = [0.1, -0.3, -0.3];
+    let after = 0.5 * (velocities[0] + velocities[1]) + 0.3 * 0.5 * (velocities[0] - velocities[1]);
+    let fixed = 1e-4;
+    for name in ["exact_hunt_crossley", "jankowski_2005", "hertz_1882"] {
+        for dashpot in [1e-6, 1e4] {
+            for method in [FAST, TRUTH, MethodChoice::RungeKutta4 { step: fixed }] {
+                let at = |width: f64| {
+                    let buildings = vec![storey("a", 0.0), storey("b", dashpot), storey("c", 0.0)];
+                    let ground = GroundAcceleration {
+                        samples: vec![0.0; 2].into(),
+                        time_step: 1.0,
+                    };
+                    let mut system = System::new(buildings, ground);
+                    let laws = [(0.0, Arc::clone(&rigid)), (width, law(name, 0.5, None))];
+                    for (left, (width, law)) in laws.into_iter().enumerate() {
+                        let sides = [left, left + 1].map(|b| Floor::Storey(b, 0));
+                        let names = [left, left + 1].map(|b| ["a", "b", "c"][b].to_owned());
+                        let pair = vec![(sides[0], sides[1], width, law)];
+                        system.add_gap(&left.to_string(), names, pair).unwrap();
+                    }
+                    let system = system.with_initial_state(&[0.0; 3], &velocities).unwrap();
+                    go(&system, method, 0.1).gaps[1].levels[0].clone()
+                };
+                let (touching, apart) = (at(0.0), at(1e-12));
+                let velocity = touching.approach_velocity_max;
+                assert!(
+                    (velocity - (after - velocities[2])).abs() < 1e-12,
+                    "{name} {velocity}"
+                );
+                assert_eq!(touching.impacts, 1);
+                assert_eq!(touching.first_contact, Some(0.0));
+                let [a, b] = [&touching, &apart].map(|level| level.peak_force.value);
+                assert!((a / b - 1.0).abs() < 1e-6, "{name} {dashpot}: {a} {b}");
+            }
+        }
+    }
+}
+
+/// Floors that touch at rest are in contact since they begin to move: what moves a building that
+/// nothing joins to them does not count.
+#[test]
+fn floors_at_rest_are_in_contact_since_they_move() {
+    let law = law("linear_elastic", 1.0, None);
+    let ground = GroundAcceleration {
+        samples: vec![0.0; 2].into(),
+        time_step: 1.0,
+    };
+    let mut system = System::new(
+        vec![building(1, 1.0), building(1, 3.0), building(1, 1.0)],
+        ground,
+    );
+    let pair = (Floor::Storey(0, 0), Floor::Storey(1, 0), 0.0, law);
+    let names = ["a".to_owned(), "b".to_owned()];
+    system.add_gap("gap", names, vec![pair]).unwrap();
+    let push = |building: usize, begin: f64| FloorForce {
+        building,
+        storey: 0,
+        history: ForceHistory::new(&[(begin, 0.0), (begin + 0.1, 1e5)], true).unwrap(),
+        origin: String::new(),
+    };
+    for method in [FAST, TRUTH] {
+        let pushed = system
+            .clone()
+            .with_forces(vec![push(0, 0.2), push(2, 0.05)]);
+        let pushed = pushed.unwrap();
+        for (velocity, name) in [(0.0, "pushed"), (0.3, "let go")] {
+            let begun = pushed
+                .clone()
+                .with_initial_state(&[0.0; 3], &[0.0, 0.0, velocity]);
+            let outcome = go(&begun.unwrap(), method, 0.5);
+            let level = &outcome.gaps[0].levels[0];
+            assert_eq!(level.first_contact, Some(0.2), "{name}");
+            assert_eq!(level.impacts, 1);
+        }
+    }
 }

@@ -144,7 +144,7 @@ impl ImpactLog {
         let (u, v) = system
             .initial_state()
             .split_at(system.initial_state().len() / 2);
-        let begins = begins_to_move(system);
+        let begins = system.levels_at_rest_until();
         let mut tracks = Vec::with_capacity(count);
         for (g, gap) in system.gaps().iter().enumerate() {
             for level in 0..gap.levels {
@@ -152,7 +152,7 @@ impl ImpactLog {
                 tracks.push(Track {
                     episode: None,
                     apart_from_start: contact.width - contact.relative(u) > TOUCH,
-                    apart_since: begins,
+                    apart_since: begins[gap.first_level + level],
                     separation_velocity: (-contact.relative(v)).max(0.0),
                     squares: (0.0, 0.0),
                     place: (g, level),
@@ -238,6 +238,29 @@ impl ImpactLog {
         });
         self.constants.push(collision.constants);
         self.touches.push(false);
+    }
+
+    /// Whether the present contact of a level closed at this very instant: nothing has acted in it.
+    pub(crate) fn has_just_closed(&self, l: usize, layout: Layout, state: &[f64]) -> bool {
+        let episode = self.tracks[l].episode;
+        let closed_with = episode.and_then(|episode| episode.closed_with);
+        closed_with == Some((state[layout.work(l)], state[layout.impulse(l)]))
+    }
+
+    /// A contact that has just closed begins with another velocity, to which impulses of the same
+    /// instant have brought its floors. An impact that was going on keeps its own.
+    pub(crate) fn begin_again(&mut self, l: usize, time: f64, collision: &Collision) {
+        let Some(episode) = &mut self.tracks[l].episode else {
+            return;
+        };
+        let impact = &mut self.impacts[episode.index];
+        if impact.impulse != 0.0 || impact.time_opened.is_finite() {
+            return;
+        }
+        episode.first_contact = time;
+        impact.time_closed = time;
+        impact.approach_velocity = collision.approach_velocity;
+        self.constants[episode.index] = collision.constants;
     }
 
     /// Ends a contact. `end` is the time (s) and the separation velocity (m/s), or `None`
@@ -415,15 +438,6 @@ impl ImpactLog {
         impacts.shrink_to_fit();
         (self.levels, impacts)
     }
-}
-
-/// Time (s) until which nothing moves: that of the last sample before the ground does, unless
-/// the buildings move from the start.
-fn begins_to_move(system: &System) -> f64 {
-    if system.initial_state().iter().any(|y| *y != 0.0) {
-        return 0.0;
-    }
-    system.ground_at_rest_until()
 }
 
 /// Raises the peak of an impact by that of one of its contacts; a velocity jump has none.

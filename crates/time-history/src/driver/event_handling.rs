@@ -359,6 +359,7 @@ impl Driver<'_> {
             if self.is_rigid(l) {
                 continue;
             }
+            self.begin_again(l, time);
             // A law has few phases, and none that it would enter twice at one velocity.
             for _ in 0..EVENTS_AT_ONCE {
                 let Some(target) = self.left_phase(l) else {
@@ -381,6 +382,28 @@ impl Driver<'_> {
                 self.contacts.enter(self.system, l, next, u);
             }
         }
+    }
+
+    /// Lets a contact that closed at the instant of a jump begin with the velocity after it: the
+    /// jump takes no time, and the law has not acted yet.
+    fn begin_again(&mut self, l: usize, time: f64) {
+        let (n, layout) = (self.dynamics.layout.dofs, self.dynamics.layout);
+        let level = &self.system.levels()[l];
+        let rate = level.relative(&self.state[n..2 * n]);
+        let closed = self.contacts.contact(l).is_some()
+            && self.log.has_just_closed(l, layout, &self.state);
+        if !closed || rate <= self.velocity_round_off() {
+            return;
+        }
+        let collision = level.model.begin(rate, level.effective_mass);
+        let contact = Contact {
+            phase: Phase::Approach,
+            collision,
+            memory: Memory::default(),
+        };
+        self.contacts.open(l);
+        self.contacts.close(l, contact);
+        self.log.begin_again(l, time, &collision);
     }
 
     /// Where a closed contact has to go since its relative velocity is what it is now, by more

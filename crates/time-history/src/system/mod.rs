@@ -1,5 +1,6 @@
 //! What is integrated: buildings in a row, contact levels between them, ground motion.
 
+mod at_rest;
 mod level_place;
 mod level_response;
 mod links;

@@ -106,7 +106,7 @@ impl ForceHistory {
     }
 
     /// Time (s) until which there is no force; `None` if there never is one.
-    fn begin(&self) -> Option<f64> {
+    pub(super) fn begin(&self) -> Option<f64> {
         let first = self.points.iter().position(|p| p.1 != 0.0)?;
         Some(self.points[first.saturating_sub(1)].0)
     }
@@ -802,23 +802,6 @@ impl System {
             first: if delayed { 0.0 } else { first },
             interval: 0,
             tau: 0.0,
-        }
-    }
-
-    /// Time (s) until which all ground stands still and no force acts.
-    pub(crate) fn ground_at_rest_until(&self) -> f64 {
-        let of = |ground: &GroundAcceleration, delay: f64| {
-            let first = ground.samples.iter().position(|a| *a != 0.0)?;
-            Some(delay + first.saturating_sub(1) as f64 * ground.time_step)
-        };
-        match &self.motions {
-            None => of(&self.ground, 0.0).unwrap_or(0.0),
-            Some(motions) => {
-                let begin = motions.motions.iter();
-                let begin = begin.filter_map(|m| of(&m.acceleration, m.delay));
-                let forces = motions.forces.iter().filter_map(|f| f.history.begin());
-                begin.chain(forces).reduce(f64::min).unwrap_or(0.0)
-            }
         }
     }
 

@@ -222,6 +222,9 @@ pub enum GroundMotionError {
         /// Deviation asked for.
         tolerance: f64,
     },
+    /// Work that was not to go on.
+    #[error("stopped before the end")]
+    Stopped,
     /// Values that no accelerogram can have.
     #[error("the accelerogram is not usable: {0}")]
     Invalid(String),
@@ -302,6 +305,7 @@ impl GroundMotionError {
             Self::NotMatched { .. } => {
                 "take a record whose own spectrum is nearer the target, narrow the band, or allow more iterations".to_owned()
             }
+            Self::Stopped => "compute it anew".to_owned(),
             Self::Invalid(_) => "check unit, time step and scale of the record".to_owned(),
         })
     }

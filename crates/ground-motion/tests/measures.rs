@@ -4,8 +4,8 @@
 use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::measures::{GroundMotion, Husid, IntensityMeasures, MeasureOptions};
-use pounding_ground_motion::spectra::{Evaluation, response_spectrum};
-use pounding_ground_motion::{AccelerationUnit, Accelerogram, ReadOptions};
+use pounding_ground_motion::spectra::{Evaluation, response_spectrum, response_spectrum_while};
+use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError, ReadOptions};
 use proptest::prelude::*;
 
 const G: f64 = 9.80665;
@@ -270,4 +270,40 @@ fn records_whose_squares_vanish() {
         error.to_string().contains("1e-300 m/s2 is too small"),
         "{error}"
     );
+}
+
+#[test]
+fn records_whose_squares_are_beyond_all_numbers() {
+    for samples in [[1e308, -1e308, 1e308], [1e200, 1e200, 0.0]] {
+        let error = Husid::of(&record(samples.to_vec(), 0.01), Evaluation::default()).unwrap_err();
+        assert!(
+            error.to_string().contains("too large to be squared"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn work_that_is_not_to_go_on_ends() {
+    let sine: Vec<f64> = (0..500).map(|i| libm::sin(0.3 * f64::from(i))).collect();
+    let record = record(sine, 0.01);
+    let how = (0.05, Evaluation::default());
+    let periods: Vec<f64> = (1..40).map(|i| 0.05 * f64::from(i)).collect();
+    let whole = response_spectrum_while(&record, &periods, how, &|| true).unwrap();
+    assert_eq!(
+        whole,
+        response_spectrum(&record, &periods, how.0, how.1).unwrap()
+    );
+    let asked = std::cell::Cell::new(0);
+    let fewer_than = |last: i32| {
+        asked.set(asked.get() + 1);
+        asked.get() < last
+    };
+    let stopped = response_spectrum_while(&record, &periods, how, &|| fewer_than(5));
+    assert!(matches!(stopped, Err(GroundMotionError::Stopped)));
+    assert_eq!(asked.replace(0), 5);
+    let options = MeasureOptions::default();
+    let stopped = IntensityMeasures::of_while(&record, options, &|| fewer_than(1000));
+    assert!(matches!(stopped, Err(GroundMotionError::Stopped)));
+    assert_eq!(asked.get(), 1000);
 }

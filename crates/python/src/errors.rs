@@ -11,6 +11,9 @@ const MOST_SHOWN: usize = 20;
 /// Where something is missing from a case that was made of a dict.
 const WHOLE: &str = "the case";
 
+/// Class of the exception for a record that is read by itself.
+const OF_RECORD: &str = "RecordError";
+
 /// A failure with the name of a text that nobody wrote: places in it are told by their keys.
 #[derive(Debug)]
 pub struct Problem {
@@ -48,7 +51,7 @@ impl Problem {
     /// The same of a record.
     pub fn of_record(failure: Failure) -> Self {
         Self {
-            input: "RecordError",
+            input: OF_RECORD,
             ..failure.into()
         }
     }
@@ -74,7 +77,8 @@ impl Problem {
             Failure::No | Failure::Reported(_) => ("ComputationError", Vec::new()),
         };
         let made = self.made.as_deref();
-        let faults: Vec<Fault> = reports.iter().map(|r| fault(r, made)).collect();
+        let of_record = self.input == OF_RECORD;
+        let faults: Vec<Fault> = reports.iter().map(|r| fault(r, made, of_record)).collect();
         let class = py.import("pounding._errors")?.getattr(class)?;
         let list: Vec<_> = faults
             .iter()
@@ -130,11 +134,17 @@ fn whole_message(report: &Report) -> String {
     message
 }
 
-fn fault(report: &Report, made: Option<&str>) -> Fault {
+fn fault(report: &Report, made: Option<&str>, of_record: bool) -> Fault {
     let diagnostic: &dyn Diagnostic = report.as_ref();
     let mut fault = Fault {
         message: whole_message(report),
-        help: diagnostic.help().map(|h| with_keywords(&h.to_string())),
+        help: diagnostic.help().map(|h| {
+            let help = with_keywords(&h.to_string());
+            match of_record {
+                true => without_keys(&help),
+                false => help,
+            }
+        }),
         shown: String::new(),
     };
     let rest = made.and_then(|name| behind_the_place(&fault.message, name));
@@ -201,9 +211,31 @@ const KEYWORDS: [&str; 33] = [
     "unit",
 ];
 
+/// Those whose values are numbers, which texts do not stand for.
+const NUMBERS: [&str; 6] = [
+    "confidence",
+    "points",
+    "restitution",
+    "skip-columns",
+    "skip-lines",
+    "threads",
+];
+
+/// Those that are true or false.
+const FLAGS: [&str; 4] = ["keep-going", "lenient", "prepend-zero", "resume"];
+
+/// What options of the command line alone do, as remedies say it.
+const WITHOUT_KEYWORD: [&str; 2] = [
+    ", give all shards one folder with --into, where each has a name of its own",
+    ", or give all shards one folder with --into, where each has a name of its own",
+];
+
 /// A remedy with keywords and functions in the place of options and commands.
 fn with_keywords(remedy: &str) -> String {
     let mut remedy = remedy.to_owned();
+    for option in WITHOUT_KEYWORD {
+        remedy = remedy.replace(option, "");
+    }
     for option in ["-o", "--output"] {
         let file = "name another file";
         remedy = remedy.replace(&format!("{file} with {option}"), file);
@@ -214,9 +246,25 @@ fn with_keywords(remedy: &str) -> String {
         let (is_code, keyword) = (number % 2 == 1, keyword(part));
         match (is_code, part) {
             (true, "pounding motion") => "read_motion".to_owned(),
+            (true, "pounding models") => "pounding.models()".to_owned(),
             (true, _) => keyword.unwrap_or_else(|| part.to_owned()),
             (false, _) => in_words(part),
         }
+    });
+    parts.collect::<Vec<_>>().join("`")
+}
+
+/// A remedy for a record that is read by itself, where keys of a case are keywords.
+fn without_keys(remedy: &str) -> String {
+    let parts = remedy.split('`').collect::<Vec<_>>();
+    let of_a_case = |number: usize| {
+        let behind = parts.get(number + 1);
+        behind.is_some_and(|text| text.starts_with(" in [ground_motion]"))
+    };
+    let parts = parts.iter().enumerate().map(|(number, part)| {
+        let is_code = number % 2 == 1 && !of_a_case(number);
+        let keyword = is_code.then(|| of_a_key(part)).flatten();
+        keyword.unwrap_or_else(|| (*part).to_owned())
     });
     parts.collect::<Vec<_>>().join("`")
 }
@@ -232,10 +280,24 @@ fn keyword(option: &str) -> Option<String> {
         "from" => "from_".to_owned(),
         _ => KEYWORDS.contains(&name).then(|| name.replace('-', "_"))?,
     };
-    Some(match value {
-        Some(value) => format!("{name}=\"{}\"", value.trim_matches('"')),
+    let is_one_of = |options: &[&str]| options.iter().any(|o| o.replace('-', "_") == name);
+    Some(match value.map(|value| value.trim_matches('"')) {
+        Some(value) if is_one_of(&NUMBERS) => format!("{name}={value}"),
+        Some(value) => format!("{name}=\"{value}\""),
+        None if is_one_of(&FLAGS) => format!("{name}=True"),
         None => name,
     })
+}
+
+/// A key of a case with its value, as a keyword with it.
+fn of_a_key(code: &str) -> Option<String> {
+    let (name, value) = code.split_once(" = ")?;
+    KEYWORDS
+        .contains(&&*name.replace('_', "-"))
+        .then(|| match value {
+            "true" => format!("{name}=True"),
+            value => format!("{name}={value}"),
+        })
 }
 
 /// A text with keywords, as code, in the place of the options in it.

@@ -14,7 +14,7 @@ use pyo3::types::PyDict;
 
 use crate::case::json;
 use crate::errors::Problem;
-use crate::values::{optional, quantity};
+use crate::values::{above_zero, optional, quantity};
 
 /// Descriptors of all impact models, or of one, as JSON: what `pounding models --json` prints.
 #[pyfunction]
@@ -69,9 +69,10 @@ fn collide<'py>(
 ) -> PyResult<Bound<'py, PyDict>> {
     let refused = |e| Problem::from(Failure::from(e));
     let descriptor = registry::find(model).map_err(refused)?;
+    let mass = |value, name| above_zero(value, name, Dimension::MASS);
     let bodies = Bodies {
-        mass_left: quantity(mass_left, "mass_left", Dimension::MASS)?,
-        mass_right: optional(mass_right, "mass_right", Dimension::MASS)?,
+        mass_left: mass(mass_left, "mass_left")?,
+        mass_right: mass_right.map(|m| mass(m, "mass_right")).transpose()?,
         velocity_left: quantity(velocity_left, "velocity_left", Dimension::VELOCITY)?,
         velocity_right: quantity(velocity_right, "velocity_right", Dimension::VELOCITY)?,
     };

@@ -7,7 +7,7 @@ use numpy::{IntoPyArray, PyArray1, PyReadonlyArray1};
 use pounding_case::Dimension;
 use pounding_cli::Failure;
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
-use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
+use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum_while};
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, Format, GroundMotionError, Offset, Quantity, ReadOptions, read,
 };
@@ -17,7 +17,15 @@ use pyo3::types::PyDict;
 
 use crate::case::{here, json};
 use crate::errors::Problem;
-use crate::values::{optional, quantity};
+use crate::values::{above_zero, quantity};
+use crate::watch::watched;
+
+/// Dimension of a sensitivity, counts per m/s2.
+const SENSITIVITY: Dimension = Dimension {
+    mass: 0.0,
+    length: -1.0,
+    time: 2.0,
+};
 
 /// An accelerogram: accelerations (m/s2) at even steps, linear in between.
 #[pyclass(frozen, name = "Motion", module = "pounding._native")]
@@ -87,7 +95,7 @@ impl Motion {
         skip_columns: usize,
         prepend_zero: bool,
         layout: Option<String>,
-        sensitivity: Option<f64>,
+        sensitivity: Option<&Bound<'_, PyAny>>,
         lenient: bool,
         response: Option<PathBuf>,
         gravity: Option<&Bound<'_, PyAny>>,
@@ -112,20 +120,23 @@ impl Motion {
             let what = "nothing that becomes of the mean";
             word(name, offset, what, "automatic, keep or remove")
         };
+        let positive = |value: Option<&Bound<'_, PyAny>>, name, wanted| {
+            value.map(|v| above_zero(v, name, wanted)).transpose()
+        };
         let options = ReadOptions {
             format: format.map(Format::find).transpose().map_err(refused)?,
             component,
             unit: unit.map(str::parse).transpose().map_err(refused)?,
-            time_step: optional(time_step, "time_step", Dimension::TIME)?,
+            time_step: positive(time_step, "time_step", Dimension::TIME)?,
             quantity: quantity.map(of_name).transpose()?,
             skip_lines,
             skip_columns,
             prepend_zero,
             layout,
-            sensitivity,
+            sensitivity: positive(sensitivity, "sensitivity", SENSITIVITY)?,
             lenient,
             response,
-            gravity: optional(gravity, "gravity", Dimension::ACCELERATION)?,
+            gravity: positive(gravity, "gravity", Dimension::ACCELERATION)?,
             offset: offset.map(of_mean).transpose()?.unwrap_or_default(),
         };
         let record = py.detach(|| read(&path, &options)).map_err(refused)?;
@@ -227,9 +238,11 @@ impl Motion {
     ) -> PyResult<Bound<'py, PyDict>> {
         let damping = quantity(damping, "damping", Dimension::NUMBER)?;
         let periods = periods.as_array().to_vec();
-        let spectrum = py
-            .detach(|| response_spectrum(&self.record, &periods, damping, Evaluation::default()))
-            .map_err(refused)?;
+        let how = (damping, Evaluation::default());
+        let spectrum = watched(py, None, |watch| {
+            response_spectrum_while(&self.record, &periods, how, &|| !watch.stopped())
+        })?;
+        let spectrum = spectrum.map_err(refused)?;
         let arrays = PyDict::new(py);
         for (name, values) in [
             ("displacement", spectrum.displacement),
@@ -249,9 +262,10 @@ impl Motion {
             damping: quantity(damping, "damping", Dimension::NUMBER)?,
             ..MeasureOptions::default()
         };
-        let measures = py
-            .detach(|| IntensityMeasures::of(&self.record, options))
-            .map_err(refused)?;
+        let measures = watched(py, None, |watch| {
+            IntensityMeasures::of_while(&self.record, options, &|| !watch.stopped())
+        })?;
+        let measures = measures.map_err(refused)?;
         Ok(json(&measures)?)
     }
 }

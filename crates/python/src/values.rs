@@ -1,6 +1,7 @@
 //! Dicts of Python as the TOML text of a case.
 
-use pounding_case::{Dimension, parse_quantity};
+use pounding_case::document::{AboveZero, Within};
+use pounding_case::{Dimension, Quantity, parse_quantity};
 use pounding_cli::Failure;
 use pyo3::prelude::*;
 use pyo3::types::{
@@ -70,7 +71,7 @@ fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
         return value.extract::<i64>().map(Value::Integer).map_err(|_| {
             out_of_range(
                 format!("{path}: an integer of more than 64 bits is beyond what a case can hold"),
-                "give a float, such as 1e30",
+                "give a number that a case can hold",
             )
         });
     }
@@ -88,15 +89,30 @@ fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
         return Err(no_value(value, path));
     }
     if value.hasattr("__fspath__")? {
+        if !names_a_file(path) {
+            return Err(no_value(value, path));
+        }
         let text = value.call_method0("__fspath__")?;
         return text
             .extract()
             .map(Value::String)
             .map_err(|_| no_value(value, path));
     }
+    let is_class = value.is_instance_of::<PyType>();
+    // Of a time, which Pandas has for a day too, the day that it is on.
+    if value.hasattr("isoformat")? && value.hasattr("date")? && !is_class {
+        let day = value
+            .call_method0("date")
+            .map_err(|_| no_value(value, path))?;
+        // The time of Pandas that is none is on no day.
+        if day.is(value) {
+            return Err(no_value(value, path));
+        }
+        return of(&day, path, depth + 1);
+    }
     for method in ["tolist", "isoformat"] {
         // Arrays and numbers of NumPy; days. A class of such has the method without a value.
-        if value.hasattr(method)? && !value.is_instance_of::<PyType>() {
+        if value.hasattr(method)? && !is_class {
             return of(&value.call_method0(method)?, path, depth + 1);
         }
     }
@@ -114,26 +130,40 @@ fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
     number.map(Value::Float).map_err(|_| no_value(value, path))
 }
 
+/// Keys whose values are names of files, as which paths count there alone.
+const OF_FILES: [&str; 4] = ["across", "file", "response", "target"];
+
+/// Whether the last of these keys takes the name of a file.
+fn names_a_file(path: &str) -> bool {
+    let key = path.rsplit('.').next().unwrap_or(path);
+    OF_FILES.contains(&key)
+}
+
 /// The value (SI) of an argument: a number, or a text with a unit of this dimension.
 ///
 /// # Errors
-/// Anything else, with the name of the argument.
+/// Anything else, a text that needs a unit and has none among it, with the name of the argument.
 pub fn quantity(value: &Bound<'_, PyAny>, name: &str, wanted: Dimension) -> PyResult<f64> {
     if let Ok(text) = value.cast::<PyString>() {
         let text = text.to_string_lossy();
-        let quantity = parse_quantity(&text)
+        let read = parse_quantity(&text)
             .map_err(|e| out_of_range(format!("{name}: {e}"), &e.help_for(Some(wanted))))?;
-        return match quantity.dimension {
-            Some(found) if found != wanted => Err(out_of_range(
-                format!("{name} must be {wanted}, but \"{text}\" is {found}"),
-                "correct the unit; plain numbers are SI",
-            )),
-            _ => Ok(quantity.value),
+        // As in a case: who writes quotes means to write a unit.
+        let read = Quantity {
+            dimension: read.dimension.or(Some(Dimension::NUMBER)),
+            ..read
         };
+        return read
+            .of(wanted)
+            .map_err(|fault| out_of_range(format!("{name}{}", fault.message), &fault.help));
     }
     let is_flag = value.is_instance_of::<PyBool>();
     let number = value.extract::<f64>().ok().filter(|_| !is_flag);
     number.ok_or_else(|| {
+        if value.is_instance_of::<PyInt>() && !is_flag {
+            let message = format!("{name} is an integer beyond what a number can hold");
+            return out_of_range(message, "correct the number");
+        }
         let kind = value.get_type().name();
         let kind = kind.map_or_else(|_| "value".to_owned(), |kind| kind.to_string());
         refused(
@@ -141,6 +171,21 @@ pub fn quantity(value: &Bound<'_, PyAny>, name: &str, wanted: Dimension) -> PyRe
             "give a number in SI units, or a text with a unit",
         )
     })
+}
+
+/// The same of one that is above zero, as a case asks of it.
+///
+/// # Errors
+/// As [`quantity`], and what is not finite or not above zero.
+pub fn above_zero(value: &Bound<'_, PyAny>, name: &str, wanted: Dimension) -> PyResult<f64> {
+    let value = quantity(value, name, wanted)?;
+    if !value.is_finite() {
+        let message = format!("{name} = {value} is not a finite number");
+        return Err(out_of_range(message, "correct the number"));
+    }
+    AboveZero::check(value)
+        .map_err(|fault| out_of_range(format!("{name}{}", fault.message), &fault.help))?;
+    Ok(value)
 }
 
 /// The same of one that may be left out.

@@ -392,3 +392,122 @@ def test_what_is_no_motion_is_told(pair_dict: dict) -> None:
             call()
     with pytest.raises(pounding.CaseError, match="a ndarray is given as a record"):
         pounding.gap_check(PAIR, [array])
+
+
+def test_a_scale_is_given_once() -> None:
+    light = pounding.Building(
+        "light", storeys=1, mass=1e3, stiffness=1e5, height=3.0, damping={"stiffness_proportional": 0.05}
+    )
+    motion = pounding.GroundMotion(RECORD, scale=3)
+    with pytest.raises(pounding.CaseError, match=r"^ground_motion.scale is 3, and `scale` is 2") as told:
+        pounding.Case(light, ground_motion=motion, scale=2)
+    assert told.value.help
+    peaks = [
+        pounding.Case(light, ground_motion=given, scale=scale).check()["ground_motion"]
+        for given, scale in ((motion, None), (pounding.GroundMotion(RECORD), 3))
+    ]
+    assert peaks[0] == peaks[1]
+
+
+def test_a_motion_takes_the_place_of_the_record(pair_dict: dict) -> None:
+    motion = pounding.read_motion(RECORD)
+    made = []
+    for ground in (None, {}, {"file": "none.csv"}, {"scale": 1}, {"scale": None}):
+        pair_dict["ground_motion"] = ground
+        made.append(pounding.run(pounding.Case.from_dict(pair_dict, motion=motion), isolated=False).peaks)
+    del pair_dict["ground_motion"]
+    made.append(pounding.run(pounding.Case.from_dict(pair_dict, motion=motion), isolated=False).peaks)
+    assert all(peaks.equals(made[0]) for peaks in made)
+    for wrong in (5, "x", motion, [1.0]):
+        pair_dict["ground_motion"] = wrong
+        with pytest.raises(TypeError, match=r"^ground_motion: a \w+ stands beside a motion") as told:
+            pounding.Case.from_dict(pair_dict, motion=motion)
+        assert isinstance(told.value, pounding.CaseError) and told.value.help
+    pair_dict["ground_motion"] = {"unit": "g", 5: 6}
+    with pytest.raises(pounding.CaseError, match=r"^ground_motion.5: a motion in memory takes"):
+        pounding.Case.from_dict(pair_dict, motion=motion)
+
+
+def test_tables_and_texts_are_such(tmp_path: Path) -> None:
+    for call in (
+        lambda: pounding.Case.from_dict(None),
+        lambda: pounding.Case.from_dict([("title", "a")]),
+        lambda: pounding.Case.from_text(None),
+        lambda: pounding.Case.from_text(b"title = 1"),
+        lambda: pounding.Case.from_file(None),
+        lambda: pounding.Case.from_text("", 5),
+        lambda: pounding.Case.from_dict({}, folder=5),
+        lambda: pounding.Case(5, ground_motion=RECORD),
+        lambda: pounding.Case("light", ground_motion=RECORD),
+        lambda: pounding.Case([], 5, ground_motion=RECORD),
+        lambda: pounding.GroundMotion(5),
+    ):
+        with pytest.raises(TypeError) as told:
+            call()
+        assert isinstance(told.value, pounding.CaseError) and told.value.help
+    for call in (
+        lambda: pounding.Case.from_text("\ud800"),
+        lambda: pounding.Case.from_file("\ud800"),
+    ):
+        with pytest.raises(pounding.CaseError, match="has characters that no") as told:
+            call()
+
+
+@pytest.mark.parametrize("kind", ["dict", "list", "twice", "deep"])
+def test_no_table_contains_itself(kind: str, pair_dict: dict) -> None:
+    inside: dict = {}
+    inside["law"] = {"dict": inside, "list": [inside], "twice": [inside, inside]}.get(kind, {})
+    if kind == "deep":
+        for _ in range(2000):
+            inside = {"law": inside}
+    pair_dict["building"][0]["law"] = inside
+    with pytest.raises(pounding.CaseError, match=r"^building\[0\].law.*: tables in tables without end") as told:
+        pounding.Case.from_dict(pair_dict)
+    assert told.value.help
+
+
+def test_paths_are_of_bytes_too(pair_dict: dict) -> None:
+    expected = pounding.Case.from_file(PAIR).check()
+    assert pounding.Case.from_file(bytes(PAIR)).check() == expected
+    assert pounding.run(bytes(PAIR), histories=False, isolated=False).summary["buildings"]
+    assert pounding.read_motion(bytes(RECORD)).name == RECORD.stem
+    motion = pounding.GroundMotion(bytes(RECORD))
+    assert motion == pounding.GroundMotion(RECORD)
+    assert list(pounding.gap_check(bytes(PAIR), [bytes(RECORD)]).demand.index) == [RECORD.stem]
+
+
+def test_paths_are_values_of_files_alone(pair_dict: dict) -> None:
+    pair_dict["ground_motion"] = {"file": RECORD}
+    assert pounding.Case.from_dict(pair_dict).check()
+    pair_dict["building"][0]["mass"] = Path("25 t")
+    with pytest.raises(TypeError, match=r"^building\[0\].mass: a PosixPath cannot stand in a case"):
+        pounding.Case.from_dict(pair_dict)
+
+
+def test_a_time_is_the_day_that_it_is_on(pair_dict: dict) -> None:
+    times = (
+        datetime.datetime(2019, 1, 1, 12, 30),
+        pd.Timestamp("2019-01-01 23:59"),
+        np.datetime64("2019-01-01T12"),
+    )
+    expected = pounding.gap_check(PAIR, code="ntc", date="2019-01-01").answer
+    for time in times:
+        if not isinstance(time, np.datetime64):
+            assert pounding.gap_check(PAIR, code="ntc", date=time).answer == expected
+        pair_dict["separation"] = {"date": time}
+        assert 'date = "2019-01-01"' in pounding.Case.from_dict(pair_dict).source
+    with pytest.raises(pounding.CaseError, match="^date is NaT"):
+        pounding.gap_check(PAIR, date=pd.NaT)
+    pair_dict["separation"] = {"date": pd.NaT}
+    with pytest.raises(pounding.CaseError, match="^separation.date: "):
+        pounding.Case.from_dict(pair_dict)
+
+
+def test_remedies_are_written_as_python_takes_them(tmp_path: Path, pair_dict: dict) -> None:
+    pair_dict["gap"][0]["model"] = "nothing_like_it_2050"
+    with pytest.raises(pounding.CaseError, match=r"`pounding.models\(\)` lists all"):
+        pounding.Case.from_dict(pair_dict).check()
+    pair_dict["building"][0]["storeys"] = 10**20
+    with pytest.raises(pounding.CaseError, match=r"^building\[0\].storeys: an integer") as told:
+        pounding.Case.from_dict(pair_dict)
+    assert "float" not in told.value.help

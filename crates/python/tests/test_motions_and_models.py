@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import _thread
 import pickle
+import threading
+import time
 from pathlib import Path
 
 import numpy as np
@@ -181,3 +184,132 @@ def test_records_are_read_as_a_case_reads_them(tmp_path: Path) -> None:
     # A remedy says what is to be written here.
     with pytest.raises(pounding.RecordError, match=r'`unit="g"` with `read_motion`'):
         pounding.read_motion(path)
+
+
+@pytest.mark.parametrize("name", ["gravity", "time_step", "sensitivity"])
+def test_what_is_said_of_a_record_is_above_zero(name: str) -> None:
+    for wrong in (0, -1.0, np.float64(-0.5)):
+        with pytest.raises(pounding.CaseError, match=f"^{name} = .* must be greater than zero"):
+            pounding.read_motion(RECORD, **{name: wrong})
+    for wrong in (np.nan, np.inf):
+        with pytest.raises(pounding.CaseError, match=f"^{name} = .* is not a finite number") as told:
+            pounding.read_motion(RECORD, **{name: wrong})
+        assert told.value.help
+    with pytest.raises(pounding.CaseError, match=f'^{name} must be .* "9.81" has no unit'):
+        pounding.read_motion(RECORD, **{name: "9.81"})
+
+
+@pytest.mark.parametrize("name", ["lenient", "prepend_zero"])
+@pytest.mark.parametrize("wrong", ["no", "false", 1, 0, None, [True]])
+def test_flags_are_true_or_false(name: str, wrong: object) -> None:
+    with pytest.raises(TypeError, match=f"^{name} is .* neither True nor False") as told:
+        pounding.read_motion(RECORD, **{name: wrong})
+    assert isinstance(told.value, pounding.CaseError)
+    assert len(pounding.read_motion(RECORD, **{name: np.False_})) > 1000
+
+
+def test_texts_without_a_unit_are_no_quantities() -> None:
+    motion = pounding.Motion([0.0, 1.0, 0.0], 0.01)
+    bodies = {"mass_left": 25e3, "velocity_left": 0.8, "stiffness": 1e8}
+    calls = {
+        "time_step": lambda: pounding.Motion([0.0, 1.0], "0.01"),
+        "peak": lambda: motion.scaled_to_peak("0.3"),
+        **{
+            name: lambda name=name: pounding.collide("linear_elastic", **{**bodies, name: str(bodies[name])})
+            for name in bodies
+        },
+    }
+    for name, call in calls.items():
+        with pytest.raises(pounding.CaseError, match=f'^{name} must be .* has no unit') as told:
+            call()
+        assert "add a unit, or write" in told.value.help
+    # Pure numbers have none.
+    assert motion.scaled_by("0.5").peak == 0.5
+
+
+@pytest.mark.parametrize("name", [None, 1, b"hertz_1882", ["hertz_1882"]])
+def test_the_name_of_a_model_is_a_text(name: object) -> None:
+    for call in (pounding.model, lambda model: pounding.collide(model, mass_left=1.0, velocity_left=1.0)):
+        with pytest.raises(TypeError, match="which is no text") as told:
+            call(name)
+        assert isinstance(told.value, pounding.CaseError)
+
+
+def test_models_have_their_status() -> None:
+    models = pounding.models()
+    assert set(models["status"]) <= {"verified", "from secondary sources", "unverified"}
+    for status, verification in zip(models["status"], models["verification"], strict=True):
+        assert verification.startswith(status)
+
+
+@pytest.mark.parametrize("work", ["measures", "spectrum"])
+def test_an_interruption_ends_spectra_and_measures(work: str) -> None:
+    motion = pounding.Motion(np.sin(0.1 * np.arange(500_000)), 0.001)
+    began = time.monotonic()
+    timer = threading.Timer(0.3, _thread.interrupt_main)
+    timer.start()
+    with pytest.raises(KeyboardInterrupt):
+        if work == "measures":
+            motion.measures()
+        else:
+            motion.spectrum(np.linspace(0.1, 3.0, 20_000))
+    timer.join()
+    # To its end either takes far longer, a spectrum minutes.
+    assert time.monotonic() - began < 5.0
+
+
+def test_a_record_too_strong_to_be_squared() -> None:
+    with pytest.raises(pounding.RecordError, match="1e308 m/s2 is too large to be squared"):
+        pounding.Motion([1e308, -1e308, 1e308], 0.01).measures()
+    with pytest.raises(pounding.RecordError, match="1e-200 m/s2 is too small to be squared"):
+        pounding.Motion([1e-200, -1e-200], 0.01).measures()
+
+
+@pytest.mark.parametrize(
+    "values",
+    [[10**400, 1], np.array([1, "2"], dtype=object), np.array([1.0, True], dtype=object), [1.0, None]],
+)
+def test_entries_that_are_no_numbers(values: object) -> None:
+    with pytest.raises(pounding.CaseError, match="^acceleration ") as told:
+        pounding.Motion(values, 0.01)
+    assert told.value.help
+    assert pounding.Motion(np.array([1, 2.5], dtype=object), 0.01).peak == 2.5
+
+
+def test_what_is_no_trace_is_told() -> None:
+    for wrong in (None, 5, [1.0, 2.0]):
+        with pytest.raises(TypeError, match="is given as a trace") as told:
+            pounding.Motion.from_obspy(wrong)
+        assert isinstance(told.value, pounding.CaseError)
+    obspy = pytest.importorskip("obspy")
+    trace = pounding.read_motion(RECORD).to_obspy()
+    with pytest.raises(TypeError, match=r"a Stream is given as a trace\n.*stream\[0\]"):
+        pounding.Motion.from_obspy(obspy.Stream([trace]))
+
+
+def test_masses_are_above_zero() -> None:
+    for name in ("mass_left", "mass_right"):
+        bodies = {"mass_left": 1e3, "mass_right": 1e3, name: -1}
+        with pytest.raises(pounding.CaseError, match=f"^{name} = -1 must be greater than zero") as told:
+            pounding.collide("linear_elastic", velocity_left=1.0, stiffness=1e8, **bodies)
+        assert told.value.help == "correct the value"
+
+
+@pytest.mark.parametrize("name", ["format", "component", "unit", "quantity", "layout", "offset"])
+def test_words_are_texts(name: str) -> None:
+    with pytest.raises(TypeError, match=f"^{name} is 5, which is no text") as told:
+        pounding.read_motion(RECORD, **{name: 5})
+    assert isinstance(told.value, pounding.CaseError)
+    for path in (None, 5, ["a"]):
+        with pytest.raises(TypeError, match="^path is .* no path"):
+            pounding.read_motion(path)
+        with pytest.raises(TypeError, match="^response is .* no path"):
+            pounding.read_motion(RECORD, response=path or 5)
+
+
+def test_remedies_of_records_are_keywords(tmp_path: Path) -> None:
+    path = tmp_path / "record.txt"
+    path.write_text("a title of words\n0.1 0.2\n0.3 x 0.4\n")
+    with pytest.raises(pounding.RecordError) as told:
+        pounding.read_motion(path, format="plain_columns", unit="g", time_step=0.01)
+    assert "`skip_lines=2` with `read_motion`" in told.value.help, told.value.help

@@ -143,6 +143,24 @@ def test_pictures_are_drawn() -> None:
         plot.spectra([])
     with pytest.raises(ValueError, match="no gap"):
         plot.opening(result, "nowhere")
+    record = ROOT / "ground_motions" / "el_centro_1940_ns.csv"
+    for one in (record, str(record), [str(record)]):
+        assert [line.get_label() for line in plot.spectra(one).lines] == [record.stem]
+    for storey in ("1", 1.5, True):
+        with pytest.raises(TypeError, match="^storey is .* no whole number") as told:
+            plot.displacements(result, storey=storey)
+        assert isinstance(told.value, pounding.CaseError)
+    for call in (
+        lambda: plot.displacements(result, storey=9),
+        lambda: plot.forces(result, "nowhere"),
+        lambda: plot.forces(rigid),
+        lambda: plot.spectra(5),
+        lambda: plot.spectra([5]),
+    ):
+        before = matplotlib.pyplot.get_fignums()
+        with pytest.raises(pounding.CaseError) as told:
+            call()
+        assert told.value.help and matplotlib.pyplot.get_fignums() == before
 
 
 def test_the_page_of_the_reference_is_that_of_the_docstrings() -> None:

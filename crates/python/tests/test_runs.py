@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import _thread
 import gc
+import sys
 import threading
 import time
 import tomllib
@@ -222,3 +223,44 @@ def test_one_case_may_stand_for_a_list(pair_dict: dict) -> None:
             pounding.run(wrong)
         with pytest.raises(pounding.CaseError, match="is given as a case"):
             pounding.run_many([wrong])
+
+
+@pytest.mark.parametrize("name", ["histories", "isolated"])
+@pytest.mark.parametrize("wrong", [0, 1, "no", None])
+def test_what_is_kept_is_true_or_false(name: str, wrong: object) -> None:
+    for call in (pounding.run, pounding.run_many):
+        with pytest.raises(TypeError, match=f"^{name} is .* neither True nor False") as told:
+            call(PAIR, **{name: wrong})
+        assert isinstance(told.value, pounding.CaseError)
+
+
+def test_cases_progress_and_paths_are_such(tmp_path: Path) -> None:
+    result = pounding.run(PAIR)
+    for call in (
+        lambda: pounding.run_many(None),
+        lambda: pounding.run_many(5),
+        lambda: pounding.run(PAIR, progress=1),
+        lambda: pounding.run_many([PAIR], progress="bar"),
+        lambda: result.to_hdf5(None),
+        lambda: result.report(5),
+    ):
+        with pytest.raises(TypeError) as told:
+            call()
+        assert isinstance(told.value, pounding.CaseError) and told.value.help
+    result.report(bytes(tmp_path / "page.html"))
+    assert (tmp_path / "page.html").exists()
+
+
+def test_packages_that_are_missing_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    result = pounding.run(PAIR)
+    for package, call in {
+        "h5netcdf": result.to_xarray,
+        "xarray": lambda: pounding.read_motion(RECORD).spectrum(),
+        "pandas": lambda: result.impacts,
+    }.items():
+        monkeypatch.setitem(sys.modules, package, None)
+        with pytest.raises(pounding.MissingPackageError, match=f"needs the package {package}") as told:
+            call()
+        assert told.value.help == 'pip install "pounding[xarray]"'
+        assert isinstance(told.value, ModuleNotFoundError)
+        monkeypatch.undo()

@@ -306,3 +306,63 @@ def test_answers_are_shown_in_short() -> None:
         assert answer._repr_html_().startswith("<p><strong>")
     assert "not adequate; gap light-heavy: 20 mm" in repr(check)
     assert f"{len(comparison.models)} models under 1 record" in repr(comparison)
+
+
+def test_widths_and_velocities_have_a_unit_in_texts() -> None:
+    case = EXAMPLES / "three_storey_pair" / "case.toml"
+    for name, call in {
+        "from_": lambda: pounding.gap_check(case, points=3, from_="0.01", to=0.05),
+        "to": lambda: pounding.gap_check(case, points=3, from_=0.01, to="0.05"),
+        "approach_velocity": lambda: pounding.compare(case, approach_velocity="0.4"),
+    }.items():
+        with pytest.raises(pounding.CaseError, match=f"^{name} must be .* has no unit") as told:
+            call()
+        assert told.value.help
+
+
+def test_arguments_of_studies_are_such(folder: Path) -> None:
+    case = EXAMPLES / "three_storey_pair" / "case.toml"
+    study = small_study(folder)
+    for call in (
+        lambda: pounding.gap_check(case, set="x"),
+        lambda: pounding.gap_check(case, 1),
+        lambda: pounding.gap_check(case, {1: case}),
+        lambda: pounding.gap_check(case, code=1),
+        lambda: pounding.gap_check(case, country=1),
+        lambda: pounding.gap_check(case, date=2020),
+        lambda: pounding.gap_check(case, rules=1),
+        lambda: pounding.gap_check(case, gap=1, points=3),
+        lambda: pounding.gap_check(case, provisions=None),
+        lambda: pounding.gap_check(case, provisions=[1]),
+        lambda: pounding.gap_check(case, progress=1),
+        lambda: pounding.compare(case, None),
+        lambda: pounding.compare(case, exact="no"),
+        lambda: pounding.compare(case, same_duration=1),
+        lambda: pounding.sweep(None),
+        lambda: pounding.sweep(study, output=5),
+        lambda: pounding.sweep(study, shard=(1, 2)),
+        lambda: pounding.sweep(study, resume="yes"),
+        lambda: pounding.ida(study, keep_going=1),
+    ):
+        with pytest.raises(TypeError) as told:
+            call()
+        assert isinstance(told.value, pounding.CaseError) and told.value.help, told.value
+    assert not study.with_suffix(".h5").exists()
+
+
+def test_a_sweep_that_cannot_be_opened_is_not_begun(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    study = small_study(folder)
+    monkeypatch.setitem(sys.modules, "h5netcdf", None)
+    with pytest.raises(pounding.MissingPackageError, match="sweep needs the package h5netcdf"):
+        pounding.sweep(study)
+    assert not study.with_suffix(".h5").exists()
+
+
+def test_shards_that_meet_a_result_are_told_in_keywords(folder: Path) -> None:
+    study = small_study(folder)
+    pounding.sweep(study).close()
+    with pytest.raises(pounding.PoundingError) as told:
+        pounding.sweep(study, shard="1/2")
+    assert "--" not in str(told.value) and " -o" not in str(told.value), told.value

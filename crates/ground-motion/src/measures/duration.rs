@@ -25,7 +25,7 @@ impl Husid {
     /// The curve of a record.
     ///
     /// # Errors
-    /// A record of zeros.
+    /// A record of zeros, or one whose squares are beyond what numbers can hold.
     pub fn of(record: &Accelerogram, evaluation: Evaluation) -> Result<Self, GroundMotionError> {
         let h = record.time_step();
         let mut sum = 0.0;
@@ -37,13 +37,18 @@ impl Husid {
             };
             intensity.push(sum * PI / (2.0 * GRAVITY));
         }
-        if !(sum > 0.0) {
+        // Of squares beyond all numbers it is infinite, or none where they are subtracted.
+        if !(sum > 0.0 && sum.is_finite()) {
             return Err(GroundMotionError::NotPossible {
                 step: STEP,
                 reason: match record.peak().value {
                     0.0 => "the record is zero throughout".to_owned(),
                     peak => {
-                        format!("the peak acceleration {peak:e} m/s2 is too small to be squared")
+                        let what = match sum == 0.0 {
+                            true => "small",
+                            false => "large",
+                        };
+                        format!("the peak acceleration {peak:e} m/s2 is too {what} to be squared")
                     }
                 },
                 remedy: "use another record or component, or check the unit",

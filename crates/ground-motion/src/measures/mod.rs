@@ -124,6 +124,18 @@ impl IntensityMeasures {
     /// Thresholds that are not positive, a damping ratio outside [0, 1), or a record
     /// of zeros, which has no duration.
     pub fn of(record: &Accelerogram, options: MeasureOptions) -> Result<Self, GroundMotionError> {
+        Self::of_while(record, options, &|| true)
+    }
+
+    /// The same as long as they go on, which is asked between their parts.
+    ///
+    /// # Errors
+    /// As [`of`](Self::of), and [`GroundMotionError::Stopped`].
+    pub fn of_while(
+        record: &Accelerogram,
+        options: MeasureOptions,
+        goes_on: &dyn Fn() -> bool,
+    ) -> Result<Self, GroundMotionError> {
         const STEP: &str = "intensity measures";
         positive(STEP, "duration threshold", options.duration_threshold)?;
         positive(STEP, "velocity threshold", options.velocity_threshold)?;
@@ -140,7 +152,7 @@ impl IntensityMeasures {
         let strong = significant_5_95.duration();
         let square = 0.9 * husid.arias_intensity() * 2.0 * GRAVITY / std::f64::consts::PI;
         let root_mean_square = (square / strong).sqrt();
-        let spectral = spectral::measures(record, options.damping, evaluation)?;
+        let spectral = spectral::measures(record, options.damping, evaluation, goes_on)?;
         Ok(Self {
             options,
             peak_acceleration,

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use crate::accelerogram::Accelerogram;
 use crate::error::GroundMotionError;
-use crate::spectra::{Evaluation, fourier_spectrum, logarithmic_periods, response_spectrum};
+use crate::spectra::{Evaluation, fourier_spectrum, logarithmic_periods, response_spectrum_while};
 
 const FIRST_PERIOD: f64 = 0.1;
 /// Steps of the integrals from 0.1 to 0.5 s, where spectra are rugged, and their length (s): the
@@ -28,11 +28,15 @@ pub(crate) struct SpectralMeasures {
     pub predominant_period: f64,
 }
 
+/// As long as they go on, which is asked before every period and between their parts.
 pub(crate) fn measures(
     record: &Accelerogram,
     damping: f64,
     evaluation: Evaluation,
+    goes_on: &dyn Fn() -> bool,
 ) -> Result<SpectralMeasures, GroundMotionError> {
+    let spectrum_at =
+        |periods: &[f64]| response_spectrum_while(record, periods, (damping, evaluation), goes_on);
     let short = |i| FIRST_PERIOD + SHORT_STEP * i as f64;
     let long = |i| short(ACCELERATION_STEPS) + LONG_STEP * i as f64;
     let periods = (0..=ACCELERATION_STEPS)
@@ -43,19 +47,22 @@ pub(crate) fn measures(
     let shortest = 1.0e-3 * record.time_step();
     let least = 0.01_f64.max(shortest);
     let rigid = periods.partition_point(|period| *period < shortest);
-    let spectrum = response_spectrum(record, &periods[rigid..], damping, evaluation)?;
+    let spectrum = spectrum_at(&periods[rigid..])?;
     // An oscillator of a shorter period moves with the ground.
     let peak = record.peak().value;
     let pseudo_acceleration = [vec![peak; rigid], spectrum.pseudo_acceleration].concat();
     let of_rigid = periods[..rigid].iter().map(|period| peak * period / TAU);
     let pseudo_velocity = [of_rigid.collect(), spectrum.pseudo_velocity].concat();
     let spread = logarithmic_periods(least, 10.0_f64.max(2.0 * least), 200)?;
-    let wide = response_spectrum(record, &spread, damping, evaluation)?;
+    let wide = spectrum_at(&spread)?;
     let (mut predominant_period, mut most) = (0.0, 0.0);
     for (period, a) in spread.iter().zip(&wide.pseudo_acceleration) {
         if *a > most {
             (predominant_period, most) = (*period, *a);
         }
+    }
+    if !goes_on() {
+        return Err(GroundMotionError::Stopped);
     }
     Ok(SpectralMeasures {
         housner_intensity: trapezoid(&periods, &pseudo_velocity),

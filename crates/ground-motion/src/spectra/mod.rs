@@ -16,7 +16,7 @@ pub(crate) use fourier::{inverse_transform, transform};
 pub(crate) use oscillator::{Oscillator, State, TOGETHER, exponential, zero};
 pub use response::{
     OscillatorResponse, ResponseSpectrum, logarithmic_periods, oscillator_response,
-    response_spectra, response_spectrum,
+    response_spectra, response_spectrum, response_spectrum_while,
 };
 pub use rotated::{RotatedSpectrum, rotated_spectrum};
 pub use target::TargetSpectrum;

@@ -82,6 +82,19 @@ pub fn response_spectrum(
     damping: f64,
     evaluation: Evaluation,
 ) -> Result<ResponseSpectrum, GroundMotionError> {
+    response_spectrum_while(record, periods, (damping, evaluation), &|| true)
+}
+
+/// The same as long as it `goes_on`, which is asked before every period.
+///
+/// # Errors
+/// As [`response_spectra`], and [`GroundMotionError::Stopped`].
+pub fn response_spectrum_while(
+    record: &Accelerogram,
+    periods: &[f64],
+    (damping, evaluation): (f64, Evaluation),
+    goes_on: &dyn Fn() -> bool,
+) -> Result<ResponseSpectrum, GroundMotionError> {
     let step = record.time_step();
     check(periods, damping, step)?;
     let ground = record.peak().value;
@@ -108,6 +121,9 @@ pub fn response_spectrum(
         .map(|of| of.peaks(record.samples(), evaluation));
     let mut found = together.chain(alone);
     for &period in periods {
+        if !goes_on() {
+            return Err(GroundMotionError::Stopped);
+        }
         let peaks = match period {
             0.0 => None,
             _ => found.next(),

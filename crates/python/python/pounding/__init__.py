@@ -16,7 +16,14 @@ from typing import TYPE_CHECKING
 
 from . import _native
 from ._case import Analysis, Building, Case, Gap, GroundMotion, Link, Separation
-from ._errors import CaseError, ComputationError, OutputError, PoundingError, RecordError
+from ._errors import (
+    CaseError,
+    ComputationError,
+    MissingPackageError,
+    OutputError,
+    PoundingError,
+    RecordError,
+)
 from ._models import Collision, collide, model, models
 from ._motion import Motion, formats, measures, read_motion, spectrum
 from ._result import BuildingHistories, GapHistories, Result, run, run_many
@@ -39,6 +46,7 @@ __all__ = [
     "GroundMotion",
     "Ida",
     "Link",
+    "MissingPackageError",
     "Motion",
     "OutputError",
     "PoundingError",

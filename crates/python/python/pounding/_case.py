@@ -6,13 +6,15 @@ carry a unit, such as ``"20 mm"``.
 
 from __future__ import annotations
 
+import contextlib
 import copy
 import json
 import os
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from ._errors import CaseTypeError, refused
+from ._errors import CaseTypeError, encoded, listed, refused
+from ._errors import path as as_path
 from ._motion import Motion
 from ._native import Case as _NativeCase
 
@@ -93,7 +95,7 @@ class GroundMotion(_Table):
     """A record of a file and how it is read and scaled: keys of ``[ground_motion]``."""
 
     def __init__(self, file: str | os.PathLike[str], **keys: Any) -> None:
-        super().__init__(file=os.fspath(file), **keys)
+        super().__init__(file=as_path(file, "file"), **keys)
 
 
 class Analysis(_Table):
@@ -147,13 +149,18 @@ class Case:
         scale: Any = None,
     ) -> None:
         tables: dict[str, Any] = {
-            "building": _tables(buildings),
-            "gap": _tables(gaps),
-            "link": _tables(links),
+            "building": _tables(buildings, "buildings"),
+            "gap": _tables(gaps, "gaps"),
+            "link": _tables(links, "links"),
         }
         tables = {key: value for key, value in tables.items() if value}
         tables.update(title=title or None, analysis=analysis, separation=separation)
         motion = None
+        if scale is not None and isinstance(ground_motion, Mapping) and ground_motion.get("scale") is not None:
+            raise refused(
+                f"ground_motion.scale is {ground_motion['scale']!r}, and `scale` is {scale!r}",
+                "give one of the two: the argument is for motions in memory and plain paths",
+            )
         if isinstance(ground_motion, Motion):
             motion = ground_motion
             tables["ground_motion"] = {"scale": scale}
@@ -161,8 +168,8 @@ class Case:
             tables["ground_motion"] = {**ground_motion}
             if scale is not None:
                 tables["ground_motion"]["scale"] = scale
-        elif isinstance(ground_motion, (str, os.PathLike)):
-            tables["ground_motion"] = {"file": os.fspath(ground_motion), "scale": scale}
+        elif isinstance(ground_motion, _PATHS):
+            tables["ground_motion"] = {"file": as_path(ground_motion, "ground_motion"), "scale": scale}
         else:
             motion = _as_motion(ground_motion)
         self.__setstate__(Case.from_dict(tables, folder=folder, motion=motion).__dict__)
@@ -184,14 +191,19 @@ class Case:
     @classmethod
     def from_file(cls, path: str | os.PathLike[str]) -> Case:
         """A case from its file (TOML)."""
-        native = _NativeCase.from_file(os.fspath(path))
-        return cls._of(native, ("text", native.source, os.path.abspath(path)), None)
+        file = as_path(path, "path")
+        native = _NativeCase.from_file(file)
+        return cls._of(native, ("text", native.source, os.path.abspath(file)), None)
 
     @classmethod
     def from_text(cls, text: str, file: str | os.PathLike[str] = "case.toml") -> Case:
         """A case from the text of a case file; ``file`` names it and is the base of its paths."""
-        native = _NativeCase.from_text(text, os.fspath(file))
-        return cls._of(native, ("text", text, os.path.abspath(file)), None)
+        if not isinstance(text, str):
+            what = f"text is a {type(text).__name__}, which is no text"
+            raise refused(what, "give the text of a case file", CaseTypeError)
+        place = as_path(file, "file")
+        native = _NativeCase.from_text(encoded(text, "text"), place)
+        return cls._of(native, ("text", text, os.path.abspath(place)), None)
 
     @classmethod
     def from_dict(
@@ -212,14 +224,26 @@ class Case:
         folder : path, optional
             Where relative paths begin.
         motion : Motion, optional
-            Takes the place of ``ground_motion``, of which ``scale`` alone is looked at.
+            Takes the place of the record of ``ground_motion``. Of its keys ``scale`` alone may
+            stand there too, and ``file``, which is not read; others are errors.
         """
+        if not isinstance(tables, Mapping):
+            what = f"the case: a {type(tables).__name__} is given as its tables"
+            raise refused(what, "give a dict with the tables of the case file", CaseTypeError)
         given = _plain(tables)
+        base = as_path(folder, "folder")
         if motion is not None:
             motion = _as_motion(motion)
-            ground = dict(given.get("ground_motion") or {})
+            ground = given.get("ground_motion")
+            if not (ground is None or isinstance(ground, dict)):
+                raise refused(
+                    f"ground_motion: a {type(ground).__name__} stands beside a motion in memory",
+                    "leave it out, or give a dict with `scale`",
+                    CaseTypeError,
+                )
+            ground = dict(ground or {})
             known = {"scale"}
-            beyond = sorted(set(ground) - known - {"file"})
+            beyond = sorted(map(str, set(ground) - known - {"file"}))
             if beyond:
                 raise refused(
                     f"ground_motion.{beyond[0]}: a motion in memory takes `scale` alone",
@@ -228,11 +252,11 @@ class Case:
             ground["file"] = motion.name
             given["ground_motion"] = ground
         if motion is None:
-            native = _NativeCase.from_dict(given, os.fspath(folder))
+            native = _NativeCase.from_dict(given, base)
         else:
-            native = _NativeCase.from_dict(given, os.fspath(folder), motion._native, motion.name)
+            native = _NativeCase.from_dict(given, base, motion._native, motion.name)
         kind = "dict" if motion is None else "dict with motion"
-        return cls._of(native, (kind, given, os.path.abspath(folder)), motion)
+        return cls._of(native, (kind, given, os.path.abspath(base)), motion)
 
     def with_motion(self, motion: Motion) -> Case:
         """The same case under another motion, processed and scaled as the case says.
@@ -284,7 +308,7 @@ def as_case(case: Case | str | os.PathLike[str]) -> Case:
     """A case, or that of a file."""
     if isinstance(case, Case):
         return case
-    if isinstance(case, (str, os.PathLike)):
+    if isinstance(case, _PATHS):
         return Case.from_file(case)
     what = f"a {type(case).__name__} is given as a case"
     raise refused(what, "give a Case, such as Case.from_dict makes, or a path", CaseTypeError)
@@ -298,9 +322,11 @@ def _as_motion(motion: Any) -> Motion:
     raise refused(what, remedy, CaseTypeError)
 
 
-def _tables(given: Iterable[Mapping[str, Any]] | Mapping[str, Any]) -> list[Mapping[str, Any]]:
+def _tables(
+    given: Iterable[Mapping[str, Any]] | Mapping[str, Any], name: str
+) -> list[Mapping[str, Any]]:
     """Tables of one kind, also a single one."""
-    return [given] if isinstance(given, Mapping) else list(given)
+    return [given] if isinstance(given, Mapping) else listed(given, name, "dicts")
 
 
 def _kept(value: Any) -> Any:
@@ -311,23 +337,36 @@ def _kept(value: Any) -> Any:
 #: What is no list although it has entries: texts, and what is refused with its keys.
 _NO_LISTS = (str, bytes, bytearray, memoryview, set, frozenset)
 
+#: Kinds of paths.
+_PATHS = (str, bytes, os.PathLike)
 
-def _plain(value: Any) -> Any:
+#: Tables in one another at most: more than any case has.
+_DEEPEST = 32
+
+
+def _plain(value: Any, place: str = "", around: tuple[int, ...] = ()) -> Any:
     """A copy with plain dicts and lists in the place of other mappings and of all that has entries:
     what can be read once only is read here, and the same whenever the case is made again."""
-    if isinstance(value, Mapping):
-        return {key: _plain(entry) for key, entry in value.items()}
     if isinstance(value, _NO_LISTS):
         return value
+    entries: Iterator[Any] | None = None
     # Arrays have one themselves, and without a dimension no entries.
-    if not hasattr(value, "tolist"):
-        try:
+    if not isinstance(value, Mapping) and not hasattr(value, "tolist"):
+        with contextlib.suppress(TypeError):
             entries = iter(value)
-        except TypeError:
-            pass
-        else:
-            return [_plain(entry) for entry in entries]
-    return copy.deepcopy(value)
+    if entries is None and not isinstance(value, Mapping):
+        # What cannot be copied is refused with its keys.
+        with contextlib.suppress(Exception):
+            return copy.deepcopy(value)
+        return value
+    if id(value) in around or len(around) > _DEEPEST:
+        what = f"{place or 'the case'}: tables in tables without end"
+        raise refused(what, "give a dict or list that does not contain itself")
+    around = (*around, id(value))
+    if entries is not None:
+        return [_plain(entry, f"{place}[{i}]", around) for i, entry in enumerate(entries)]
+    dot = "." if place else ""
+    return {key: _plain(entry, f"{place}{dot}{key}", around) for key, entry in value.items()}
 
 
 def _restored(kind: str, content: Any, place: str, motion: Motion | None) -> Case:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._errors import refused
+from ._errors import needs, optional_text, refused, text
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -23,15 +23,22 @@ __all__ = ["Collision", "collide", "model", "models"]
 
 
 def models() -> pandas.DataFrame:
-    """All impact models, indexed by name: title, formula, citation, class, status and traps."""
+    """All impact models, indexed by name: title, formula, citation, class, status and traps.
+
+    The status is ``"verified"``, ``"from secondary sources"`` or ``"unverified"``; the column
+    ``verification`` says against what.
+    """
+    needs("models", "pandas")
     import pandas as pd
 
-    return pd.DataFrame(json.loads(_native.models_json())).set_index("name")
+    frame = pd.DataFrame(json.loads(_native.models_json())).set_index("name")
+    frame["status"] = frame["verification"].str.split(":").str[0].str.removesuffix(" against")
+    return frame
 
 
 def model(name: str) -> dict[str, Any]:
     """The descriptor of one impact model: formula, citation, parameters with units and ranges."""
-    described: list[dict[str, Any]] = json.loads(_native.models_json(name))
+    described: list[dict[str, Any]] = json.loads(_native.models_json(text(name, "name")))
     return described[0]
 
 
@@ -101,12 +108,14 @@ def collide(
 
     All are SI; texts carry a unit, such as ``"2.75e9 N/m^1.5"``.
     """
+    given = text(model, "model")
     try:
         table = None if spring is None else [(d, f) for d, f in spring]
     except (TypeError, ValueError):
         what = "spring is no list of pairs"
         raise refused(what, "give a penetration (m) and a force (N) for each point") from None
+    rule = optional_text(separation, "separation")
     answer = _native.collide(
-        model, list(parameters.items()), mass_left, mass_right, velocity_left, velocity_right, separation, table
+        given, list(parameters.items()), mass_left, mass_right, velocity_left, velocity_right, rule, table
     )
     return Collision(**answer)

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from . import _native
-from ._errors import CaseError, refused, text, whole
+from ._errors import CaseError, CaseTypeError, flag, needs, optional_text, refused, text, whole
+from ._errors import path as as_path
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -27,8 +28,13 @@ def _real(values: npt.ArrayLike, name: str, of: str) -> npt.NDArray[np.float64]:
         kind = np.asarray(values).dtype
         if kind.kind not in "iufO":
             raise refused(f"{name} has values of type {kind}", "give real numbers")
+        if kind.kind == "O":
+            # Whose texts would be read as numbers, and nothing as none of them.
+            wrong = [v for v in np.ravel(values) if v is None or isinstance(v, (str, bytes, bool))]
+            if wrong:
+                raise refused(f"{name} has the value {wrong[0]!r}", "give real numbers")
         array = np.ascontiguousarray(values, dtype=np.float64)
-    except (TypeError, ValueError) as error:
+    except (TypeError, ValueError, OverflowError) as error:
         if isinstance(error, CaseError):
             raise
         raise refused(f"{name} is no list of numbers: {error}", "give real numbers") from None
@@ -122,6 +128,7 @@ class Motion:
 
     def to_xarray(self) -> xarray.DataArray:
         """The accelerations as a labelled array with the dimension ``time``."""
+        needs("Motion.to_xarray", "xarray")
         import xarray as xr
 
         return xr.DataArray(
@@ -134,6 +141,7 @@ class Motion:
 
     def to_obspy(self) -> obspy.Trace:
         """The accelerations as a trace of ObsPy, in m/s2; headers as far as they are known."""
+        needs("Motion.to_obspy", "obspy", extra="obspy")
         import obspy
 
         trace = obspy.Trace(data=self.acceleration)
@@ -147,6 +155,9 @@ class Motion:
     @classmethod
     def from_obspy(cls, trace: obspy.Trace, unit: str = "m/s2") -> Motion:
         """A motion of the samples of a trace of ObsPy, which do not say their unit."""
+        if not (hasattr(trace, "data") and hasattr(trace, "stats")):
+            what = f"a {type(trace).__name__} is given as a trace"
+            raise refused(what, "give one trace of ObsPy, such as `stream[0]`", CaseTypeError)
         name = trace.id or "trace"
         return cls(trace.data, trace.stats.delta, unit=unit, name=name)
 
@@ -183,7 +194,7 @@ def read_motion(
     skip_columns: int = 0,
     prepend_zero: bool = False,
     layout: str | None = None,
-    sensitivity: float | None = None,
+    sensitivity: float | str | None = None,
     lenient: bool = False,
     response: str | os.PathLike[str] | None = None,
     gravity: float | str | None = None,
@@ -206,24 +217,25 @@ def read_motion(
     RecordError
         A file that cannot be read, with its line and what to do.
     """
+    file = as_path(path, "path")
     native = _native.Motion.read(
-        os.fspath(path),
-        format=format,
-        component=component,
-        unit=unit,
+        file,
+        format=optional_text(format, "format"),
+        component=optional_text(component, "component"),
+        unit=optional_text(unit, "unit"),
         time_step=time_step,
-        quantity=quantity,
+        quantity=optional_text(quantity, "quantity"),
         skip_lines=whole(skip_lines, "skip_lines", 0),
         skip_columns=whole(skip_columns, "skip_columns", 0),
-        prepend_zero=bool(prepend_zero),
-        layout=layout,
+        prepend_zero=flag(prepend_zero, "prepend_zero"),
+        layout=optional_text(layout, "layout"),
         sensitivity=sensitivity,
-        lenient=bool(lenient),
-        response=None if response is None else os.fspath(response),
+        lenient=flag(lenient, "lenient"),
+        response=None if response is None else as_path(response, "response"),
         gravity=gravity,
-        offset=offset,
+        offset=optional_text(offset, "offset"),
     )
-    stem = os.path.splitext(os.path.basename(os.fspath(path)))[0]
+    stem = os.path.splitext(os.path.basename(file))[0]
     return Motion._of(native, text(name, "name") if name is not None else stem)
 
 
@@ -253,6 +265,7 @@ def spectrum(
         ``displacement`` (m), ``velocity`` and ``pseudo_velocity`` (m/s), ``acceleration`` and
         ``pseudo_acceleration`` (m/s2) over ``period`` (s).
     """
+    needs("spectrum", "xarray")
     import xarray as xr
 
     given = _native.periods(0.02, 10.0, 200) if periods is None else periods

@@ -51,7 +51,7 @@ class Motion:
         skip_columns: int,
         prepend_zero: bool,
         layout: str | None,
-        sensitivity: float | None,
+        sensitivity: Quantity | None,
         lenient: bool,
         response: str | None,
         gravity: Quantity | None,

@@ -14,7 +14,8 @@ import numpy as np
 
 from . import _native
 from ._case import Case, as_case
-from ._errors import PoundingError, refused, whole
+from ._errors import CaseTypeError, PoundingError, flag, listed, needs, refused, whole
+from ._errors import path as as_path
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -136,6 +137,7 @@ class Result:
         ``separation_velocity`` (m/s), ``achieved_restitution``, ``peak_force`` (N),
         ``peak_force_time`` (s), ``peak_penetration`` (m), ``impulse`` (N s) and
         ``energy_dissipated`` (J)."""
+        needs("Result.impacts", "pandas")
         import pandas as pd
 
         columns = self._native.impacts()
@@ -147,6 +149,7 @@ class Result:
         1): ``displacement`` (m), ``drift_ratio``, ``storey_shear`` (N) and
         ``acceleration_absolute`` (m/s2), each with its time (s) and, as ``isolated_...``,
         without gaps, where that run was made."""
+        needs("Result.peaks", "pandas")
         import pandas as pd
 
         rows = []
@@ -168,6 +171,7 @@ class Result:
         """What happened at each contact level, indexed by gap and level (from 1): ``impacts``,
         ``first_contact`` (s), ``peak_force`` (N), ``peak_penetration`` (m),
         ``approach_velocity_max`` (m/s), ``impulse`` (N s), ``energy_dissipated`` (J)."""
+        needs("Result.levels", "pandas")
         import pandas as pd
 
         names = ["impacts", "first_contact", "approach_velocity_max", "impulse", "energy_dissipated"]
@@ -189,6 +193,7 @@ class Result:
     def energy(self) -> pandas.DataFrame:
         """The energy ledger (J) over the output times: ``input``, ``kinetic``, ``strain``,
         ``viscous``, ``hysteretic``, ``impact``, ``residual``."""
+        needs("Result.energy", "pandas")
         import pandas as pd
 
         index = pd.Index(np.array(self.time), name="time")
@@ -202,6 +207,7 @@ class Result:
         as ``tree["gap/light-heavy/impacts/t_close"]``; the column ``level`` is ``level_number``
         there. ``to_netcdf`` writes the tree.
         """
+        needs("Result.to_xarray", "xarray", "h5netcdf")
         import xarray as xr
 
         # Decoded from a copy of the file in memory: no file is written.
@@ -225,14 +231,15 @@ class Result:
         CaseError
             It would replace what the case reads.
         """
-        self._native.to_hdf5(os.fspath(path))
+        self._native.to_hdf5(as_path(path, "path"))
 
     def report(self, path: str | os.PathLike[str] | None = None) -> str:
         """The page of the run, one HTML file that needs no other; written to ``path`` if that is
         given."""
+        file = None if path is None else as_path(path, "path")
         page = self._native.page(self.case.title or "result")
-        if path is not None:
-            self._native.write_page(os.fspath(path), page)
+        if file is not None:
+            self._native.write_page(file, page)
         return page
 
     def _lines(self) -> list[str]:
@@ -315,6 +322,9 @@ def _progress(progress: Progress | bool | None, what: str) -> tuple[Progress | N
     if progress is None or progress is False:
         return None, None
     if progress is not True:
+        if not callable(progress):
+            what = f"progress is {progress!r}, which cannot be called"
+            raise refused(what, "give a function of two numbers, or True for a bar", CaseTypeError)
         return progress, None
     try:
         from tqdm.auto import tqdm
@@ -357,10 +367,11 @@ def run(
     ComputationError
         A run without an end, located.
     """
+    wanted = flag(histories, "histories"), flag(isolated, "isolated")
     given = as_case(case)
     told, bar = _progress(progress, "run")
     try:
-        native = _native.run(given._native, histories, isolated, told)
+        native = _native.run(given._native, *wanted, told)
     finally:
         if bar is not None:
             bar.close()
@@ -425,8 +436,11 @@ def run_many(
     """
     if errors not in ("raise", "return"):
         raise refused(f"errors is {errors!r}", 'it is "raise" or "return"')
+    wanted = flag(histories, "histories"), flag(isolated, "isolated")
     given: list[Case | PoundingError] = []
-    for case in [cases] if isinstance(cases, (Case, str, os.PathLike)) else cases:
+    one = isinstance(cases, (Case, str, bytes, os.PathLike))
+    each: list[Any] = [cases] if one else listed(cases, "cases", "cases, each a Case or a path")
+    for case in each:
         try:
             given.append(as_case(case))
         except PoundingError as error:
@@ -437,7 +451,7 @@ def run_many(
     count = _threads(threads)
     told, bar = _progress(progress, "runs")
     try:
-        made = _native.run_many([c._native for c in sound], count, histories, isolated, told)
+        made = _native.run_many([c._native for c in sound], count, *wanted, told)
     finally:
         if bar is not None:
             bar.close()

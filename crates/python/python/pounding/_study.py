@@ -13,7 +13,8 @@ from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._case import Case, as_case
-from ._errors import CaseTypeError, refused, text, whole
+from ._errors import CaseTypeError, flag, listed, needs, optional_text, refused, text, whole
+from ._errors import path as as_path
 from ._motion import Motion
 from ._result import Progress, _progress, _threads
 
@@ -31,13 +32,10 @@ def _records(records: Records) -> list[tuple[str, Any]]:
     if records is None:
         return []
     if isinstance(records, Mapping):
-        named = list(records.items())
+        named = [(text(name, "a name of records"), record) for name, record in records.items()]
     else:
-        each: Iterable[Any]
-        if isinstance(records, (Motion, str, os.PathLike)):
-            each = [records]
-        else:
-            each = records
+        one = isinstance(records, (Motion, str, bytes, os.PathLike))
+        each = [records] if one else listed(records, "records", "motions and paths")
         named = [(r.name if isinstance(r, Motion) else "", r) for r in each]
     if not named:
         raise refused("no records are given", "leave `records` out for that of the case")
@@ -47,38 +45,54 @@ def _records(records: Records) -> list[tuple[str, Any]]:
 def _record(record: Any) -> Any:
     if isinstance(record, Motion):
         return record._native
-    if isinstance(record, (str, os.PathLike)):
-        return os.fspath(record)
+    if isinstance(record, (str, bytes, os.PathLike)):
+        return as_path(record, "a record")
     what = f"a {type(record).__name__} is given as a record"
     raise refused(what, "give a Motion, or the path of a file or folder", CaseTypeError)
 
 
 def _names(names: Iterable[str] | str, what: str) -> list[str]:
     """Names, also a single one."""
-    return [text(n, what) for n in ([names] if isinstance(names, str) else names)]
+    each = [names] if isinstance(names, str) else listed(names, what, "names")
+    return [text(name, f"an entry of {what}") for name in each]
 
 
-def _output(study: Path, output: Path | None) -> str:
+def _day(date: object) -> str | None:
+    """A day as a text; of a time the day that it is on."""
+    if isinstance(date, datetime.datetime):
+        date = date.date()
+        # The time of Pandas that is none is on no day.
+        if isinstance(date, datetime.datetime):
+            raise refused(f"date is {date!r}, which is no day", "give a day, or leave it out")
+    if isinstance(date, datetime.date):
+        return date.isoformat()
+    if date is None or isinstance(date, str):
+        return optional_text(date, "date")
+    what = f"date is {date!r}, which is no day"
+    raise refused(what, 'give a text, such as "2020-01-31", or a datetime.date', CaseTypeError)
+
+
+def _output(study: str, output: Path | None) -> str:
     if output is not None:
-        return os.fspath(output)
-    return os.path.splitext(os.fspath(study))[0] + ".h5"
+        return as_path(output, "output")
+    return os.path.splitext(study)[0] + ".h5"
 
 
 def _run_study(
-    study: Path,
+    study: str,
     output: Path | None,
     evaluated: bool,
     threads: int | None,
     progress: Progress | bool | None,
     **options: Any,
 ) -> tuple[str, dict[str, Any], dict[str, Any] | None]:
-    target = _output(study, output)
+    target, count = _output(study, output), _threads(threads)
     told, bar = _progress(progress, "study")
     try:
         finished, analysis = _native.run_study(
-            os.fspath(study),
+            study,
             target,
-            _threads(threads),
+            count,
             named=output is not None,
             evaluated=evaluated,
             progress=told,
@@ -128,10 +142,16 @@ def sweep(
         Responses of all runs over the dimension ``run``, read when they are looked at; what the
         command says of the study is in the attribute ``sweep`` (JSON).
     """
+    # Before the work, whose result it opens.
+    needs("sweep", "xarray", "h5netcdf")
     import xarray as xr
 
-    options = {"shard": shard, "resume": resume, "keep_going": keep_going}
-    target, finished, _ = _run_study(study, output, False, threads, progress, **options)
+    options = {
+        "shard": optional_text(shard, "shard"),
+        "resume": flag(resume, "resume"),
+        "keep_going": flag(keep_going, "keep_going"),
+    }
+    target, finished, _ = _run_study(as_path(study, "study"), output, False, threads, progress, **options)
     dataset = xr.open_dataset(target, engine="h5netcdf", decode_timedelta=False)
     dataset.attrs["sweep"] = json.dumps(finished)
     return dataset
@@ -174,6 +194,7 @@ class Ida(_Answered):
     @property
     def levels(self) -> pandas.DataFrame:
         """Fractiles of every demand at every intensity."""
+        needs("Ida.levels", "pandas")
         import pandas as pd
 
         rows = [
@@ -187,12 +208,14 @@ class Ida(_Answered):
     @property
     def limits(self) -> pandas.DataFrame:
         """Fragilities of pounding and of the limits of the study, a row each."""
+        needs("Ida.limits", "pandas")
         import pandas as pd
 
         return pd.json_normalize(self.answer["limits"])
 
     def runs(self) -> xarray.Dataset:
         """The runs, read when they are looked at."""
+        needs("Ida.runs", "xarray", "h5netcdf")
         import xarray as xr
 
         return xr.open_dataset(self.output, engine="h5netcdf", decode_timedelta=False)
@@ -211,11 +234,16 @@ def ida(
 
     Parameters are those of :func:`sweep`; the study has a part ``[ida]``.
     """
-    if not _native.has_ida(os.fspath(study)):
-        what = f"{os.fspath(study)} has no [ida]"
+    file = as_path(study, "study")
+    options = {
+        "shard": None,
+        "resume": flag(resume, "resume"),
+        "keep_going": flag(keep_going, "keep_going"),
+    }
+    if not _native.has_ida(file):
+        what = f"{file} has no [ida]"
         raise refused(what, "add it, or run the study with sweep")
-    options = {"shard": None, "resume": resume, "keep_going": keep_going}
-    target, finished, analysis = _run_study(study, output, True, threads, progress, **options)
+    target, finished, analysis = _run_study(file, output, True, threads, progress, **options)
     # The working folder may be another one when its runs are read.
     return Ida({**(analysis or {}), "sweep": finished}, os.path.abspath(target))
 
@@ -259,6 +287,7 @@ class GapCheck(_Answered):
         Infinite under records, the last ones, that bring a building to collapse without
         contact.
         """
+        needs("GapCheck.demand", "pandas")
         import pandas as pd
 
         collapsed = self.answer["collapsed"]
@@ -270,6 +299,7 @@ class GapCheck(_Answered):
     @property
     def provisions(self) -> pandas.DataFrame:
         """The widths that provisions ask for, a row for each provision and gap."""
+        needs("GapCheck.provisions", "pandas")
         import pandas as pd
 
         rows = [
@@ -335,22 +365,26 @@ def gap_check(
     progress : callable or bool, optional
     """
     given = as_case(case)
+    if not (set is None or isinstance(set, Mapping)):
+        what = f"set is a {type(set).__name__}, which is no dict"
+        raise refused(what, 'give entries of `separation`, such as {"importance": 1.25}', CaseTypeError)
+    entries = None if set is None else dict(set)
     told, bar = _progress(progress, "gap check")
     try:
         answer = _native.gap_check_json(
             given._native,
             _records(records),
-            code,
-            country,
-            date.isoformat() if isinstance(date, datetime.date) else date,
-            None if rules is None else os.fspath(rules),
-            _names(provisions, "a name of provisions"),
-            None if set is None else dict(set),
+            optional_text(code, "code"),
+            optional_text(country, "country"),
+            _day(date),
+            None if rules is None else as_path(rules, "rules"),
+            _names(provisions, "provisions"),
+            entries,
             probability,
             confidence,
             whole(points, "points", 0),
             (from_, to),
-            gap,
+            optional_text(gap, "gap"),
             _threads(threads),
             told,
         )
@@ -386,6 +420,7 @@ class Comparison(_Answered):
     @property
     def models(self) -> pandas.DataFrame:
         """A row for each model, indexed by its name."""
+        needs("Comparison.models", "pandas")
         import pandas as pd
 
         frame = pd.json_normalize(self.answer["models"], max_level=0)
@@ -428,12 +463,12 @@ def compare(
     try:
         answer = _native.compare_json(
             given._native,
-            _names(models, "a name of models"),
+            _names(models, "models"),
             _records(records),
             restitution,
             approach_velocity,
-            same_duration,
-            exact,
+            flag(same_duration, "same_duration"),
+            flag(exact, "exact"),
             _threads(threads),
             told,
         )

@@ -3,19 +3,22 @@ is given, or into new ones, and returns them."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ._errors import refused
-from ._motion import Motion, spectrum
+from ._errors import CaseTypeError, listed, needs, refused
+from ._motion import Motion, _as_motion, spectrum
 from ._result import Result
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 __all__ = ["displacements", "energy", "forces", "opening", "spectra"]
+
+Path = str | os.PathLike[str]
 
 #: Line styles that differ in greyscale too.
 _STYLES = ["-", "--", "-.", ":"]
@@ -24,6 +27,7 @@ _STYLES = ["-", "--", "-.", ":"]
 def _axes(axes: Axes | None) -> Axes:
     if axes is not None:
         return axes
+    needs("a picture", "matplotlib", extra="plot")
     import matplotlib.pyplot as plt
 
     made: Axes
@@ -34,10 +38,14 @@ def _axes(axes: Axes | None) -> Axes:
 def displacements(result: Result, *, storey: int | None = None, axes: Axes | None = None) -> Axes:
     """Displacements (mm) of one storey, from 1, of each building that has it over time; the roofs
     by default."""
-    drawn = _axes(axes)
     highest = max((b.displacement.shape[1] for b in result.buildings.values()), default=0)
-    if storey is not None and not 1 <= storey <= highest:
-        raise ValueError(f"storey {storey} is none of 1 to {highest}")
+    if storey is not None:
+        if isinstance(storey, bool) or not hasattr(storey, "__index__"):
+            what = f"storey is {storey!r}, which is no whole number"
+            raise refused(what, f"give one from 1 to {highest}", CaseTypeError)
+        if not 1 <= storey <= highest:
+            raise refused(f"storey {storey} is none of 1 to {highest}", "count from the ground, from 1")
+    drawn = _axes(axes)
     number = 0
     for name, building in result.buildings.items():
         if storey is not None and storey > building.displacement.shape[1]:
@@ -55,16 +63,18 @@ def _gap(result: Result, gap: str | None) -> str:
     names = list(result.gaps)
     if gap is None:
         if not names:
-            raise ValueError("the case has no gap")
+            raise refused("the case has no gap", "draw `displacements`, or add a gap to the case")
         return names[0]
     if gap not in names:
-        raise ValueError(f"{gap!r} is no gap; the case has {', '.join(names)}")
+        has = ", ".join(names) or "none"
+        raise refused(f"{gap!r} is no gap", f"name one of the gaps of the case: {has}")
     return gap
 
 
 def opening(result: Result, gap: str | None = None, *, axes: Axes | None = None) -> Axes:
     """Opening (mm) of every level of a gap over time; negative is penetration."""
-    drawn, name = _axes(axes), _gap(result, gap)
+    name = _gap(result, gap)
+    drawn = _axes(axes)
     penetration = result.gaps[name].penetration
     for level in range(penetration.shape[1]):
         values = -1e3 * penetration[:, level]
@@ -78,11 +88,12 @@ def opening(result: Result, gap: str | None = None, *, axes: Axes | None = None)
 def forces(result: Result, gap: str | None = None, *, axes: Axes | None = None) -> Axes:
     """Peak force (kN) of every impact of a gap over its time: peaks come from inside the steps,
     which the output grid misses."""
-    drawn, name = _axes(axes), _gap(result, gap)
+    name = _gap(result, gap)
     impacts = result.impacts
     impacts = impacts[impacts["gap"] == name]
     if len(impacts) and impacts["peak_force"].isna().all():
-        raise ValueError(f"rigid impacts of {name!r} have no force: draw `impulse` of `result.impacts`")
+        raise refused(f"rigid impacts of {name!r} have no force", "draw `impulse` of `result.impacts`")
+    drawn = _axes(axes)
     for number, (level, rows) in enumerate(impacts.groupby("level")):
         times, values = rows["peak_force_time"], rows["peak_force"] / 1e3
         drawn.vlines(times, 0.0, values, lw=0.6, color=f"C{number}")
@@ -107,11 +118,16 @@ def energy(result: Result, *, axes: Axes | None = None) -> Axes:
 
 
 def spectra(
-    motions: Iterable[Motion] | Motion, *, damping: float | str = 0.05, axes: Axes | None = None
+    motions: Iterable[Motion | Path] | Motion | Path,
+    *,
+    damping: float | str = 0.05,
+    axes: Axes | None = None,
 ) -> Axes:
-    """Pseudo-acceleration spectra (m/s2) of motions, or of one, and their mean where there are
-    several."""
-    given = [motions] if isinstance(motions, Motion) else list(motions)
+    """Pseudo-acceleration spectra (m/s2) of motions or files, or of one, and their mean where there
+    are several."""
+    one = isinstance(motions, (Motion, str, bytes, os.PathLike))
+    each: list[Any] = [motions] if one else listed(motions, "motions", "motions or paths")
+    given = [_as_motion(motion) for motion in each]
     if not given:
         raise refused("no motions are given", "give one or more")
     drawn, all_values = _axes(axes), []

@@ -11,6 +11,7 @@ mod contradictory_headers;
 mod contradictory_words;
 mod cut_numbers;
 mod damaged_files;
+mod damaged_rows;
 mod design_spectra;
 mod ensemble;
 mod excitation;

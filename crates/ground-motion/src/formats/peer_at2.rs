@@ -12,6 +12,7 @@ use crate::fortran::Layout;
 use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
 use crate::recording::Series;
+use crate::row_widths::RowWidths;
 use crate::source::Source;
 use crate::stated_step::{StatedStep, state_step};
 use crate::text::{Line, Lines};
@@ -81,6 +82,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut last_row = 0;
     let mut decimal_commas = None;
     let mut forms = Forms::default();
+    let mut widths = RowWidths::default();
     for line in lines.by_ref() {
         if line.is_text() {
             if line.lower().contains("end data") {
@@ -96,6 +98,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             forms.see(line.number, column, field);
         }
         last_row = samples.len() - before;
+        widths.see(line.number, last_row);
     }
     if let Some(line) = decimal_commas.filter(|_| samples.len() > header.count) {
         return Err(source.error(
@@ -113,6 +116,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         false => drop(samples.pop()),
     }
     are_no_pairs(source, &samples, (header.count, first))?;
+    widths.are_even(source)?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
     state_step(&mut draft, source, &header.steps);
     draft.header_count = Some(header.count);

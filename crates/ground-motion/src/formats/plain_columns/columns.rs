@@ -1,5 +1,6 @@
 //! Columns by name: the times, the components, and what is passed over.
 
+use super::counter::Counter;
 use super::header::{self, Role};
 use super::names;
 use super::survey::{Survey, nearly_times};
@@ -104,6 +105,7 @@ struct Table<'c> {
 struct Column {
     values: Vec<f64>,
     forms: Forms,
+    counter: Counter,
     /// Line and place of the first cell that is blank.
     ended: Option<(usize, usize)>,
 }
@@ -148,6 +150,7 @@ impl Table<'_> {
                 if columns.separator.is_none() && !blank(i) {
                     source.number(line, column, cell)?;
                 }
+                self.values[k].counter.see(line.number, column, cell);
                 continue;
             }
             let beside_none = is_time && !is_main && k + 1 < count && blank(i + 1);
@@ -158,6 +161,7 @@ impl Table<'_> {
                 continue;
             }
             let value = source.number(line, column, cell)?;
+            self.values[k].counter.see(line.number, column, cell);
             if is_main {
                 time = value;
                 self.times.push(line, value, cell);
@@ -247,6 +251,13 @@ pub(super) fn columns(
         table.row(source, line)?;
     }
     let used: Vec<bool> = (0..names.len()).map(|k| table.is_value(k)).collect();
+    let timed = table.main_time.is_some();
+    for (k, column) in table.values.iter().enumerate() {
+        let named = used[k] && (!timed || columns.units[k].is_some());
+        if !named && !columns.pairs {
+            column.counter.goes_on(source, k + 1, true)?;
+        }
+    }
     let Table {
         main_time,
         times,

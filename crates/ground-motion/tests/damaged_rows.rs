@@ -1,5 +1,5 @@
 //! Rows that stand in another order, twice or not at all, or have another number of values than
-//! their neighbours: errors that name the row.
+//! their neighbours, and values that lost their exponent: errors that name the row.
 #![allow(clippy::unwrap_used)]
 
 use pounding_ground_motion::{
@@ -195,4 +195,61 @@ fn rows_of_other_agencies() {
             assert!(error.contains("number of values"), "{name}: {error}");
         }
     }
+}
+
+/// A value that lost its exponent is none, however much of its mantissa is left.
+#[test]
+fn exponents_lost_with_a_part_of_the_mantissa() {
+    let c = |a: f64| format!("{a:.7e}");
+    let time = |i: usize| format!("{:.7e} ", 0.02 * i as f64);
+    let read = |text: &str, options: &ReadOptions| {
+        read_bytes("f", text.as_bytes(), options).map(|r| r.samples().len())
+    };
+    for columns in [1, 2, 5] {
+        let make = |bad: Option<&str>| -> String {
+            let mut text = String::new();
+            for i in 0..200 {
+                let start = if columns == 2 { time(i) } else { String::new() };
+                let printed = match bad.filter(|_| i == 77) {
+                    Some(bad) => bad.to_owned(),
+                    None => c(value(i)),
+                };
+                let ends = columns < 5 || i % 5 == 4;
+                text += &format!("{start}{printed}{}", if ends { "\n" } else { "  " });
+            }
+            text
+        };
+        let options = options(None, (columns != 2).then_some(0.02));
+        assert_eq!(read(&make(None), &options).unwrap(), 200);
+        for zero in ["0", "0.0"] {
+            assert_eq!(read(&make(Some(zero)), &options).unwrap(), 200, "{zero}");
+        }
+        for bad in ["-3.667", "-3.6", "-3", "-3.6679000"] {
+            let error = read(&make(Some(bad)), &options).unwrap_err().to_string();
+            assert!(error.contains("exponent"), "{columns} {bad}: {error}");
+        }
+    }
+}
+
+/// Writers that print exponents of small values alone, as `%g` and `G` formats of Fortran do.
+#[test]
+fn mixed_forms_are_read() {
+    let g = |a: f64| match a.abs() {
+        small if small < 1.0e-4 => format!("{a:e}"),
+        _ => format!("{a}"),
+    };
+    let fortran = |a: f64| match a.abs() {
+        small if small < 0.1 => format!("{:.6}E-01", a * 10.0),
+        _ => format!("{a:.6}"),
+    };
+    for size in [1.0e-3, 9.0e-5] {
+        let text: String = (0..200).map(|i| g(10.0 * size * value(i)) + "\n").collect();
+        read_bytes("f", text.as_bytes(), &options(None, Some(0.01))).unwrap();
+        // All but one are so small.
+        let text = text + "0.00012\n";
+        read_bytes("f", text.as_bytes(), &options(None, Some(0.01))).unwrap();
+    }
+    let text: String = (0..200).map(|i| fortran(0.9 * value(i)) + "\n").collect();
+    let text = text + "0.123456\n";
+    read_bytes("f", text.as_bytes(), &options(None, Some(0.01))).unwrap();
 }

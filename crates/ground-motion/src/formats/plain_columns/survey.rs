@@ -2,7 +2,7 @@
 
 use super::counter::Counter;
 use super::{header, rows};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::number;
 use crate::row_widths::{OddRow, RowWidths};
 use crate::source::Source;
@@ -42,6 +42,9 @@ pub(super) struct Head {
     pub step: Option<f64>,
 }
 
+/// Steps (s) of a row of count and step.
+const SHORTEST_STEP: f64 = 1.0e-5;
+const LONGEST_STEP: f64 = 1.0;
 /// Counts from which on a whole number that is the number of the values behind it is no chance,
 /// also among whole numbers.
 const SURE_COUNT: usize = 20;
@@ -273,8 +276,9 @@ impl Survey {
             lines[at + 1],
             0,
             format!(
-                "the values of column {} increase by {usual} a row, as times do, but {} follows {} here",
+                "the values of column {} increase by {} a row, as times do, but {} follows {} here",
                 k + 1,
+                bound(usual),
                 values[at + 1],
                 values[at]
             ),
@@ -553,8 +557,13 @@ impl Survey {
             let is_count = count.fract() == 0.0 && (2.0..1.0e9).contains(&count);
             is_count.then_some(count as usize)
         };
-        let is_step = |step: f64| step > 0.0 && step <= 1.0;
-        let step_in = |field: &[u8]| number::parse(field).ok().filter(|step| is_step(*step));
+        // Samples have signs and sizes that no step has.
+        let is_step = |step: f64| (SHORTEST_STEP..=LONGEST_STEP).contains(&step);
+        let signed = |field: &[u8]| field.starts_with(b"+") || field.starts_with(b"-");
+        let step_in = |field: &[u8]| {
+            let step = number::parse(field).ok()?;
+            Some(step).filter(|step| is_step(*step) && !signed(field))
+        };
         if self.first_length == 2 {
             let Some((_, second)) = fields.next() else {
                 return Ok(None);
@@ -586,6 +595,10 @@ impl Survey {
             let both = |(count, step): (&[u8], &[u8])| whole(count).zip(step_in(step));
             let fits = |(count, _): &(usize, f64)| count + 2 == self.numbers && sure(*count, 2);
             if let Some((count, step)) = either.into_iter().filter_map(both).find(fits) {
+                let other = |given: f64| (given - step).abs() > 1.0e-6 * step;
+                if let Some(given) = source.options.time_step.filter(|given| other(*given)) {
+                    return Err(step_or_sample(source, line.number, (count, step), given));
+                }
                 return Ok(Some(Head {
                     rows: 2,
                     count,
@@ -651,6 +664,28 @@ impl Survey {
         let step = start[1] - start[0];
         Ok(start[0].abs() <= 0.01 * step || (start[0] - step).abs() <= 0.1 * step)
     }
+}
+
+/// The error of a count above a value that is another step than the one given, or the first sample
+/// if the count is one too small.
+fn step_or_sample(
+    source: &Source<'_>,
+    line: usize,
+    (count, step): (usize, f64),
+    given: f64,
+) -> GroundMotionError {
+    let behind = count + 1;
+    source.error(
+        line,
+        0,
+        format!(
+            "the first two values, {count} and {step}, are count and step of the {count} values behind them, but a time step of {given} s is given; or the count is one too small for the {behind} values behind it"
+        ),
+        &format!(
+            "to read {count} values at {step} s, do not give the time step; to read {behind} values at {given} s, {}",
+            super::skipping(line)
+        ),
+    )
 }
 
 /// Whether all but a few of a column of values increase as times do: the place (from 0) of the first

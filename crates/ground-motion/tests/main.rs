@@ -39,4 +39,5 @@ mod station_xml;
 mod time_columns;
 mod time_steps_and_scales;
 mod touching_numbers;
+mod undeclared_headers;
 mod writers;

@@ -318,7 +318,10 @@ pub(super) fn columns(
         draft.component.clone_from(name);
         draft.channel = series.len() + 1;
         draft.warnings = warnings;
-        draft.first_time = first_time;
+        // Times from zero may be counted anew, from one that the file states.
+        if first_time.is_some_and(|time| time != 0.0) || draft.first_time.is_none() {
+            draft.first_time = first_time;
+        }
         draft.times = match &times {
             Times::Step(step) => Times::Step(*step),
             Times::Each(each) => Times::Each(each[..own.min(each.len())].to_vec()),

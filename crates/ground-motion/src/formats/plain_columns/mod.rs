@@ -220,6 +220,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     if let Some(error) = faulty.as_ref().and_then(|f| f.refused(source)) {
         return Err(error);
     }
+    agrees_with_names(source, header.as_ref())?;
     let bytes = decimal::with_points(source, header.as_ref())?;
     let pointed = Source::new(source.file, &bytes, source.options, source.path);
     let said = Said::before(&pointed, header.as_ref())?;
@@ -231,11 +232,49 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         ) => return Err(faulty.error(source)),
         (series, _) => series?,
     };
+    let mut series = series;
+    let is_one = series.len() == 1;
+    for one in &mut series {
+        said.keys.report(&mut one.origin);
+        let unnamed = ["", "a"].contains(&one.component.as_str());
+        if let Some(name) = said.keys.component().filter(|_| is_one && unnamed) {
+            name.clone_into(&mut one.component);
+            name.clone_into(&mut one.origin.component);
+        }
+        if !is_one && one.initial.take().is_some() {
+            pointed.warn("the initial velocity or displacement is not used: it is that of one of several series");
+        }
+    }
     for warning in pointed.warnings() {
         outer.warn(&warning);
     }
     outer.uses(pointed.used());
     Ok(series)
+}
+
+/// Refuses another unit than one that the name of a column states, in a line that is not the header.
+fn agrees_with_names(
+    source: &Source<'_>,
+    header: Option<&Header>,
+) -> Result<(), GroundMotionError> {
+    let Some(given) = source.options.unit else {
+        return Ok(());
+    };
+    for cells in header::name_lines(before(source)) {
+        if header.is_some_and(|h| h.line == cells.line) || cells.names.len() < 2 {
+            continue;
+        }
+        let mut units = cells.names.iter().filter_map(|n| header::unit_beside(n));
+        if let Some(unit) = units.find(|unit| !unit.is(given)) {
+            return Err(GroundMotionError::Contradiction {
+                file: source.file.to_owned(),
+                quantity: "unit",
+                stated: format!("{} (line {})", unit.symbol, cells.line),
+                given: SeriesUnit::from(given).symbol.to_owned(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// What lines before the rows say of all of them.
@@ -249,7 +288,7 @@ impl Said {
     fn before(source: &Source<'_>, header: Option<&Header>) -> Result<Self, GroundMotionError> {
         let line = header.map(|h| h.line);
         Ok(Self {
-            keys: line.map_or_else(Keys::default, |line| Keys::before(source, line)),
+            keys: Keys::before(source, before(source)),
             stated: Stated::before(source, before(source), line)?,
         })
     }
@@ -259,6 +298,8 @@ impl Said {
         let unit = unit.or_else(|| self.stated.unit_of_values());
         let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
         let mut draft = Draft::new(samples, unit, (survey.first, survey.first, survey.last));
+        draft.initial = self.keys.initial();
+        draft.first_time = self.keys.first_time();
         self.stated.count(&mut draft, survey.numbers);
         draft
     }
@@ -414,9 +455,7 @@ fn headed(
         let mut draft = said.draft(samples, columns.units[0], survey);
         draft.times = Times::Step(said.stated.step(source, None)?);
         draft.component.clone_from(name);
-        let mut series = draft.finish(source)?;
-        said.keys.report(&mut series.origin);
-        return Ok(vec![series]);
+        return Ok(vec![draft.finish(source)?]);
     }
     let first = rows(source).next();
     columns.separator = first.and_then(|row| header::separator_of_rows(header.separator, &row));
@@ -455,7 +494,6 @@ fn headed(
     let mut series = columns::columns(source, survey, &columns, said)?;
     for one in &mut series {
         one.origin.header_line = Some(header.line);
-        said.keys.report(&mut one.origin);
     }
     Ok(series)
 }
@@ -517,6 +555,8 @@ fn fixed(
     let unit = said.stated.unit_of_values();
     let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
     let mut draft = Draft::new(samples, unit, (first, first, last));
+    draft.initial = said.keys.initial();
+    draft.first_time = said.keys.first_time();
     said.stated.count(&mut draft, 0);
     draft.times = Times::Step(said.stated.step(source, None)?);
     Ok(vec![draft.finish(source)?])

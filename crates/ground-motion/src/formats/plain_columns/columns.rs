@@ -161,7 +161,6 @@ impl Table<'_> {
                 continue;
             }
             let value = source.number(line, column, cell)?;
-            self.values[k].counter.see(line.number, column, cell);
             if is_main {
                 time = value;
                 self.times.push(line, value, cell);
@@ -251,10 +250,9 @@ pub(super) fn columns(
         table.row(source, line)?;
     }
     let used: Vec<bool> = (0..names.len()).map(|k| table.is_value(k)).collect();
-    let timed = table.main_time.is_some();
+    // What is named a time or a component is one.
     for (k, column) in table.values.iter().enumerate() {
-        let named = used[k] && (!timed || columns.units[k].is_some());
-        if !named && !columns.pairs {
+        if !used[k] && names[k] != "t" {
             column.counter.goes_on(source, k + 1, true)?;
         }
     }

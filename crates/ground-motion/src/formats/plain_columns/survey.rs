@@ -266,7 +266,7 @@ impl Survey {
         let usual = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
         let differs = |step: &f64| (step - usual).abs() > 0.25 * usual;
         let others = steps.iter().filter(|step| differs(step)).count();
-        let Some(at) = steps.iter().position(|step| differs(step)) else {
+        let Some(at) = steps.iter().position(differs) else {
             return Ok(());
         };
         if !(usual > 0.0) || values.len() < EVEN_BESIDE_NUMBERS || 3 * others > steps.len() {

@@ -17,6 +17,7 @@ mod ensemble;
 mod excitation;
 mod formats;
 mod generators;
+mod header_lines;
 mod header_units;
 mod hostile;
 mod initial_motion;

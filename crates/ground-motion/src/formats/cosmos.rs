@@ -378,7 +378,7 @@ fn as_announced(
     let Some(first) = first.filter(|_| count >= layout.per_line) else {
         return Ok(());
     };
-    let columns = (layout.per_line - 1) * layout.width..=layout.per_line * layout.width;
+    let columns = (layout.per_line - 1) * layout.width + 1..=layout.per_line * layout.width;
     if columns.contains(&first.bytes.len()) {
         return Ok(());
     }

@@ -222,6 +222,12 @@ fn acceleration(source: &Source<'_>, words: &Words<'_>) -> Result<(), GroundMoti
         5 | -12345 => {
             let name = words.text(COMPONENT);
             match name.as_bytes() {
+                b"HLZ" | b"HLN" | b"HLE" | b"HL1" | b"HL2" | b"HL3" => {
+                    source.warn(&format!(
+                        "channel {name} is that of an instrument of low gain, which is an accelerograph in older codes and a seismometer in others; the header does not say what the values are (IDEP)"
+                    ));
+                    Ok(())
+                }
                 [_, b'H' | b'L', _] => Err(unsupported(
                     format!("channel {name} is that of a seismometer, which records velocity"),
                     "use the channel of an accelerograph, or set IDEP to IACC where the values are accelerations",

@@ -53,12 +53,94 @@ pub(crate) struct Forms {
     is_always: bool,
     /// Whether the values show no form: decimals differ, or points are missing.
     none: bool,
+    exponents: Exponents,
+}
+
+/// Which values of a series have exponents.
+#[derive(Debug, Default)]
+struct Exponents {
+    with: usize,
+    /// Values other than zero without one, and the first of them.
+    without: usize,
+    first: Option<Bare>,
+    /// Whether one has an exponent that is as large as values of a tenth and more, or of a
+    /// ten-thousandth.
+    of_tenths: bool,
+    of_ten_thousandths: bool,
+    /// Decimals of all of those with an exponent, if they are the same, and whether a zero ends
+    /// them: `%g` leaves those out.
+    decimals: Option<usize>,
+    decimals_differ: bool,
+    ends_in_zero: bool,
+}
+
+/// A value without an exponent.
+#[derive(Debug)]
+struct Bare {
+    line: usize,
+    column: usize,
+    field: String,
+    value: f64,
+    /// Digits but zeros before the first other one.
+    digits: usize,
+}
+
+/// Magnitude below which `G` formats of Fortran print exponents, and below which `%g` does.
+const BELOW_G: f64 = 0.1;
+const BELOW_PERCENT_G: f64 = 1.0e-4;
+/// Magnitude from which on some writers print exponents.
+const LARGE: f64 = 1.0e5;
+
+impl Exponents {
+    fn see(&mut self, line: usize, column: usize, field: &[u8]) {
+        let Ok(value) = number::parse(field) else {
+            return;
+        };
+        let end = (1..field.len())
+            .find(|i| b"eEdD".contains(&field[*i]) || matches!(field[*i], b'+' | b'-'));
+        let Some(end) = end else {
+            if value != 0.0 {
+                self.without += 1;
+                let digits = field.iter().filter(|b| b.is_ascii_digit());
+                self.first.get_or_insert_with(|| Bare {
+                    line,
+                    column,
+                    field: number::shown(field),
+                    value: value.abs(),
+                    digits: digits.skip_while(|b| **b == b'0').count(),
+                });
+            }
+            return;
+        };
+        self.with += 1;
+        let size = value.abs();
+        self.of_tenths |= (BELOW_G..LARGE).contains(&size);
+        self.of_ten_thousandths |= (BELOW_PERCENT_G..LARGE).contains(&size);
+        let mantissa = &field[..end];
+        let point = mantissa.iter().position(|b| *b == b'.');
+        let decimals = point.map_or(0, |point| mantissa.len() - point - 1);
+        self.decimals_differ |= *self.decimals.get_or_insert(decimals) != decimals;
+        self.ends_in_zero |= decimals > 0 && value != 0.0 && mantissa.ends_with(b"0");
+    }
+
+    /// The first value that lost its exponent among many others, which no writer leaves out there.
+    fn lost(&self) -> Option<&Bare> {
+        let few = self.with + self.without > MANY && self.without <= self.with / 100 + 1;
+        let bare = self.first.as_ref().filter(|_| few)?;
+        // As many digits as with an exponent: printed by a `G` format.
+        let of_g = bare.value >= BELOW_G && Some(bare.digits) == self.decimals;
+        let always = self.of_tenths
+            || self.of_ten_thousandths && !of_g
+            || !self.decimals_differ && self.ends_in_zero && !of_g;
+        always.then_some(bare)
+    }
 }
 
 impl Forms {
     /// Takes one more value of a line into account, which starts at a column (from 0).
     pub(crate) fn see(&mut self, line: usize, column: usize, field: &[u8]) {
         self.count += 1;
+        self.exponents.see(line, column, field);
         let Some(form) = Form::of(field).filter(|_| !self.none) else {
             self.none = true;
             return;
@@ -93,6 +175,17 @@ impl Forms {
     pub(crate) fn are_whole(&self, source: &Source<'_>) -> Result<(), GroundMotionError> {
         let has_exponent = self.usual.is_some_and(|form| form.exponent > 0);
         let few = self.others <= self.count / 100 + 1;
+        if let Some(bare) = self.exponents.lost() {
+            return Err(source.error(
+                bare.line,
+                bare.column,
+                format!(
+                    "\"{}\" has no exponent, which the other values have",
+                    bare.field
+                ),
+                "the file is damaged: correct the value, or get the record again",
+            ));
+        }
         match &self.first {
             Some((line, column, field))
                 if has_exponent && self.is_always && !self.none && self.count > MANY && few =>

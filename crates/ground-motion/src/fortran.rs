@@ -13,8 +13,10 @@ pub(crate) struct Layout {
     pub per_line: usize,
     /// Columns a number.
     pub width: usize,
-    /// Blank columns before the first number of a line.
+    /// Columns before the first number of a line, which are blank.
     pub margin: usize,
+    /// Whether anything may stand in them: `X` of a format passes over it.
+    pub skips: bool,
     /// Blank columns before each number, which are of its width.
     pub gap: usize,
     /// Whether the format goes on behind the numbers: what stands there is passed over.
@@ -32,6 +34,7 @@ impl Layout {
             per_line,
             width,
             margin: 0,
+            skips: false,
             gap: 0,
             more: false,
             decimals: 0,
@@ -99,7 +102,10 @@ impl Layout {
             let kind = letters.next()?;
             rest = letters.as_str();
             match (kind, group) {
-                ('X', None) => layout.margin += number.unwrap_or(1).min(WIDEST_LINE),
+                ('X', None) => {
+                    layout.margin += number.unwrap_or(1).min(WIDEST_LINE);
+                    layout.skips = true;
+                }
                 ('X', Some(_)) => layout.gap += number.unwrap_or(1).min(WIDEST_LINE),
                 ('P', _) => {
                     let power = i32::try_from(number?).ok().filter(|k| *k <= MOST_SCALE)?;

@@ -29,6 +29,7 @@ mod number;
 mod options;
 mod quantity;
 mod recording;
+mod row_widths;
 mod select;
 mod source;
 mod start_times;

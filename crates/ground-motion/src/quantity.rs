@@ -241,7 +241,7 @@ impl SeriesUnit {
             "ft/s2" => Self::from(AccelerationUnit::FootPerSecondSquared),
             "nm/s2" => Self::NM_S2,
             "m/s" => Self::M_S,
-            "cm/s" | "cms/s" => Self::CM_S,
+            "cm/s" | "cms/s" | "kine" | "kines" => Self::CM_S,
             "mm/s" => Self::MM_S,
             "in/s" => Self::IN_S,
             "m" => Self::M,

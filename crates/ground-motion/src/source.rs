@@ -366,7 +366,7 @@ impl<'a> Source<'a> {
             ));
         }
         let (margin, fields) = line.bytes.split_at(layout.margin.min(line.bytes.len()));
-        if !margin.trim_ascii().is_empty() {
+        if !(layout.skips || margin.trim_ascii().is_empty()) {
             return Err(self.error(
                 line.number,
                 0,

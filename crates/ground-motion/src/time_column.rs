@@ -259,7 +259,8 @@ fn even_step_of(times: &[f64], printed: PrintedDigits, unit: f64, may_be_cut: bo
         (low <= high).then_some((low, high))
     };
     let found = common(&rounded).or_else(|| may_be_cut.then(|| common(&cut))?);
-    let (low, high) = found.or_else(|| from_zero().filter(|_| first > 0.0))?;
+    let found = found.or_else(|| from_zero().filter(|_| first > 0.0));
+    let (low, high) = found.or_else(|| in_single(times, digit(last)).filter(|_| is_single))?;
     let mean = mean.clamp(low, high);
     let decimals = printed.decimals - libm::log10(unit).round() as i32;
     let in_common = |step: &f64| *step > 0.0 && (low..=high).contains(step);
@@ -270,6 +271,31 @@ fn even_step_of(times: &[f64], printed: PrintedDigits, unit: f64, may_be_cut: bo
     let mut longer = longer.filter(|step| (step - mean).abs() <= digits);
     Some(round.or_else(|| longer.find(in_common)).unwrap_or(mean))
 }
+
+/// Steps (s) that times may have which were added up in single precision, or are multiples of a step
+/// in it: each is after the one before it by the same step, but for the spacing of numbers of
+/// single precision at the last time and one printed digit.
+fn in_single(times: &[f64], digit: f64) -> Option<(f64, f64)> {
+    let [first, .., last] = *times else {
+        return None;
+    };
+    let mean = (last - first) / (times.len() - 1) as f64;
+    let largest = last.abs().max(first.abs());
+    let open = f64::from(f32::EPSILON) * largest + digit;
+    let even = |w: &[f64]| (w[1] - w[0] - mean).abs() <= open;
+    (open <= MOST_OPEN * mean && times.windows(2).all(even)).then_some((mean - open, mean + open))
+}
+
+/// The even step (s) of times in single precision.
+pub(crate) fn even_step_in_single(times: &[f64]) -> Option<f64> {
+    let (low, high) = in_single(times, 0.0)?;
+    let mean = 0.5 * (low + high);
+    let round = round_steps(mean, ROUND_DECIMALS).find(|step| (low..=high).contains(step));
+    Some(round.unwrap_or(mean))
+}
+
+/// Part of a step by which single precision may change it.
+const MOST_OPEN: f64 = 0.02;
 
 fn with_decimals(step: f64, decimals: i32) -> f64 {
     let scale = 10.0_f64.powi(decimals);

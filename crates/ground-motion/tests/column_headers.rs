@@ -259,11 +259,12 @@ fn headers_that_cannot_be_used_say_why() {
             "s or ms",
             true,
         ),
+        // Its unit is another one than that which is given.
         (
             "dt=0.02 s;a [m/s2]",
             ["column 1, \"dt=0.02 s\"", "not understood"],
             "# dt: 0.01 s",
-            false,
+            true,
         ),
         (
             "time_s;t (s);acceleration_g",

@@ -349,7 +349,47 @@ fn numbers(
             REMEDY,
         ));
     }
+    as_announced(source, line, (count, layout), lines.peek())?;
     source.header_numbers(lines, layout, count)
+}
+
+/// Refuses numbers that stand on other lines, or in other columns, than the line before them says:
+/// each means what its place says.
+fn as_announced(
+    source: &Source<'_>,
+    line: Line<'_>,
+    (count, layout): (usize, Layout),
+    first: Option<Line<'_>>,
+) -> Result<(), GroundMotionError> {
+    let lower = line.lower();
+    let stated = lower.split_once(" on ").and_then(|(_, rest)| {
+        let (number, behind) = rest.trim_start().split_once(' ')?;
+        let lines: usize = number.parse().ok()?;
+        behind.trim_start().starts_with("line").then_some(lines)
+    });
+    let lines = count.div_ceil(layout.per_line);
+    if let Some(stated) = stated.filter(|stated| *stated != lines) {
+        let message = format!(
+            "{count} numbers, {} a line, stand on {lines} lines, not {stated}",
+            layout.per_line
+        );
+        return Err(source.error(line.number, 0, message, REMEDY));
+    }
+    let Some(first) = first.filter(|_| count >= layout.per_line) else {
+        return Ok(());
+    };
+    let columns = (layout.per_line - 1) * layout.width + 1..=layout.per_line * layout.width;
+    if columns.contains(&first.bytes.len()) {
+        return Ok(());
+    }
+    let message = format!(
+        "the row has {} columns, where line {} announces {} numbers of {} columns",
+        first.bytes.len(),
+        line.number,
+        layout.per_line,
+        layout.width
+    );
+    Err(source.error(first.number, 0, message, REMEDY))
 }
 
 fn comments(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<(), GroundMotionError> {
@@ -587,6 +627,11 @@ fn component(
         Some(401.0) => Some("Down".to_owned()),
         Some(402.0) => Some("Vertical".to_owned()),
         Some(azimuth) if (1.0..=360.0).contains(&azimuth) => Some(format!("{azimuth} deg")),
+        Some(azimuth) if (360.0..400.0).contains(&azimuth) => {
+            let message = format!("the azimuth (integer {AZIMUTH}) is {azimuth} degrees");
+            source.contradiction(integers.line_of(AZIMUTH), message)?;
+            None
+        }
         _ => None,
     };
     let (Some((line, words)), Some(numbers)) = (&in_words, &in_numbers) else {

@@ -9,6 +9,7 @@ use crate::fortran::Layout;
 use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
+use crate::row_widths::RowWidths;
 use crate::source::Source;
 use crate::text::{Line, Lines};
 
@@ -96,8 +97,10 @@ fn numbers<'a>(
     count: Option<usize>,
 ) -> Result<Vec<f64>, GroundMotionError> {
     let mut values = Vec::with_capacity(count.unwrap_or(0).min(lines.remaining() / 2 + 1));
+    let mut widths = RowWidths::default();
     while let Some(line) = lines.peek().filter(|l| !is_label(l)) {
         lines.next();
+        let before = values.len();
         let length = line.bytes.len();
         // Fields that touch are no numbers between blanks.
         let touching = line.fields().any(|(_, f)| number::parse(f).is_err());
@@ -108,7 +111,11 @@ fn numbers<'a>(
                 values.push(source.number(line, column, field)?);
             }
         }
+        if values.len() > before {
+            widths.see(line.number, values.len() - before);
+        }
     }
+    widths.are_even(source)?;
     Ok(values)
 }
 

@@ -17,6 +17,8 @@ pub(super) static FORMAT: Format = Format {
     read,
 };
 
+const UNITS: &str = "give the record of the accelerations, whose unit is gal(cm/s/s); if the unit alone is wrong, correct the line";
+
 fn matches(source: &Source<'_>) -> bool {
     source.first_line().contains("site code")
 }
@@ -48,6 +50,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
                 && stated != again
             {
                 return Err(source.two_units(line, stated, again));
+            }
+            if !value.is_empty() && stated.is_none() {
+                return Err(source.unknown_unit(line.number, value, UNITS));
             }
             unit = stated.map_or(DraftUnit::Unstated, DraftUnit::Stated);
         } else if key.starts_with("site") {

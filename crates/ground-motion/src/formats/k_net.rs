@@ -9,6 +9,7 @@ use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
+use crate::row_widths::RowWidths;
 use crate::source::{Keys, Source};
 use crate::text::{Line, in_brackets};
 
@@ -82,8 +83,10 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut samples = Vec::with_capacity(lines.remaining() / 5 + 1);
     let (mut rows, mut others) = (0, 0);
     let mut last = None;
+    let mut widths = RowWidths::default();
     for line in lines.by_ref() {
         last = Some(line);
+        let before = samples.len();
         if in_columns(line) {
             fixed_row(source, line, &mut samples)?;
             rows += 1;
@@ -92,6 +95,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             for (column, field) in line.fields() {
                 samples.push(count(source, line, column, field)?);
             }
+        }
+        if samples.len() > before {
+            widths.see(line.number, samples.len() - before);
         }
     }
     // Counts end at the last column but one of theirs.
@@ -105,6 +111,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         source.is_cut_off(line, column, field, "digits in the last columns")?;
         samples.pop();
     }
+    widths.are_even(source)?;
     // The count follows from the duration, which the agency prints as whole seconds: what is
     // more than the rest of a second belongs to another rate or duration, and beyond a
     // duration with decimals so is more than one sample.

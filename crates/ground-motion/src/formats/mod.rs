@@ -7,6 +7,7 @@ use pounding_catalogue::{Descriptor, Registry};
 use sha2::{Digest, Sha256};
 
 use crate::accelerogram::Accelerogram;
+use crate::direction::Direction;
 use crate::error::GroundMotionError;
 use crate::options::ReadOptions;
 use crate::quantity::Quantity;
@@ -154,7 +155,13 @@ fn every_series(
 ) -> Result<Recording, GroundMotionError> {
     not_too_large(file, bytes.len() as u64)?;
     let format = format_of(file, bytes, options, path)?;
-    let source = Source::new(file, bytes, options, path);
+    let filled = filling(format, bytes);
+    let source = Source::new(file, &bytes[..bytes.len() - filled], options, path);
+    if filled > 0 {
+        source.warn(&format!(
+            "{filled} NUL bytes behind the last row were passed over"
+        ));
+    }
     if !is_binary(format) {
         source.is_text()?;
     }
@@ -199,6 +206,9 @@ fn every_series(
         let all = response.map_or(own.clone(), |r| own.clone().chain_update(&r.sha256));
         s.origin.sha256 = all.finalize().iter().map(|b| format!("{b:02x}")).collect();
         s.origin.warnings.extend(source.warnings());
+        s.origin
+            .warnings
+            .extend(unknown_component(format, &s.component));
         tracing::debug!(format = format.name, series = %s.label(), samples = s.samples.len(), unit = %s.origin.unit, time_step = %s.origin.time_step, "read");
     }
     Ok(Recording {
@@ -206,6 +216,54 @@ fn every_series(
         without: source.without(),
     })
 }
+
+/// NUL bytes at the end of a text behind whole rows, of a format that counts its values.
+fn filling(format: &Format, bytes: &[u8]) -> usize {
+    let end = bytes.iter().rposition(|b| *b != 0).map_or(0, |n| n + 1);
+    let whole = matches!(bytes[..end].last(), Some(b'\n' | b'\r'));
+    match whole && *format == usgs_smc::FORMAT {
+        true => bytes.len() - end,
+        false => 0,
+    }
+}
+
+/// What to say of a component that names no direction, where a line of the header states it.
+fn unknown_component(format: &Format, name: &str) -> Option<String> {
+    let of_line = [
+        &caltech_volume_1::FORMAT,
+        &csmip_v1::FORMAT,
+        &csmip_v2::FORMAT,
+        &geo_net::FORMAT,
+        &usgs_smc::FORMAT,
+    ];
+    let known = Direction::of_name(name).is_some()
+        || COMPONENTS
+            .iter()
+            .any(|word| word.eq_ignore_ascii_case(name));
+    (of_line.contains(&format) && !name.is_empty() && !known).then(|| {
+        format!(
+            "the component \"{name}\" names no direction: check the line of the header that states it"
+        )
+    })
+}
+
+/// Components without a direction of which the agencies write.
+const COMPONENTS: [&str; 14] = [
+    "1",
+    "2",
+    "3",
+    "H1",
+    "H2",
+    "H3",
+    "L",
+    "T",
+    "Long",
+    "Tran",
+    "Radial",
+    "Tangential",
+    "Horizontal",
+    "Other",
+];
 
 /// Refuses options that say nothing of this record: who gives them takes them for heard.
 fn unused(source: &Source<'_>, format: &Format) -> Result<(), GroundMotionError> {

@@ -12,6 +12,7 @@ use crate::fortran::Layout;
 use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
 use crate::recording::Series;
+use crate::row_widths::RowWidths;
 use crate::source::Source;
 use crate::stated_step::{StatedStep, state_step};
 use crate::text::{Line, Lines};
@@ -81,6 +82,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut last_row = 0;
     let mut decimal_commas = None;
     let mut forms = Forms::default();
+    let mut widths = RowWidths::default();
     for line in lines.by_ref() {
         if line.is_text() {
             if line.lower().contains("end data") {
@@ -92,10 +94,11 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         let before = samples.len();
         decimal_commas = decimal_commas.or_else(|| has_commas_alone(line).then_some(line.number));
         for (column, field) in line.fields() {
-            samples.push(source.number(line, column, field)?);
+            samples.push(value(source, line, (column, field), first - 1)?);
             forms.see(line.number, column, field);
         }
         last_row = samples.len() - before;
+        widths.see(line.number, last_row);
     }
     if let Some(line) = decimal_commas.filter(|_| samples.len() > header.count) {
         return Err(source.error(
@@ -113,6 +116,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         false => drop(samples.pop()),
     }
     are_no_pairs(source, &samples, (header.count, first))?;
+    widths.are_even(source)?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
     state_step(&mut draft, source, &header.steps);
     draft.header_count = Some(header.count);
@@ -133,6 +137,24 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let shown = header.text.len().saturating_sub(1).min(2);
     draft.title = header.text[..shown].join("; ");
     Ok(vec![draft.finish(source)?])
+}
+
+/// A value; numbers that touch can be read as plain columns alone.
+fn value(
+    source: &Source<'_>,
+    line: Line<'_>,
+    (column, field): (usize, &[u8]),
+    header: usize,
+) -> Result<f64, GroundMotionError> {
+    if !number::touching(field) {
+        return source.number(line, column, field);
+    }
+    number::parse(field).map_err(|message| {
+        let remedy = format!(
+            "put a blank between the numbers; or read the rows as plain columns by their Fortran format: `format = \"plain_columns\"`, `skip_lines = {header}`, `layout = \"8F9.5\"` for eight numbers of nine characters a row, `time_step` and `unit` of the header (`--format plain_columns --skip-lines {header}` and so on with `pounding motion`)"
+        );
+        source.error(line.number, column, message, &remedy)
+    })
 }
 
 /// Whether commas stand between digits on a line without any point, or on one whose numbers have
@@ -182,6 +204,11 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     {
         text.push(l.text().trim().to_owned());
     }
+    // `Units: gal` may follow.
+    while let Some(l) = lines.peek().filter(|l| l.is_text() && is_key(l)) {
+        lines.next();
+        text.push(l.text().trim().to_owned());
+    }
     let mut counts = Vec::new();
     let mut steps = Vec::new();
     let others = source.lines().take_while(|l| l.number <= last);
@@ -213,6 +240,15 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
         count,
         steps,
         text,
+    })
+}
+
+/// Whether a line is a key with its value, none of which is a number of the series.
+fn is_key(line: &Line<'_>) -> bool {
+    let text = line.text();
+    let key = text.split_once([':', '=']).map(|(key, _)| key.trim());
+    key.is_some_and(|key| {
+        !key.is_empty() && key.chars().all(|c| c.is_ascii_alphabetic() || c == ' ')
     })
 }
 
@@ -450,10 +486,30 @@ fn may_change_unit(rest: &str) -> bool {
     rest.starts_with(['*', '/', '^']) || words.next().is_some_and(|w| OF_UNIT.contains(&w))
 }
 
+/// Whether a line in lower case on the unit of the values says that they are a spectrum. Records
+/// may be matched to one.
+fn is_of_spectrum(lower: &str) -> bool {
+    let of_record = [OF_VALUES[0], OF_VALUES[1], "match", "compatible"];
+    lower.contains("units")
+        && ["spectr", "pseudo"].iter().any(|w| lower.contains(w))
+        && !of_record.iter().any(|w| lower.contains(w))
+}
+
 /// Unit from the header's text: that of the line that names the quantity of the values, such as
 /// `ACCELERATION TIME SERIES IN UNITS OF G`, before those of others.
 fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionError> {
     let lower: Vec<String> = header.text.iter().map(|l| l.to_ascii_lowercase()).collect();
+    if let Some(line) = lower.iter().position(|l| is_of_spectrum(l)) {
+        return Err(source.error(
+            line + 1,
+            0,
+            format!(
+                "the header says that the values are those of a spectrum: \"{}\"",
+                number::shown(header.text[line].as_bytes())
+            ),
+            "give the acceleration over the time (AT2) of the same record",
+        ));
+    }
     let all = lower.join(" ");
     let lines = lower.join("\n");
     let stated = |of_values: bool| -> Vec<(usize, UnitAndRest<'_>)> {

@@ -156,27 +156,51 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     draft.header_count = keys.samples;
     draft.row = Some(1);
     draft.component.clone_from(&keys.component);
-    if keys.initial_velocity.is_some() || keys.initial_displacement.is_some() {
-        draft.initial = Some((
-            keys.initial_velocity.unwrap_or(0.0),
-            keys.initial_displacement.unwrap_or(0.0),
-        ));
-    }
+    draft.initial = keys.initial();
     let mut series = draft.finish(source)?;
     keys.report(&mut series.origin);
     Ok(vec![series])
 }
 
 impl Keys {
-    /// The keys in the comments before a line, for a file whose comments need not be of this
-    /// layout: what is none of its keys means nothing.
-    pub(super) fn before(source: &Source<'_>, line: usize) -> Self {
+    /// The keys in the comments of lines, for a file whose comments need not be of this layout:
+    /// what is none of its keys means nothing, and what does not stand behind its key as here is
+    /// said not to be used. Steps are those of other keys.
+    pub(super) fn before<'a>(source: &Source<'a>, lines: impl Iterator<Item = Line<'a>>) -> Self {
         let mut keys = Self::default();
-        let comments = source.lines().take_while(|l| l.number < line);
-        for comment in comments.filter(|l| l.bytes.starts_with(b"#")) {
-            let _ = keys.take(source, comment);
+        for comment in lines {
+            let start = comment.bytes.iter().position(|b| !b" \t\"".contains(b));
+            let bytes = &comment.bytes[start.unwrap_or(0)..];
+            let line = Line { bytes, ..comment };
+            if !bytes.starts_with(b"#") || line.lower()[1..].trim_start().starts_with("dt") {
+                continue;
+            }
+            if let Err(error) = keys.take(source, line) {
+                source.warn(&format!("{error}; the line is not used"));
+            }
         }
         keys
+    }
+
+    /// Velocity (m/s) and displacement (m) of the first sample.
+    pub(super) fn initial(&self) -> Option<(f64, f64)> {
+        let stated = self.initial_velocity.is_some() || self.initial_displacement.is_some();
+        stated.then(|| {
+            (
+                self.initial_velocity.unwrap_or(0.0),
+                self.initial_displacement.unwrap_or(0.0),
+            )
+        })
+    }
+
+    /// Time of the first sample (s) in another column of times.
+    pub(super) fn first_time(&self) -> Option<f64> {
+        self.first_time
+    }
+
+    /// The component of a file that holds one.
+    pub(super) fn component(&self) -> Option<&str> {
+        Some(self.component.as_str()).filter(|name| !name.is_empty())
     }
 
     /// Refuses units in the keys other than that of the column header.
@@ -218,18 +242,51 @@ impl Keys {
         let Some((key, value)) = text.split_once(':') else {
             return Ok(());
         };
-        let value = value.trim();
+        // Spreadsheets put quotes around a line, and separators behind it.
+        let value = value.trim_matches([' ', '\t', ',', ';', '"']);
+        let unused = |what: &str, remedy: &str| {
+            source.warn(&format!(
+                "line {}: {what} \"{}\" is not used: {remedy}",
+                line.number,
+                number::shown(value.as_bytes())
+            ));
+        };
         // Other programs write the keys in other letters.
         let key = key.trim();
         let key = KEYS.into_iter().find(|k| k.eq_ignore_ascii_case(key));
         match key.unwrap_or_default() {
             "Event" | "Station" => self.title.push(value.to_owned()),
             "Component" => value.clone_into(&mut self.component),
-            AZIMUTH => self.azimuth = degrees(value),
-            DIP => self.dip = degrees(value),
-            START_TIME => value.clone_into(&mut self.start_time),
-            // Other words behind this key mean nothing.
-            FIRST_TIME => self.first_time = seconds(value),
+            AZIMUTH => {
+                self.azimuth = degrees(value, 360.0);
+                if self.azimuth.is_none() {
+                    unused(
+                        "the azimuth",
+                        "write it as `# Azimuth: 120 degrees`, from -360 to 360",
+                    );
+                }
+            }
+            DIP => {
+                self.dip = degrees(value, 90.0);
+                if self.dip.is_none() {
+                    unused(
+                        "the dip",
+                        "write it as `# Dip: -90 degrees`, from -90 to 90",
+                    );
+                }
+            }
+            START_TIME => {
+                if !value.contains(|c: char| c.is_ascii_digit()) {
+                    unused("the time", "write it as `# Start: 2011/03/11 14:46:15 JST`");
+                }
+                value.clone_into(&mut self.start_time);
+            }
+            FIRST_TIME => {
+                self.first_time = seconds(value);
+                if self.first_time.is_none() {
+                    unused("the time", "write it as `# First time: 5 s`");
+                }
+            }
             "Source" | "Step" | "Read" | "Note" => self.history.push(text.trim().to_owned()),
             "Stage" => {
                 let stage = match value.to_ascii_lowercase().as_str() {
@@ -263,8 +320,13 @@ impl Keys {
                 let number = value.strip_suffix('s').unwrap_or(value);
                 self.step = Some((line.number, source.number(line, 0, number.as_bytes())?));
             }
-            // Other words behind this key mean nothing.
-            SAMPLES => self.samples = value.parse().ok(),
+            SAMPLES => {
+                let count = value.split([' ', '\t']).next().unwrap_or_default();
+                self.samples = count.parse().ok();
+                if self.samples.is_none() {
+                    unused("the number of samples", "write it as `# Samples: 4000`");
+                }
+            }
             INITIAL_VELOCITY => {
                 self.initial_velocity = Some(initial(source, line, value, Quantity::Velocity)?);
             }
@@ -284,9 +346,10 @@ fn seconds(value: &str) -> Option<f64> {
     time.is_finite().then_some(time)
 }
 
-/// `120 degrees`; other words behind these keys mean nothing.
-fn degrees(value: &str) -> Option<f64> {
-    value.strip_suffix("degrees")?.trim().parse().ok()
+/// `120 degrees`, up to `most` of them.
+fn degrees(value: &str, most: f64) -> Option<f64> {
+    let angle: f64 = value.strip_suffix("degrees")?.trim().parse().ok()?;
+    (angle.abs() <= most).then_some(angle)
 }
 
 /// A velocity (m/s) or a displacement (m) of a key line: a number and its unit.

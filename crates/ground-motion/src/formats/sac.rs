@@ -11,6 +11,7 @@ use crate::recording::Series;
 use crate::source::Source;
 use crate::start_times::later;
 use crate::text::latin_1;
+use crate::time_column::even_step_in_single;
 
 const HEADER: usize = 632;
 const VERSION: usize = 76;
@@ -100,7 +101,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         let offset = source.bytes.len().min(4 * VERSION);
         return Err(source.binary_error(offset, "no SAC header of version 6 or 7"));
     };
-    if words.integer(85) != 1 {
+    if words.integer(85) == -12345 {
+        source.warn("the header does not say that the file is a time series (IFTYPE is undefined): taken for one");
+    } else if words.integer(85) != 1 {
         return Err(GroundMotionError::Unsupported {
             file: source.file.to_owned(),
             what: format!("SAC file of type {}, not a time series", words.integer(85)),
@@ -153,7 +156,11 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut draft = Draft::new(samples, unit, (1, 1, 1));
     draft.header_count = Some(count);
     draft.times = if uneven {
-        Times::Each(values(source, &words, HEADER + 4 * count, count)?)
+        let times = values(source, &words, HEADER + 4 * count, count)?;
+        match even_step_in_single(&times) {
+            Some(step) => Times::Step(Some(step)),
+            None => Times::Each(times),
+        }
     } else {
         Times::Step(step)
     };
@@ -215,6 +222,12 @@ fn acceleration(source: &Source<'_>, words: &Words<'_>) -> Result<(), GroundMoti
         5 | -12345 => {
             let name = words.text(COMPONENT);
             match name.as_bytes() {
+                b"HLZ" | b"HLN" | b"HLE" | b"HL1" | b"HL2" | b"HL3" => {
+                    source.warn(&format!(
+                        "channel {name} is that of an instrument of low gain, which is an accelerograph in older codes and a seismometer in others; the header does not say what the values are (IDEP)"
+                    ));
+                    Ok(())
+                }
                 [_, b'H' | b'L', _] => Err(unsupported(
                     format!("channel {name} is that of a seismometer, which records velocity"),
                     "use the channel of an accelerograph, or set IDEP to IACC where the values are accelerations",

@@ -471,7 +471,6 @@ fn peaks(draft: &mut Draft, line: Option<Line<'_>>, reals: &HeaderNumbers) {
         .into_iter()
         .map(|lesser| DraftPeak {
             of_sign: true,
-            time: None,
             ..lesser
         })
         .collect();

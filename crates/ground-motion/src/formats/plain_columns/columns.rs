@@ -1,5 +1,6 @@
 //! Columns by name: the times, the components, and what is passed over.
 
+use super::counter::Counter;
 use super::header::{self, Role};
 use super::names;
 use super::survey::{Survey, nearly_times};
@@ -104,6 +105,7 @@ struct Table<'c> {
 struct Column {
     values: Vec<f64>,
     forms: Forms,
+    counter: Counter,
     /// Line and place of the first cell that is blank.
     ended: Option<(usize, usize)>,
 }
@@ -148,6 +150,7 @@ impl Table<'_> {
                 if columns.separator.is_none() && !blank(i) {
                     source.number(line, column, cell)?;
                 }
+                self.values[k].counter.see(line.number, column, cell);
                 continue;
             }
             let beside_none = is_time && !is_main && k + 1 < count && blank(i + 1);
@@ -247,6 +250,12 @@ pub(super) fn columns(
         table.row(source, line)?;
     }
     let used: Vec<bool> = (0..names.len()).map(|k| table.is_value(k)).collect();
+    // What is named a time or a component is one.
+    for (k, column) in table.values.iter().enumerate() {
+        if !used[k] && names[k] != "t" {
+            column.counter.goes_on(source, k + 1, true)?;
+        }
+    }
     let Table {
         main_time,
         times,
@@ -307,7 +316,10 @@ pub(super) fn columns(
         draft.component.clone_from(name);
         draft.channel = series.len() + 1;
         draft.warnings = warnings;
-        draft.first_time = first_time;
+        // Times from zero may be counted anew, from one that the file states.
+        if first_time.is_some_and(|time| time != 0.0) || draft.first_time.is_none() {
+            draft.first_time = first_time;
+        }
         draft.times = match &times {
             Times::Step(step) => Times::Step(*step),
             Times::Each(each) => Times::Each(each[..own.min(each.len())].to_vec()),

@@ -2,8 +2,8 @@
 
 use super::header::{Cells, Kind, Role, divided, kind, quantity, role};
 use super::names::{
-    ACCELERATION, MOTION, TIME, is_abscissa, is_channel, is_component, is_spectral, motion_unit,
-    plain, time_unit, unquoted,
+    ACCELERATION, MOTION, TIME, are_of_spectrum, is_abscissa, is_channel, is_component,
+    is_spectral, motion_unit, plain, time_unit, unquoted,
 };
 use crate::quantity::{NamedWithUnit, Quantity, named_with_unit, of_something_else};
 
@@ -91,6 +91,10 @@ pub(super) fn fault_of(cells: &Cells) -> Option<(String, Fault)> {
 /// The columns of a spectrum, or of times beside what is no motion.
 fn of_spectrum(cells: &Cells) -> Option<Fault> {
     let names = &cells.names;
+    if are_of_spectrum(names, cells.separator) {
+        let named = names.iter().find(|n| is_spectral(n)).unwrap_or(&names[0]);
+        return Some(Fault::Spectrum(unquoted(named).to_owned()));
+    }
     let kinds: Vec<Kind> = names.iter().map(|c| kind(c)).collect::<Option<_>>()?;
     let accelerates = |k: &Kind| matches!(k, Kind::Known(Role::Acceleration(..)) | Kind::Component);
     if kinds.iter().any(accelerates) && !names.iter().any(|n| is_abscissa(n)) {

@@ -2,8 +2,8 @@
 //! `t [s];a [g]`, `time_s acceleration_g`.
 
 use super::names::{
-    ACCELERATION, COUNTER, FOREIGN, LONG, MOTION, PROSE, TIME, is_channel, is_component,
-    is_spectral, is_time, motion_unit, plain, time_unit, unquoted,
+    ACCELERATION, COUNTER, FOREIGN, LONG, MOTION, PROSE, TIME, are_of_spectrum, is_channel,
+    is_component, is_spectral, is_time, motion_unit, plain, time_unit, unquoted,
 };
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::text::Line;
@@ -163,6 +163,9 @@ pub(super) enum Kind {
 
 impl Cells {
     fn parse(&self) -> Option<Header> {
+        if are_of_spectrum(&self.names, self.separator) {
+            return None;
+        }
         let columns: Vec<Role> = self.names.iter().map(|c| role(c)).collect::<Option<_>>()?;
         let times = columns
             .iter()
@@ -204,6 +207,7 @@ impl Cells {
     fn beside_times(&self, row: &Line<'_>) -> Option<Header> {
         let prose = |name: &String| PROSE.contains(&plain(name).as_str());
         if self.names.len() < 2
+            || are_of_spectrum(&self.names, self.separator)
             || !self.fits(row)
             || self.separator.is_none() && self.names.iter().any(prose)
         {
@@ -219,10 +223,8 @@ impl Cells {
         if let (Some(north), Some(_)) = (single(&["n"]), single(&["e", "z"])) {
             kinds[north] = Kind::Unknown;
         }
-        if !kinds
-            .iter()
-            .any(|k| matches!(k, Kind::Known(Role::Time(_))))
-        {
+        let timed = |k: &Kind| matches!(k, Kind::Known(Role::Time(_)));
+        if !kinds.iter().any(timed) && !self.is_without_times(&kinds) {
             return None;
         }
         let accelerates =
@@ -244,6 +246,17 @@ impl Cells {
         let columns: Vec<Role> = columns.collect();
         let found = columns.iter().any(|c| matches!(c, Role::Acceleration(..)));
         found.then(|| self.header(columns, left_out))
+    }
+
+    /// Whether columns of something else than times and motion stand beside an acceleration with
+    /// its unit: `Temp (C);acc (g)`. What is in seconds may be times by another name.
+    fn is_without_times(&self, kinds: &[Kind]) -> bool {
+        let accelerates = |k: &Kind| matches!(k, Kind::Known(Role::Acceleration(_, Some(_))));
+        let told = |(name, kind): (&String, &Kind)| {
+            let in_seconds = divided_at_brackets(name).is_some_and(|u| time_unit(&u).is_some());
+            !in_seconds && !matches!(kind, Kind::Unknown)
+        };
+        kinds.iter().any(accelerates) && self.names.iter().zip(kinds).all(told)
     }
 
     /// The same names with units that stand in the line below them.
@@ -367,6 +380,34 @@ pub(super) fn kind(cell: &str) -> Option<Kind> {
         true => Kind::Component,
         false => Kind::Unknown,
     })
+}
+
+/// The unit of acceleration that the name of a column has in brackets or behind it, also where
+/// the name is not understood: `Acc. (cm/s2) filtered`.
+pub(super) fn unit_beside(cell: &str) -> Option<SeriesUnit> {
+    let cell = unquoted(cell);
+    let (name, rest) = cell
+        .split_once(['(', '['])
+        .or_else(|| cell.split_once('_'))?;
+    let known = plain(name);
+    let first = known.split([' ', '-', '.']).next().unwrap_or_default();
+    if !(ACCELERATION.contains(&first) || is_channel(&known)) {
+        return None;
+    }
+    let (unit, behind) = match rest.find([')', ']']) {
+        Some(end) => rest.split_at(end),
+        None => (rest.rsplit('_').find(|u| motion_unit(u).is_some())?, ""),
+    };
+    let counts = name.contains(|c: char| c.is_ascii_digit()) && !is_channel(&known)
+        || behind.contains(|c: char| c.is_ascii_digit());
+    let unit = motion_unit(unit).filter(|unit| unit.quantity == Quantity::Acceleration)?;
+    (!counts).then_some(unit)
+}
+
+/// What stands in the brackets of a cell.
+fn divided_at_brackets(cell: &str) -> Option<String> {
+    let (_, rest) = unquoted(cell).split_once(['(', '['])?;
+    Some(rest.trim_end_matches([')', ']']).to_owned())
 }
 
 /// Name, in lower case, and unit of a cell that has both.

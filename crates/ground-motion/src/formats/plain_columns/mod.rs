@@ -9,11 +9,13 @@ use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::recording::Series;
+use crate::row_widths;
 use crate::source::Source;
 use crate::text::Line;
 use crate::time_column::mostly_times;
 
 mod columns;
+mod counter;
 mod decimal;
 mod faults;
 mod header;
@@ -22,6 +24,7 @@ mod stated;
 mod survey;
 
 use columns::{Columns, columns};
+use counter::Counter;
 use faults::Fault;
 use header::{Header, Role};
 use stated::Stated;
@@ -217,6 +220,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     if let Some(error) = faulty.as_ref().and_then(|f| f.refused(source)) {
         return Err(error);
     }
+    agrees_with_names(source, header.as_ref())?;
     let bytes = decimal::with_points(source, header.as_ref())?;
     let pointed = Source::new(source.file, &bytes, source.options, source.path);
     let said = Said::before(&pointed, header.as_ref())?;
@@ -228,11 +232,49 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         ) => return Err(faulty.error(source)),
         (series, _) => series?,
     };
+    let mut series = series;
+    let is_one = series.len() == 1;
+    for one in &mut series {
+        said.keys.report(&mut one.origin);
+        let unnamed = ["", "a"].contains(&one.component.as_str());
+        if let Some(name) = said.keys.component().filter(|_| is_one && unnamed) {
+            name.clone_into(&mut one.component);
+            name.clone_into(&mut one.origin.component);
+        }
+        if !is_one && one.initial.take().is_some() {
+            pointed.warn("the initial velocity or displacement is not used: it is that of one of several series");
+        }
+    }
     for warning in pointed.warnings() {
         outer.warn(&warning);
     }
     outer.uses(pointed.used());
     Ok(series)
+}
+
+/// Refuses another unit than one that the name of a column states, in a line that is not the header.
+fn agrees_with_names(
+    source: &Source<'_>,
+    header: Option<&Header>,
+) -> Result<(), GroundMotionError> {
+    let Some(given) = source.options.unit else {
+        return Ok(());
+    };
+    for cells in header::name_lines(before(source)) {
+        if header.is_some_and(|h| h.line == cells.line) || cells.names.len() < 2 {
+            continue;
+        }
+        let mut units = cells.names.iter().filter_map(|n| header::unit_beside(n));
+        if let Some(unit) = units.find(|unit| !unit.is(given)) {
+            return Err(GroundMotionError::Contradiction {
+                file: source.file.to_owned(),
+                quantity: "unit",
+                stated: format!("{} (line {})", unit.symbol, cells.line),
+                given: SeriesUnit::from(given).symbol.to_owned(),
+            });
+        }
+    }
+    Ok(())
 }
 
 /// What lines before the rows say of all of them.
@@ -246,7 +288,7 @@ impl Said {
     fn before(source: &Source<'_>, header: Option<&Header>) -> Result<Self, GroundMotionError> {
         let line = header.map(|h| h.line);
         Ok(Self {
-            keys: line.map_or_else(Keys::default, |line| Keys::before(source, line)),
+            keys: Keys::before(source, before(source)),
             stated: Stated::before(source, before(source), line)?,
         })
     }
@@ -256,6 +298,8 @@ impl Said {
         let unit = unit.or_else(|| self.stated.unit_of_values());
         let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
         let mut draft = Draft::new(samples, unit, (survey.first, survey.first, survey.last));
+        draft.initial = self.keys.initial();
+        draft.first_time = self.keys.first_time();
         self.stated.count(&mut draft, survey.numbers);
         draft
     }
@@ -411,9 +455,7 @@ fn headed(
         let mut draft = said.draft(samples, columns.units[0], survey);
         draft.times = Times::Step(said.stated.step(source, None)?);
         draft.component.clone_from(name);
-        let mut series = draft.finish(source)?;
-        said.keys.report(&mut series.origin);
-        return Ok(vec![series]);
+        return Ok(vec![draft.finish(source)?]);
     }
     let first = rows(source).next();
     columns.separator = first.and_then(|row| header::separator_of_rows(header.separator, &row));
@@ -452,7 +494,6 @@ fn headed(
     let mut series = columns::columns(source, survey, &columns, said)?;
     for one in &mut series {
         one.origin.header_line = Some(header.line);
-        said.keys.report(&mut one.origin);
     }
     Ok(series)
 }
@@ -467,16 +508,16 @@ fn fixed(
     let mut samples = Vec::with_capacity(room);
     let mut first = 0;
     let mut last = 0;
-    let mut card = None;
+    let mut cards = Counter::default();
+    let mut usual = None;
     let mut lines = rows(source).peekable();
     while let Some(line) = lines.next() {
         first = if first == 0 { line.number } else { first };
         last = line.number;
         // Row numbers of cards stand after the numbers, and are not data.
         let width = layout.margin + layout.per_line * layout.width;
-        if !layout.more {
-            card = counted_card(source, line, width, card)?;
-        }
+        is_counted(source, line, width, layout, &mut cards)?;
+        let before = samples.len();
         let mut bytes = &line.bytes[..width.min(line.bytes.len())];
         if lines.peek().is_none() && line.bytes.len() > width {
             // The last card may hold fewer numbers before its own.
@@ -496,11 +537,26 @@ fn fixed(
             ));
         }
         read?;
+        let found = samples.len() - before;
+        let usual = *usual.get_or_insert(found);
+        if found > usual || found < usual && lines.peek().is_some() {
+            let message = format!("{found} numbers, where the rows before have {usual}");
+            return Err(source.error(line.number, 0, message, row_widths::REMEDY));
+        }
+    }
+    cards.goes_on(source, layout.per_line + 1, true)?;
+    if let Some(line) = cards.first_other().filter(|_| !layout.more)
+        && let Some(line) = rows(source).find(|l| l.number == line)
+    {
+        let width = layout.margin + layout.per_line * layout.width;
+        return Err(left_over(source, line, width));
     }
     without_times(source, first, &samples, layout.per_line)?;
     let unit = said.stated.unit_of_values();
     let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
     let mut draft = Draft::new(samples, unit, (first, first, last));
+    draft.initial = said.keys.initial();
+    draft.first_time = said.keys.first_time();
     said.stated.count(&mut draft, 0);
     draft.times = Times::Step(said.stated.step(source, None)?);
     Ok(vec![draft.finish(source)?])
@@ -521,27 +577,33 @@ fn skipping(line: usize) -> String {
     )
 }
 
-/// The number of a card that stands behind its numbers, which end at a column; `before` is that of
-/// the card before.
+/// Takes the number of a card that stands behind its numbers, which end at a column.
 ///
 /// # Errors
-/// Anything else there: the layout has fewer numbers than the rows.
-fn counted_card(
+/// Anything else there, unless the format goes on: the layout has fewer numbers than the rows.
+fn is_counted(
     source: &Source<'_>,
     line: Line<'_>,
     width: usize,
-    before: Option<usize>,
-) -> Result<Option<usize>, GroundMotionError> {
+    layout: Layout,
+    cards: &mut Counter,
+) -> Result<(), GroundMotionError> {
     let behind = line.columns(width, line.bytes.len());
-    if behind.is_empty() {
-        return Ok(before);
+    let is_number = !behind.is_empty() && behind.bytes().all(|b| b.is_ascii_digit());
+    if !behind.is_empty() || layout.more {
+        let column = width + source.options.skip_columns;
+        cards.see(line.number, column, behind.as_bytes());
     }
-    match (before, behind.parse().ok()) {
-        (None, Some(card)) => return Ok(Some(card)),
-        (Some(before), Some(card)) if card == before + 1 => return Ok(Some(card)),
-        _ => {}
+    if behind.is_empty() || layout.more || is_number {
+        return Ok(());
     }
-    Err(source.error(
+    Err(left_over(source, line, width))
+}
+
+/// The error of a layout that has fewer numbers than the rows.
+fn left_over(source: &Source<'_>, line: Line<'_>, width: usize) -> GroundMotionError {
+    let behind = line.columns(width, line.bytes.len());
+    source.error(
         line.number,
         width + source.options.skip_columns,
         format!(
@@ -550,7 +612,7 @@ fn counted_card(
             crate::number::shown(behind.as_bytes())
         ),
         "give the format of all numbers of a row in `layout`, such as \"8F10.5\"; or that of what is to be passed over behind them, such as \"8F9.5,I7\"",
-    ))
+    )
 }
 
 /// A series along the rows, after rows of count and step if there are any.
@@ -646,15 +708,18 @@ fn cards(
     said: &Said,
 ) -> Result<Vec<Series>, GroundMotionError> {
     let mut samples = Vec::with_capacity(survey.numbers);
+    let mut forms = Forms::default();
     for line in rows(source) {
-        let before = samples.len();
-        for (column, field) in line.fields() {
-            samples.push(source.number(line, column, field)?);
-        }
-        if samples.len() > before {
-            samples.pop();
+        let mut fields = line.fields().peekable();
+        while let Some((column, field)) = fields.next() {
+            let value = source.number(line, column, field)?;
+            if fields.peek().is_some() {
+                samples.push(value);
+                forms.see(line.number, column, field);
+            }
         }
     }
+    forms.are_whole(source)?;
     without_times(source, survey.first, &samples, survey.width() - 1)?;
     let mut draft = said.draft(samples, None, survey);
     draft.times = Times::Step(said.stated.step(source, None)?);

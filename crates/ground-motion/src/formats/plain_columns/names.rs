@@ -53,7 +53,7 @@ pub(super) const COUNTER: [&str; 14] = [
     "record no",
 ];
 /// Words of names of columns that hold no motion.
-pub(super) const FOREIGN: [&str; 27] = [
+pub(super) const FOREIGN: [&str; 34] = [
     "force",
     "forces",
     "load",
@@ -81,9 +81,16 @@ pub(super) const FOREIGN: [&str; 27] = [
     "energy",
     "husid",
     "counts",
+    "depth",
+    "distance",
+    "intensity",
+    "magnitude",
+    "mass",
+    "quality",
+    "weight",
 ];
 /// Names of columns of response spectra and Fourier spectra.
-const SPECTRAL: [&str; 19] = [
+const SPECTRAL: [&str; 22] = [
     "sa",
     "psa",
     "spa",
@@ -103,6 +110,9 @@ const SPECTRAL: [&str; 19] = [
     "psd",
     "power",
     "response acceleration",
+    "tn",
+    "per",
+    "acceleration response",
 ];
 /// Words that stand in sentences, and in no name of a column between blanks.
 pub(super) const PROSE: [&str; 17] = [
@@ -183,6 +193,12 @@ pub(in crate::formats) fn motion_unit(text: &str) -> Option<SeriesUnit> {
     if plain == "g/1000" {
         return Some(SeriesUnit::MILLI_G);
     }
+    // `ms2`, `mps2`, `ms-2`, as names of variables have them.
+    let bare = plain.replace(['^', '-'], "");
+    let joined = bare.strip_suffix("ps2").or(bare.strip_suffix("s2"));
+    if let Some(length) = joined.filter(|l| ["m", "cm", "mm"].contains(l)) {
+        return SeriesUnit::parse(&format!("{length}/s2"));
+    }
     // SeriesUnit takes stops out, which are none of a unit of a header.
     let known = |text: &str| SeriesUnit::parse(text).filter(|_| !text.contains('.'));
     known(&spaced.unwrap_or_else(|| plain.clone())).or_else(|| known(&plain.replacen('_', "/", 1)))
@@ -232,9 +248,33 @@ pub(super) fn unquoted(cell: &str) -> &str {
 /// Whether a column is what the ordinates of a spectrum stand over.
 pub(super) fn is_abscissa(name: &str) -> bool {
     is_spectral(name)
-        && ["period", "natural period", "freq"]
+        && ["period", "natural period", "freq", "per", "tn"]
             .iter()
             .any(|n| plain(name).starts_with(n))
+        || is_frequency(name)
+}
+
+/// Whether a name is that of a frequency by its unit alone: `f (Hz)`.
+fn is_frequency(name: &str) -> bool {
+    let name = unquoted(name).to_lowercase();
+    let unit = name.split_once(['(', '[', '_', '/']);
+    unit.is_some_and(|(name, unit)| {
+        ["f", "fr", "freq", "frequency"].contains(&plain(name).as_str())
+            && unit.trim_end_matches([')', ']', ' ']) == "hz"
+    })
+}
+
+/// Whether names are those of a spectrum by the first of them, which a spectrum stands over: with
+/// its unit in brackets, or apart from the next one by more than a blank or a comma.
+pub(super) fn are_of_spectrum(names: &[String], separator: Option<char>) -> bool {
+    let [first, second, ..] = names else {
+        return false;
+    };
+    let apart = matches!(separator, Some(';' | '\t' | '|')) || first.contains(['(', '[']);
+    // Letters of codes, in which capitals tell them from directions.
+    let letters = ["Sa", "Se", "Sae", "Sde", "Sd", "Sv"].contains(&unquoted(second));
+    is_abscissa(first) && apart && !unquoted(second).is_empty()
+        || names.len() == 2 && letters && is_time(&plain(first))
 }
 
 /// Whether a unit is that of something else than motion: counts, volts, forces.

@@ -1,8 +1,10 @@
 //! A first look at all rows: how many numbers, and how they are arranged.
 
+use super::counter::Counter;
 use super::{header, rows};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::number;
+use crate::row_widths::{OddRow, RowWidths};
 use crate::source::Source;
 use crate::time_column::TimeColumn;
 
@@ -11,6 +13,9 @@ use crate::time_column::TimeColumn;
 const EVEN_ROWS: usize = 4;
 /// Rows from which on a column that increases at all is one of times.
 const INCREASING_ROWS: usize = 20;
+/// Rows from which on a column beside row numbers that increases by one step, but for a few rows,
+/// is one of times.
+const EVEN_BESIDE_NUMBERS: usize = 8;
 /// Columns among which one of times is looked for.
 const TIME_AMONG: usize = 16;
 /// Values of a row that may be components: agencies print more of one series.
@@ -37,12 +42,15 @@ pub(super) struct Head {
     pub step: Option<f64>,
 }
 
+/// Steps (s) of a row of count and step.
+const SHORTEST_STEP: f64 = 1.0e-5;
+const LONGEST_STEP: f64 = 1.0;
 /// Counts from which on a whole number that is the number of the values behind it is no chance,
 /// also among whole numbers.
 const SURE_COUNT: usize = 20;
 
-/// Rows from which on a single one with another number of values is damaged.
-const ODD_AMONG: usize = 8;
+/// What to do about a row with another number of values than its neighbours.
+const ODD_REMEDY: &str = "correct the row: a value is missing, was parted, as by a decimal comma, or the row is out of its place";
 
 /// What was seen.
 pub(super) struct Survey {
@@ -143,6 +151,7 @@ impl Survey {
         if width < 2 || self.rows < 2 {
             return Ok(Arrangement::Wrapped);
         }
+        self.counts_on(source, width)?;
         if self.pairs_follow(source, width)? {
             return Ok(Arrangement::Columns(named(2, 0, &[])));
         }
@@ -174,6 +183,11 @@ impl Survey {
         // `1 0.000 0.204`: the row, the time and the value.
         let mut passed = Vec::new();
         let first_counts = || counts(source, Some(0), 0) || counts(source, Some(0), 1);
+        if width > 2 && times == [0] && first_counts() {
+            for k in 1..width.min(TIME_AMONG) {
+                self.goes_on_evenly(source, k)?;
+            }
+        }
         if times.len() == 2 && times[0] == 0 && first_counts() {
             passed.push(times.remove(0));
         }
@@ -206,6 +220,70 @@ impl Survey {
                 "say what the columns are with `layout`, such as \"t,a\" or \"-,t,a\"; \"a\" if the values follow one another along the rows",
             )),
         }
+    }
+
+    /// Refuses a number of a first or last column that does not go on from the one before, where
+    /// most count the rows.
+    fn counts_on(&self, source: &Source<'_>, width: usize) -> Result<(), GroundMotionError> {
+        let (mut first, mut last) = (Counter::default(), Counter::default());
+        let mut inner = true;
+        for line in rows(source) {
+            let mut fields = line.fields().peekable();
+            let mut k = 0;
+            while let Some((column, field)) = fields.next() {
+                let column = column + source.options.skip_columns;
+                if k == 0 {
+                    first.see(line.number, column, field);
+                } else if fields.peek().is_none() {
+                    last.see(line.number, column, field);
+                } else {
+                    inner &= field.contains(&b'.');
+                }
+                k += 1;
+            }
+        }
+        // The other one of two columns may have points.
+        let pointed = inner && (width > 2 || first.is_none() || last.is_none());
+        first.goes_on(source, 1, pointed)?;
+        last.goes_on(source, width, pointed)
+    }
+
+    /// Refuses a column (from 0) beside row numbers whose values increase by one step but for a
+    /// few, as damaged times do.
+    fn goes_on_evenly(&self, source: &Source<'_>, k: usize) -> Result<(), GroundMotionError> {
+        let mut values = Vec::with_capacity(self.rows);
+        let mut lines = Vec::with_capacity(self.rows);
+        for line in rows(source) {
+            let Some((column, field)) = line.fields().nth(k) else {
+                continue;
+            };
+            values.push(source.number(line, column + source.options.skip_columns, field)?);
+            lines.push(line.number);
+        }
+        let steps: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).collect();
+        let mut sorted = steps.clone();
+        sorted.sort_by(f64::total_cmp);
+        let usual = sorted.get(sorted.len() / 2).copied().unwrap_or(0.0);
+        let differs = |step: &f64| (step - usual).abs() > 0.25 * usual;
+        let others = steps.iter().filter(|step| differs(step)).count();
+        let Some(at) = steps.iter().position(differs) else {
+            return Ok(());
+        };
+        if !(usual > 0.0) || values.len() < EVEN_BESIDE_NUMBERS || 3 * others > steps.len() {
+            return Ok(());
+        }
+        Err(source.error(
+            lines[at + 1],
+            0,
+            format!(
+                "the values of column {} increase by {} a row, as times do, but {} follows {} here",
+                k + 1,
+                bound(usual),
+                values[at + 1],
+                values[at]
+            ),
+            "correct the row, or get the record again",
+        ))
     }
 
     /// Numbers of a row, where they are as many in each.
@@ -311,7 +389,8 @@ impl Survey {
     /// What is wrong with a row that has another number of values than its neighbours.
     fn irregular(&self, source: &Source<'_>, line: usize) -> GroundMotionError {
         let message = "this row has another number of values than its neighbours";
-        if line == self.first {
+        let free = || self.ragged.is_some() && odd_row(source, 0).is_none();
+        if line == self.first && !free() {
             return source.error(
                 line,
                 0,
@@ -322,13 +401,8 @@ impl Survey {
                 ),
             );
         }
-        match self.one_odd_row(source, 0) {
-            Some((line, found, others)) => source.error(
-                line,
-                0,
-                format!("{message}: {found}, where all others have {others}"),
-                "correct the row: a value is missing, or was parted, as by a decimal comma",
-            ),
+        match odd_row(source, 0) {
+            Some(odd) => source.error(odd.line, 0, odd.message(), ODD_REMEDY),
             None => source.error(
                 line,
                 0,
@@ -336,22 +410,6 @@ impl Survey {
                 "correct the row, or give `layout = \"a\"` if the values follow one another along the rows",
             ),
         }
-    }
-
-    /// The one row between the first ones and the last that has another number of values than all
-    /// others: line, its number and theirs.
-    fn one_odd_row(&self, source: &Source<'_>, skipped: usize) -> Option<(usize, usize, usize)> {
-        let others = self.second_length;
-        if self.rows < ODD_AMONG || others < 2 {
-            return None;
-        }
-        let inner = rows(source)
-            .skip(skipped.max(1))
-            .filter(|l| l.number != self.last);
-        let mut odd = inner
-            .map(|l| (l.number, l.fields().count(), others))
-            .filter(|(_, found, _)| *found != others);
-        odd.next().filter(|_| odd.next().is_none())
     }
 
     /// Refuses rows that the user says to be one series along them, of which one inside is no such
@@ -362,9 +420,12 @@ impl Survey {
         head: Option<Head>,
     ) -> Result<(), GroundMotionError> {
         let skipped = head.map_or(0, |head| head.rows);
-        if self.one_odd_row(source, skipped).is_some() {
+        if let Some(odd) = odd_row(source, skipped) {
             none_touch(source)?;
-            return Err(self.irregular(source, 0));
+            return Err(match odd.line == self.first {
+                true => self.irregular(source, odd.line),
+                false => source.error(odd.line, 0, odd.message(), ODD_REMEDY),
+            });
         }
         let Some(line) = rows(source).next().filter(|_| head.is_none()) else {
             return Ok(());
@@ -496,8 +557,13 @@ impl Survey {
             let is_count = count.fract() == 0.0 && (2.0..1.0e9).contains(&count);
             is_count.then_some(count as usize)
         };
-        let is_step = |step: f64| step > 0.0 && step <= 1.0;
-        let step_in = |field: &[u8]| number::parse(field).ok().filter(|step| is_step(*step));
+        // Samples have signs and sizes that no step has.
+        let is_step = |step: f64| (SHORTEST_STEP..=LONGEST_STEP).contains(&step);
+        let signed = |field: &[u8]| field.starts_with(b"+") || field.starts_with(b"-");
+        let step_in = |field: &[u8]| {
+            let step = number::parse(field).ok()?;
+            Some(step).filter(|step| is_step(*step) && !signed(field))
+        };
         if self.first_length == 2 {
             let Some((_, second)) = fields.next() else {
                 return Ok(None);
@@ -529,6 +595,10 @@ impl Survey {
             let both = |(count, step): (&[u8], &[u8])| whole(count).zip(step_in(step));
             let fits = |(count, _): &(usize, f64)| count + 2 == self.numbers && sure(*count, 2);
             if let Some((count, step)) = either.into_iter().filter_map(both).find(fits) {
+                let other = |given: f64| (given - step).abs() > 1.0e-6 * step;
+                if let Some(given) = source.options.time_step.filter(|given| other(*given)) {
+                    return Err(step_or_sample(source, line.number, (count, step), given));
+                }
                 return Ok(Some(Head {
                     rows: 2,
                     count,
@@ -596,6 +666,28 @@ impl Survey {
     }
 }
 
+/// The error of a count above a value that is another step than the one given, or the first sample
+/// if the count is one too small.
+fn step_or_sample(
+    source: &Source<'_>,
+    line: usize,
+    (count, step): (usize, f64),
+    given: f64,
+) -> GroundMotionError {
+    let behind = count + 1;
+    source.error(
+        line,
+        0,
+        format!(
+            "the first two values, {count} and {step}, are count and step of the {count} values behind them, but a time step of {given} s is given; or the count is one too small for the {behind} values behind it"
+        ),
+        &format!(
+            "to read {count} values at {step} s, do not give the time step; to read {behind} values at {given} s, {}",
+            super::skipping(line)
+        ),
+    )
+}
+
 /// Whether all but a few of a column of values increase as times do: the place (from 0) of the first
 /// that does not, or none. Values of a motion fall as often as they rise.
 pub(super) fn nearly_times(values: &[f64]) -> Option<Option<usize>> {
@@ -660,6 +752,15 @@ fn none_touch(source: &Source<'_>) -> Result<(), GroundMotionError> {
         }
     }
     Ok(())
+}
+
+/// The first of a few rows that have another number of values than all others, after the first few.
+fn odd_row(source: &Source<'_>, skipped: usize) -> Option<OddRow> {
+    let mut widths = RowWidths::default();
+    for line in rows(source).skip(skipped) {
+        widths.see(line.number, line.fields().count());
+    }
+    widths.odd()
 }
 
 /// Whether a column (from 0; `None`: the last of each row) counts on from a number: 1, 2, 3, ...

@@ -303,7 +303,7 @@ pub trait ImpactModel: Send + Sync + std::fmt::Debug {
         let _ = (collision, memory, from, to, delta);
     }
 
-    /// Restitution of a law without compliance: the driver then lets velocities
+    /// Restitution of a law without compliance, from 0 to 1 (a system refuses others): the driver then lets velocities
     /// jump at located closure, and neither [`ImpactModel::force`] nor a phase
     /// other than [`Phase::Stuck`] (lasting contact) is ever asked for.
     fn rigid_restitution(&self) -> Option<f64> {

@@ -3,11 +3,17 @@
 use std::sync::Arc;
 
 use pounding_catalogue::STANDARD_GRAVITY;
-use pounding_shear_building::{Damping, Isolator, LateralStiffness, ShearBuilding, StoreyLaw};
+use pounding_shear_building::{
+    Damping, Isolator, LateralStiffness, MAXIMUM_STOREYS, ShearBuilding, ShearBuildingError,
+    StoreyLaw,
+};
 
 use crate::error::Error;
 use crate::law::Law;
 use crate::units::{Length, Mass, Stiffness, Velocity};
+
+/// Stiffness (N/m) with which a law is checked that all storeys follow where there are none.
+const ANY_STIFFNESS: f64 = 1.0e6;
 
 /// One storey: the floor above it, and what carries that floor.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -31,13 +37,15 @@ pub struct Floor {
 
 /// A building in the making: storeys from the bottom, or floors on a stiffness matrix;
 /// damping, laws.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Building {
     name: String,
     isolator: Option<Isolator>,
     /// Stiffness of all floors together, in the place of those of the storeys.
     matrix: Option<LateralStiffness>,
     floors: Vec<Floor>,
+    /// Number of floors: more than there are in the list above the most that a building can have.
+    count: usize,
     /// Of each floor that was added as a storey.
     stiffness: Vec<Option<Stiffness>>,
     damping: Option<Damping>,
@@ -57,6 +65,7 @@ impl Building {
             isolator: None,
             matrix: None,
             floors: Vec::new(),
+            count: 0,
             stiffness: Vec::new(),
             damping: None,
             p_delta: false,
@@ -85,9 +94,19 @@ impl Building {
 
     /// Adds equal floors on top of a building with a stiffness matrix.
     #[must_use]
-    pub fn floors(mut self, count: usize, floor: Floor) -> Self {
-        self.floors.extend(std::iter::repeat_n(floor, count));
-        self.stiffness.extend(std::iter::repeat_n(None, count));
+    pub fn floors(self, count: usize, floor: Floor) -> Self {
+        self.add(count, floor, None)
+    }
+
+    /// Adds equal floors with the stiffness below each, if it has one of its own. Of more than a building
+    /// can have only their number is kept.
+    fn add(mut self, count: usize, floor: Floor, stiffness: Option<Stiffness>) -> Self {
+        let total = self.count.saturating_add(count);
+        if total <= MAXIMUM_STOREYS {
+            self.floors.resize(total, floor);
+            self.stiffness.resize(total, stiffness);
+        }
+        self.count = total;
         self
     }
 
@@ -111,16 +130,13 @@ impl Building {
 
     /// Adds equal storeys on top.
     #[must_use]
-    pub fn storeys(mut self, count: usize, storey: Storey) -> Self {
+    pub fn storeys(self, count: usize, storey: Storey) -> Self {
         let Storey {
             mass,
             stiffness,
             height,
         } = storey;
-        self = self.floors(count, Floor { mass, height });
-        let added = self.stiffness.len() - count;
-        self.stiffness[added..].fill(Some(stiffness));
-        self
+        self.add(count, Floor { mass, height }, Some(stiffness))
     }
 
     /// Damps the building.
@@ -189,7 +205,28 @@ impl Building {
         &self.name
     }
 
+    /// Storey, from zero, of this number, from 1, which `of` names.
+    pub(crate) fn storey_index(&self, of: &str, number: usize) -> Result<usize, Error> {
+        match number.checked_sub(1) {
+            None => Err(Error::StoreyZero { of: of.to_owned() }),
+            Some(storey) if storey < self.floors.len() => Ok(storey),
+            Some(_) => Err(Error::UnknownStorey {
+                of: of.to_owned(),
+                building: self.name.clone(),
+                storey: number,
+                highest: self.floors.len(),
+            }),
+        }
+    }
+
     pub(crate) fn build(&self) -> Result<Arc<ShearBuilding>, Error> {
+        if self.count > MAXIMUM_STOREYS {
+            return Err(Error::Building(ShearBuildingError::TooManyStoreys {
+                building: self.name.clone(),
+                storeys: self.count,
+                largest: MAXIMUM_STOREYS,
+            }));
+        }
         let each = |of: fn(&Floor) -> f64| self.floors.iter().map(of).collect();
         let bare = self.isolator.is_some() && self.floors.len() == 1;
         let none = || bare.then_some(Damping::MassProportional { ratio: 0.0 });
@@ -257,8 +294,10 @@ impl Building {
         let isolators = usize::from(self.isolator.is_some());
         for (storeys, law) in &self.laws {
             // One that no storey has is to be one all the same.
-            if storeys.as_ref().is_some_and(Vec::is_empty) {
-                law.build(&of, None)?;
+            match storeys {
+                Some(storeys) if storeys.is_empty() => drop(law.build(&of, None)?),
+                None if count == isolators => drop(law.build(&of, Some(ANY_STIFFNESS))?),
+                _ => {}
             }
             let all = || (1 + isolators..=count).collect();
             for storey in storeys.clone().unwrap_or_else(all) {

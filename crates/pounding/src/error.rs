@@ -6,6 +6,8 @@ use pounding_hysteresis::HysteresisError;
 use pounding_shear_building::{LateralStiffnessError, ShearBuildingError};
 use pounding_time_history::TimeHistoryError;
 
+use crate::help;
+
 /// What can go wrong between a description and its results.
 #[derive(thiserror::Error)]
 #[non_exhaustive]
@@ -169,6 +171,21 @@ pub enum Error {
         /// The name that is meant, if it is like one.
         nearest: Option<String>,
     },
+    /// A force on a wall.
+    #[error("a force on \"wall\": a rigid wall does not move by it")]
+    ForceOnWall,
+    /// A storey above the roof.
+    #[error("{of}: {building} has no storey {storey}")]
+    UnknownStorey {
+        /// Gap, link or force.
+        of: String,
+        /// Name of the building.
+        building: String,
+        /// The storey asked for, from 1.
+        storey: usize,
+        /// Its highest storey.
+        highest: usize,
+    },
     /// A storey of the number zero.
     #[error("{of}: there is no storey 0")]
     StoreyZero {
@@ -176,10 +193,14 @@ pub enum Error {
         of: String,
     },
     /// A gap or link joins buildings that do not stand side by side in this order.
-    #[error("{of}: buildings stand in the order given, and it joins one to the next on its right")]
+    #[error("{of}: {reason}")]
     NotNeighbours {
         /// Gap or link.
         of: String,
+        /// What its sides are instead.
+        reason: String,
+        /// What to do.
+        remedy: &'static str,
     },
     /// A floor without one of its neighbour at equal elevation.
     #[error(
@@ -195,6 +216,9 @@ pub enum Error {
         /// Elevation (m).
         elevation: f64,
     },
+    /// A simulation of nothing.
+    #[error("the simulation has no buildings")]
+    NoBuildings,
     /// Nothing shakes the buildings.
     #[error("the simulation has no ground motion")]
     NoGroundMotion,
@@ -229,7 +253,7 @@ pub enum Error {
 }
 
 impl Error {
-    /// What to try.
+    /// What to try, in words of this library; of a case file ([`Error::Case`]), by its keys.
     #[must_use]
     pub fn help(&self) -> Option<String> {
         match self {
@@ -243,7 +267,7 @@ impl Error {
             ) => Some(
                 "correct stiffness, masses and heights, with their units, or leave `.p_delta()` out".to_owned(),
             ),
-            Self::Building(error) => error.help(),
+            Self::Building(error) => help::of_building(error),
             Self::LateralStiffness(_) | Self::Stopped { .. } => None,
             Self::Twice { .. } => Some("give it once".to_owned()),
             Self::StiffnessOfStorey { .. } => Some(
@@ -267,8 +291,8 @@ impl Error {
             }
             Self::RuleBesideModel { .. } => Some("leave `.separation(...)` out".to_owned()),
             Self::Incomplete { what, .. } => Some(format!("give it one: `.{what}(...)`")),
-            Self::Model { reason, .. } => reason.help(),
-            Self::Law { reason, .. } => reason.help(),
+            Self::Model { reason, .. } => help::of_model(reason),
+            Self::Law { reason, .. } => help::of_law(reason),
             Self::Widths { .. } => {
                 Some("give one width per level, bottom first, or a single one by `.width(...)`".to_owned())
             }
@@ -282,23 +306,28 @@ impl Error {
                     .map_or_else(String::new, |name| format!("did you mean \"{name}\"? "));
                 Some(format!("{guess}A rigid wall is \"wall\""))
             }
+            Self::ForceOnWall => {
+                Some("name a building: a force pushes the floor above one of its storeys".to_owned())
+            }
+            Self::UnknownStorey { highest, .. } => {
+                Some(format!("its storeys are numbered from 1 at the bottom to {highest}"))
+            }
             Self::StoreyZero { .. } => Some("storeys are numbered from 1".to_owned()),
-            Self::NotNeighbours { .. } => Some(
-                "name the left building first, and put neighbours next to each other".to_owned(),
-            ),
+            Self::NotNeighbours { remedy, .. } => Some((*remedy).to_owned()),
             Self::UnequalFloors { .. } => Some(
-                "correct the storey heights, or name pairs of floors with `.levels(...)`; `.matching_floors_only()` leaves the others out"
+                "correct the storey heights, or name pairs of floors with `.levels(...)`, to which alone `.floor_to_floor()` applies; `.matching_floors_only()` leaves the others out"
                     .to_owned(),
             ),
             Self::NoGroundMotion => Some("give it one: `.ground_motion(...)`".to_owned()),
-            Self::GroundMotion(error) => error.help(),
-            Self::Run(error) => error.help(),
+            Self::NoBuildings => Some("give it some: `Simulation::of([...])`".to_owned()),
+            Self::GroundMotion(error) => Some(help::of_motion(error)),
+            Self::Run(error) => help::of_run(error),
             #[cfg(feature = "toml")]
             Self::Case(error) => error.help(),
             #[cfg(feature = "hdf5")]
-            Self::Result(error) => Some(error.help()),
+            Self::Result(error) => Some(help::of_result(error)),
             #[cfg(feature = "hdf5")]
-            Self::TooLarge(error) => Some(error.help()),
+            Self::TooLarge(_) => Some(help::OF_SIZE.to_owned()),
             #[cfg(feature = "hdf5")]
             Self::FileUse(error) => Some(error.help()),
         }

@@ -11,7 +11,7 @@ use crate::error::Error;
 pub(crate) const WALL: &str = "wall";
 
 /// Which floors are meant.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Levels {
     /// All below the lower roof: each must have a partner at equal elevation.
     All,
@@ -22,7 +22,7 @@ pub(crate) enum Levels {
 }
 
 /// Two neighbours and their levels.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Facing {
     /// Gap or link.
     what: &'static str,
@@ -62,16 +62,8 @@ impl Facing {
         system: &System,
     ) -> Result<Vec<(Floor, Floor)>, Error> {
         let sides = [self.side(buildings, 0)?, self.side(buildings, 1)?];
-        let beside = match sides {
-            [Some(left), Some(right)] => right == left + 1,
-            [Some(left), None] => left + 1 == buildings.len(),
-            [None, Some(right)] => right == 0,
-            [None, None] => false,
-        };
-        if !beside {
-            return Err(Error::NotNeighbours { of: self.of() });
-        }
-        let pairs = self.storeys(sides, system)?;
+        self.side_by_side(sides, buildings)?;
+        let pairs = self.storeys(sides, buildings, system)?;
         let mut seen = std::collections::BTreeSet::new();
         if let Some(twice) = pairs.iter().find(|pair| !seen.insert(**pair)) {
             let storey = |side: usize, storey: usize| match sides[side] {
@@ -101,6 +93,55 @@ impl Facing {
         Ok(pairs.into_iter().map(both).collect())
     }
 
+    /// Refuses sides that are not next to each other, the left one first.
+    fn side_by_side(&self, sides: [Option<usize>; 2], buildings: &[Building]) -> Result<(), Error> {
+        let refused = |reason: String, remedy: &'static str| {
+            Err(Error::NotNeighbours {
+                of: self.of(),
+                reason,
+                remedy,
+            })
+        };
+        let [left, right] = &self.between;
+        let end = |building: usize, side: &str, remedy: &'static str| {
+            let name = buildings[building].name();
+            let reason = format!(
+                "the wall on the {side} is beside \"{name}\", the last building on that side"
+            );
+            refused(reason, remedy)
+        };
+        match sides {
+            [Some(a), Some(b)] if b == a + 1 => Ok(()),
+            [Some(a), Some(b)] if a == b => refused(
+                format!("\"{left}\" is on both sides of it"),
+                "name two buildings that stand next to each other, or a building and \"wall\"",
+            ),
+            [Some(a), Some(b)] if a == b + 1 => refused(
+                format!("\"{left}\" stands on the right of \"{right}\""),
+                "name the left building first",
+            ),
+            [Some(_), Some(_)] => refused(
+                format!("\"{left}\" and \"{right}\" do not stand next to each other"),
+                "buildings stand in the order in which the simulation is given them: name two neighbours",
+            ),
+            [Some(a), None] if a + 1 < buildings.len() => end(
+                buildings.len() - 1,
+                "right",
+                "name that building and \"wall\", or \"wall\" first for the wall on the left",
+            ),
+            [None, Some(b)] if b > 0 => end(
+                0,
+                "left",
+                "name \"wall\" and that building, or \"wall\" last for the wall on the right",
+            ),
+            [None, None] => refused(
+                "there is a wall on both sides of it".to_owned(),
+                "name a building on one of them",
+            ),
+            _ => Ok(()),
+        }
+    }
+
     /// The building on a side; `None` is a wall.
     fn side(&self, buildings: &[Building], side: usize) -> Result<Option<usize>, Error> {
         let name = self.between[side].as_str();
@@ -121,14 +162,13 @@ impl Facing {
     fn storeys(
         &self,
         sides: [Option<usize>; 2],
+        buildings: &[Building],
         system: &System,
     ) -> Result<Vec<(usize, usize)>, Error> {
         if let Levels::Pairs(pairs) = &self.levels {
-            // Storeys count from 1; those above the roof are refused by the system.
-            let floor = |side: usize, storey: usize| match (sides[side], storey.checked_sub(1)) {
-                (None, _) => Ok(0),
-                (Some(_), Some(floor)) => Ok(floor),
-                (Some(_), None) => Err(Error::StoreyZero { of: self.of() }),
+            let floor = |side: usize, storey: usize| match sides[side] {
+                None => Ok(0),
+                Some(building) => buildings[building].storey_index(&self.of(), storey),
             };
             let pairs = pairs
                 .iter()

@@ -6,7 +6,7 @@ use pounding_shear_building::StoreyLaw;
 use crate::error::{Error, once};
 
 /// A law with its parameters in SI units by their names.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Law {
     name: String,
     parameters: Vec<(String, f64)>,

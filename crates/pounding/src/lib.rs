@@ -29,7 +29,7 @@
 //! #   let folder = tempfile::tempdir().expect("a folder");
 //! #   std::env::set_current_dir(&folder).expect("the folder");
 //!     let outcome = model.run_to_file("pair.h5")?;
-//!     for warning in &outcome.warnings {
+//!     for warning in model.warnings(&outcome) {
 //!         println!("{warning}");
 //!     }
 //!     let roof = &outcome.gaps[0].levels[2];
@@ -45,7 +45,8 @@
 //!
 //! # With and without the neighbour
 //!
-//! [`Model::isolated`] takes the gaps away; modes and exact steps are computed once for both.
+//! [`Model::isolated`] takes gaps and links away, [`Model::without_gaps`] the gaps alone; modes and exact
+//! steps are computed once for all of them.
 //!
 //! ```
 //! # use pounding::prelude::*;
@@ -188,16 +189,23 @@
 //! | [`shear_building`] | storeys, damping, modes |
 //! | [`separation`] | provisions of codes for the gap |
 //! | [`time_history`] | the solver: systems, methods, outcomes, recorders |
+//! | [`catalogue`] | parameters of models and laws, for descriptors of one's own |
+//!
+//! [`Model::of_system`] makes a model of what [`time_history`] can and the builders cannot: several
+//! ground motions, foundations on soil, buildings that turn.
 //!
 //! Features: `hdf5` (results; needs libhdf5) and `toml` (case files), both on by default.
-//! Without them the library needs neither C libraries nor files.
+//! Without them the library needs no C library and has no [`Model::read`].
 
 mod building;
 mod error;
 mod facing;
 mod gap;
+mod help;
 mod law;
 mod link;
+mod model;
+mod progress;
 mod record;
 mod simulation;
 pub mod units;
@@ -206,13 +214,17 @@ pub use building::{Building, Floor, Storey};
 pub use error::Error;
 pub use gap::Gap;
 pub use link::Link;
+pub use model::Model;
 pub use record::GroundMotion;
-pub use simulation::{Model, Simulation};
+pub use simulation::Simulation;
 
 #[cfg(feature = "toml")]
 pub use pounding_assembly as assembly;
 #[cfg(feature = "toml")]
 pub use pounding_case as case;
+pub use pounding_catalogue as catalogue;
+#[cfg(feature = "hdf5")]
+pub use pounding_files::FileUseError;
 pub use pounding_gap_element as gap_element;
 pub use pounding_ground_motion as ground_motion;
 pub use pounding_hysteresis as hysteresis;
@@ -224,12 +236,13 @@ pub use pounding_time_history as time_history;
 
 /// What most programs need.
 pub mod prelude {
+    pub use pounding_gap_element::SeparationRule;
     pub use pounding_shear_building::{
         Damping, Isolator, IsolatorKind, LateralStiffness, PostYield, Strength,
     };
     pub use pounding_time_history::{
         ForceHistory, GridRecorder, History, HistorySink, MethodChoice, Outcome, Recorder,
-        RunOptions, Summary,
+        RunOptions, Summary, Warning,
     };
 
     pub use crate::units::{Acceleration, Length, Mass, Stiffness, Time, Velocity};

@@ -8,7 +8,7 @@ use crate::law::Law;
 
 /// A link in the making: joints, dampers or bumpers between floors of a building and of the
 /// next one on its right, or a wall, that follow a law.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     pub(crate) facing: Facing,
     law: Option<Law>,

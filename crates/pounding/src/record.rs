@@ -8,8 +8,11 @@ use pounding_ground_motion::{AccelerationUnit, Accelerogram, ReadOptions, read};
 use crate::error::Error;
 use crate::units::{Acceleration, Time};
 
+/// What stands in the place of the file where the samples were given by code.
+const BY_CODE: &str = "samples given by code";
+
 /// The motion of the ground that all buildings stand on.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct GroundMotion {
     accelerogram: Accelerogram,
     /// Where it was read, which no result may replace.
@@ -30,7 +33,8 @@ impl GroundMotion {
         })
     }
 
-    /// A motion of these accelerations at even steps from time zero on, linear in between.
+    /// A motion of these accelerations at even steps from time zero on, linear in between. A step that no
+    /// accelerograph has is among the [warnings](crate::Model::warnings) of its runs.
     ///
     /// # Errors
     /// A step that is not positive, fewer than two accelerations, or one that is not finite.
@@ -68,12 +72,19 @@ impl GroundMotion {
 
 impl From<Accelerogram> for GroundMotion {
     fn from(accelerogram: Accelerogram) -> Self {
-        let origin = accelerogram.origin();
-        let file = origin.map(|origin| PathBuf::from(&origin.file));
-        Self {
-            // Of a motion in memory it is a name.
-            file: file.filter(|file| file.is_file()),
-            accelerogram,
+        match accelerogram.origin() {
+            None => Self {
+                accelerogram: accelerogram.of_memory(BY_CODE),
+                file: None,
+            },
+            Some(origin) => {
+                let file = PathBuf::from(&origin.file);
+                Self {
+                    // Of a motion in memory it is a name.
+                    file: Some(file).filter(|file| file.is_file()),
+                    accelerogram,
+                }
+            }
         }
     }
 }

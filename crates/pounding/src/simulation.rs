@@ -1,14 +1,9 @@
-//! A row of buildings under a ground motion, and its run.
-
-use std::cell::Cell;
-use std::ops::ControlFlow;
+//! A row of buildings under a ground motion.
 
 use pounding_catalogue::suggestion;
-use pounding_ground_motion::Accelerogram;
 use pounding_shear_building::{NAMES, is_name};
 use pounding_time_history::{
-    Floor, FloorForce, ForceHistory, GroundAcceleration, History, MethodChoice, Outcome, Recorder,
-    RunOptions, StepView, System, TimeHistoryError, run,
+    Floor, FloorForce, ForceHistory, GroundAcceleration, MethodChoice, Outcome, RunOptions, System,
 };
 
 use crate::building::Building;
@@ -16,6 +11,7 @@ use crate::error::Error;
 use crate::facing::WALL;
 use crate::gap::Gap;
 use crate::link::Link;
+use crate::model::{Model, OUTPUT_STEP};
 use crate::record::GroundMotion;
 use crate::units::Time;
 
@@ -32,28 +28,8 @@ pub struct Simulation {
     /// Building, storey from 1.
     forces: Vec<(String, usize, ForceHistory)>,
     options: RunOptions,
+    title: String,
 }
-
-/// A simulation whose every part was checked: the system, the record and the options that the
-/// solver takes. It may be run many times.
-#[derive(Debug, Clone)]
-pub struct Model {
-    pub(crate) system: System,
-    pub(crate) accelerogram: Accelerogram,
-    pub(crate) options: RunOptions,
-    pub(crate) output_step: f64,
-    pub(crate) title: String,
-    /// Text of the case file, empty for what was built by code.
-    pub(crate) source: String,
-    /// What is to be said of how the buildings were made, and of what the case file gives and nothing uses.
-    told: Vec<String>,
-    /// Files that it was made of, each with what it is: no result replaces them.
-    #[cfg_attr(not(feature = "hdf5"), expect(dead_code))]
-    pub(crate) files: Vec<(&'static str, std::path::PathBuf)>,
-}
-
-/// Step of recorded responses unless another is asked for (s).
-pub(crate) const OUTPUT_STEP: f64 = 0.01;
 
 impl Simulation {
     /// Buildings from the left to the right.
@@ -66,7 +42,15 @@ impl Simulation {
             motion: None,
             forces: Vec::new(),
             options: RunOptions::default(),
+            title: String::new(),
         }
+    }
+
+    /// Gives its results a title.
+    #[must_use]
+    pub fn title(mut self, title: impl Into<String>) -> Self {
+        self.title = title.into();
+        self
     }
 
     /// Adds a gap.
@@ -125,6 +109,9 @@ impl Simulation {
     /// # Errors
     /// What is missing or cannot be, of which building or gap.
     pub fn build(&self) -> Result<Model, Error> {
+        if self.buildings.is_empty() {
+            return Err(Error::NoBuildings);
+        }
         let motion = self.motion.as_ref().ok_or(Error::NoGroundMotion)?;
         let accelerogram = motion.accelerogram().clone();
         self.check_names()?;
@@ -158,7 +145,7 @@ impl Simulation {
             accelerogram,
             options: self.options,
             output_step: OUTPUT_STEP,
-            title: String::new(),
+            title: self.title.clone(),
             source: String::new(),
             told: Vec::new(),
             files: motion
@@ -180,19 +167,20 @@ impl Simulation {
     fn floor_forces(&self) -> Result<Vec<FloorForce>, Error> {
         let force = |(name, storey, history): &(String, usize, ForceHistory)| {
             let mut names = self.buildings.iter().map(Building::name);
-            let building = names.position(|n| n == name);
-            let building = building.ok_or_else(|| Error::UnknownBuilding {
-                of: "a force".to_owned(),
-                building: name.clone(),
-                nearest: suggestion::misspelt(name, self.buildings.iter().map(Building::name))
-                    .map(str::to_owned),
-            })?;
-            let storey = storey.checked_sub(1).ok_or_else(|| Error::StoreyZero {
-                of: format!("a force on \"{name}\""),
+            let found = names.position(|n| n == name);
+            let building = found.ok_or_else(|| match name.as_str() {
+                WALL => Error::ForceOnWall,
+                _ => Error::UnknownBuilding {
+                    of: "a force".to_owned(),
+                    building: name.clone(),
+                    nearest: suggestion::misspelt(name, self.buildings.iter().map(Building::name))
+                        .map(str::to_owned),
+                },
             })?;
             Ok(FloorForce {
                 building,
-                storey,
+                storey: self.buildings[building]
+                    .storey_index(&format!("a force on \"{name}\""), *storey)?,
                 history: history.clone(),
                 origin: String::new(),
             })
@@ -278,221 +266,5 @@ impl Simulation {
             }),
             _ => Ok(()),
         }
-    }
-}
-
-impl Model {
-    /// Title of the case file, empty for what was built by code.
-    #[must_use]
-    pub fn title(&self) -> &str {
-        &self.title
-    }
-
-    /// Text of the case file, empty for what was built by code.
-    #[must_use]
-    pub fn source(&self) -> &str {
-        &self.source
-    }
-
-    /// The record, scaled, with its origin.
-    #[must_use]
-    pub fn accelerogram(&self) -> &Accelerogram {
-        &self.accelerogram
-    }
-
-    /// All that is to be said of a run: of its record, of what the case file gives and nothing uses, and
-    /// the warnings of its outcome, as `pounding run` says it.
-    #[must_use]
-    pub fn warnings(&self, outcome: &Outcome) -> Vec<String> {
-        let record = self.accelerogram.origin().map(|o| o.warnings.as_slice());
-        let before = record.unwrap_or_default().iter().chain(&self.told).cloned();
-        let of_run = outcome.warnings.iter().map(ToString::to_string);
-        before.chain(of_run).collect()
-    }
-
-    /// The system: buildings with their modes, gaps with their contact levels.
-    #[must_use]
-    pub fn system(&self) -> &System {
-        &self.system
-    }
-
-    /// The same buildings without gaps.
-    #[must_use]
-    pub fn isolated(&self) -> Self {
-        Self {
-            system: self.system.isolated(),
-            ..self.clone()
-        }
-    }
-
-    /// How it is integrated: method, duration, bound of the energy residual.
-    #[must_use]
-    pub fn options(&self) -> &RunOptions {
-        &self.options
-    }
-
-    /// Integrates otherwise than the simulation or the case file says.
-    ///
-    /// # Errors
-    /// An option out of range.
-    pub fn with_options(mut self, options: RunOptions) -> Result<Self, Error> {
-        options.check(&self.system)?;
-        self.options = options;
-        Ok(self)
-    }
-
-    /// Records responses at another step than 0.01 s, or than that of the case file.
-    #[must_use]
-    pub fn output_step(mut self, step: Time) -> Self {
-        self.output_step = step.si();
-        self
-    }
-
-    /// Integrates the time history.
-    ///
-    /// # Errors
-    /// A run that comes to no result, with time and place.
-    pub fn run(&self) -> Result<Outcome, Error> {
-        self.run_with(&mut [])
-    }
-
-    /// The same, watched by recorders, which change no bit of it: a
-    /// [`GridRecorder`](pounding_time_history::GridRecorder) keeps the responses on a grid of
-    /// times.
-    ///
-    /// # Errors
-    /// As [`run`](Self::run), and what keeps a recorder from recording.
-    pub fn run_with(&self, recorders: &mut [&mut dyn Recorder]) -> Result<Outcome, Error> {
-        Ok(run(&self.system, &self.options, recorders, &mut |_| {})?)
-    }
-
-    /// The same, asked whether to go on: `progress` is given the part of the duration that is done, at most
-    /// some hundred times a run, as what has no contact is taken at once, and ends it by
-    /// [`ControlFlow::Break`]. Recorders then hold what they have recorded.
-    ///
-    /// # Errors
-    /// As [`run_with`](Self::run_with); [`Error::Stopped`] where `progress` ended it.
-    pub fn run_while(
-        &self,
-        recorders: &mut [&mut dyn Recorder],
-        mut progress: impl FnMut(f64) -> ControlFlow<()>,
-    ) -> Result<Outcome, Error> {
-        let stopped = Cell::new(None);
-        let mut stop = Stop(&stopped);
-        let mut all: Vec<&mut dyn Recorder> = vec![&mut stop];
-        for recorder in recorders {
-            all.push(&mut **recorder);
-        }
-        let outcome = run(&self.system, &self.options, &mut all, &mut |done| {
-            // What is asked at the end cannot end it any more.
-            if progress(done).is_break() && done < 1.0 && stopped.get().is_none() {
-                stopped.set(Some(done));
-            }
-        });
-        match stopped.get() {
-            Some(done) => Err(Error::Stopped { done }),
-            None => Ok(outcome?),
-        }
-    }
-}
-
-/// Ends the run once it is told so. It is shown no step until then.
-struct Stop<'s>(&'s Cell<Option<f64>>);
-
-impl Recorder for Stop<'_> {
-    fn begin(&mut self, _system: &System, _start: &History) -> Result<(), TimeHistoryError> {
-        Ok(())
-    }
-
-    fn next_time(&self) -> f64 {
-        match self.0.get() {
-            None => f64::INFINITY,
-            Some(_) => f64::NEG_INFINITY,
-        }
-    }
-
-    fn step(&mut self, _step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
-        match self.0.get() {
-            None => Ok(()),
-            Some(_) => Err(TimeHistoryError::Recorder("stopped".to_owned())),
-        }
-    }
-}
-
-#[cfg(feature = "toml")]
-impl Model {
-    /// Reads a case file, and the record that it names.
-    ///
-    /// # Errors
-    /// What is wrong in the file, with line and column.
-    pub fn read(path: impl AsRef<std::path::Path>) -> Result<Self, Error> {
-        let case = pounding_case::Case::read(path.as_ref());
-        let case = case.map_err(pounding_assembly::AssemblyError::from)?;
-        let assembly = pounding_assembly::assemble(&case)?;
-        let told = assembly.warnings_of_buildings();
-        let mut files = vec![("case", path.as_ref().to_owned())];
-        files.extend(case.files());
-        Ok(Self {
-            files,
-            system: assembly.system,
-            accelerogram: assembly.accelerogram,
-            options: assembly.options,
-            output_step: assembly.output_step,
-            told,
-            title: case.title,
-            source: case.source,
-        })
-    }
-}
-
-#[cfg(feature = "hdf5")]
-impl Model {
-    /// Runs it, and the same buildings without gaps, and writes responses, peaks, impacts and
-    /// ledger to a result file: what `pounding run` writes.
-    ///
-    /// # Errors
-    /// As [`run`](Self::run); a file that cannot be written, or that is the case file or the
-    /// record. What stood under its name is untouched then.
-    pub fn run_to_file(&self, path: impl AsRef<std::path::Path>) -> Result<Outcome, Error> {
-        use pounding_results::{RunEnding, RunHead, RunWriter};
-        use pounding_time_history::GridRecorder;
-
-        let mut files = pounding_files::FileUse::new();
-        for (role, file) in &self.files {
-            files.reads(*role, file);
-        }
-        files.writes("result", path.as_ref());
-        files.check()?;
-        pounding_results::check_size(&self.system, self.options.duration, self.output_step)?;
-        let started = std::time::Instant::now();
-        let head = RunHead {
-            title: &self.title,
-            case: &self.source,
-            version: env!("CARGO_PKG_VERSION"),
-            build: "library",
-            system: &self.system,
-            accelerogram: &self.accelerogram,
-        };
-        let writer = RunWriter::begin(path.as_ref(), &head)?;
-        let mut writer = GridRecorder::into_sink(self.output_step, writer)?;
-        let outcome = self.run_with(&mut [&mut writer]);
-        if let Some(failure) = writer.responses.failure() {
-            return Err(failure.into());
-        }
-        let outcome = outcome?;
-        let isolated = self.isolated().run();
-        let mut warnings = self.warnings(&outcome);
-        // What is there for comparison does not take the result away.
-        let isolated = isolated.unwrap_or_else(|error| {
-            warnings.push(format!("without gaps and links: {error}"));
-            outcome.with_unknown_peaks()
-        });
-        writer.responses.finish(&RunEnding {
-            outcome: &outcome,
-            isolated: &isolated,
-            warnings: &warnings,
-            wall_time: started.elapsed().as_secs_f64(),
-        })?;
-        Ok(outcome)
     }
 }

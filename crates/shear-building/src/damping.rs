@@ -4,6 +4,7 @@ use multiversion::multiversion;
 use nalgebra::DMatrix;
 
 use crate::dense::multiply;
+use crate::lateral::{LateralStiffnessError, symmetric};
 use crate::modes::{LARGE, Undamped, undamped};
 use crate::stiffness::StiffnessMatrix;
 use crate::tridiagonal::SymmetricTridiagonal;
@@ -46,7 +47,7 @@ pub enum Damping {
         /// Coefficients from the bottom (N s/m).
         coefficients: Vec<f64>,
     },
-    /// A given matrix, symmetric and positive semi-definite.
+    /// A given matrix, symmetric and positive semi-definite; [`Damping::from_rows`] makes it.
     Matrix {
         /// One row a coordinate, floors first (N s/m; N m s/rad on the diagonal of rotations).
         matrix: DMatrix<f64>,
@@ -96,6 +97,18 @@ impl DampingMatrix {
 }
 
 impl Damping {
+    /// A given matrix, row after row, one a coordinate, floors first from the bottom (N s/m; N m s/rad on
+    /// the diagonal of rotations). Entries on both sides of the diagonal may differ by 1e-6 of the largest
+    /// one: their mean is taken. That no motion gains energy by it is for its author to see to.
+    ///
+    /// # Errors
+    /// No rows, rows that are not as long as there are rows, entries that are not finite, and a matrix
+    /// that is not symmetric.
+    pub fn from_rows(rows: &[Vec<f64>]) -> Result<Self, LateralStiffnessError> {
+        let (matrix, _) = symmetric(rows)?;
+        Ok(Self::Matrix { matrix })
+    }
+
     /// Whether the damping forces of one mode may move others: no ratios of the modes say
     /// then all of it.
     #[must_use]

@@ -75,6 +75,14 @@ pub enum IsolatorError {
         /// Strength over weight (-).
         share: f64,
     },
+    /// A period or stiffness after yield that cannot be.
+    #[error("{name} = {value} of the isolators after yield must be greater than zero and finite")]
+    PostYield {
+        /// `post_yield_period` (s) or `post_yield_stiffness` (N/m).
+        name: &'static str,
+        /// Its value.
+        value: f64,
+    },
     /// A ratio of stiffnesses that is none.
     #[error("stiffness_ratio = {ratio} must be 1 or more")]
     Ratio {
@@ -99,6 +107,9 @@ impl IsolatorError {
         let help = match self {
             Self::Strength { .. } => {
                 "usual are 0.03 to 0.10 of the weight: correct `strength` or `yield_force`"
+            }
+            Self::PostYield { .. } => {
+                "usual is a period of 2 to 4 s, with its unit: correct it, or give the stiffness after yield"
             }
             Self::Ratio { .. } => "usual are 6.5 to 15; leave it out for 10",
             Self::PlainWithStrength => {
@@ -168,7 +179,7 @@ impl Isolator {
     /// What they are under this mass of all floors (kg).
     ///
     /// # Errors
-    /// A strength or a ratio that cannot be.
+    /// A period, stiffness, strength or ratio that cannot be.
     pub fn properties(&self, mass: f64) -> Result<IsolatorProperties, IsolatorError> {
         let weight = mass * STANDARD_GRAVITY;
         match self.kind {
@@ -177,10 +188,18 @@ impl Isolator {
                 strength,
                 stiffness_ratio: ratio,
             } => {
+                let (name, value) = match post_yield {
+                    PostYield::Period(period) => ("post_yield_period", period),
+                    PostYield::Stiffness(stiffness) => ("post_yield_stiffness", stiffness),
+                };
                 let after = match post_yield {
                     PostYield::Period(period) => mass * (TAU / period).powi(2),
                     PostYield::Stiffness(stiffness) => stiffness,
                 };
+                let sound = |x: f64| x.is_finite() && x > 0.0;
+                if !(sound(value) && sound(after)) {
+                    return Err(IsolatorError::PostYield { name, value });
+                }
                 if !(ratio.is_finite() && ratio >= 1.0) {
                     return Err(IsolatorError::Ratio { ratio });
                 }

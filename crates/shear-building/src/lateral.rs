@@ -20,7 +20,7 @@ pub struct LateralStiffness {
 #[non_exhaustive]
 pub enum LateralStiffnessError {
     /// A building without floors.
-    #[error("a stiffness matrix of no floors")]
+    #[error("a matrix of no floors")]
     Empty,
     /// Rows of the wrong length.
     #[error("the matrix is not square: row {row} has {found} of {expected} entries")]
@@ -265,7 +265,7 @@ impl LateralStiffness {
 
 /// The matrix of these rows with the means of entries that should be the same, and the largest
 /// difference of such entries over the largest entry.
-fn symmetric(rows: &[Vec<f64>]) -> Result<(DMatrix<f64>, f64), LateralStiffnessError> {
+pub(crate) fn symmetric(rows: &[Vec<f64>]) -> Result<(DMatrix<f64>, f64), LateralStiffnessError> {
     let n = rows.len();
     if n == 0 {
         return Err(LateralStiffnessError::Empty);

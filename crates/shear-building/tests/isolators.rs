@@ -170,6 +170,14 @@ fn isolators_that_cannot_be_are_refused() {
         other => panic!("{other:?}"),
     };
     let share = |share| Some(Strength::OfWeight(share));
+    for wrong in [-2.0, 0.0, f64::INFINITY, f64::NAN, 1.0e-200] {
+        let error = refused(rubber(PostYield::Period(wrong), share(0.05), 10.0));
+        let said = error.to_string();
+        assert!(said.contains("post_yield_period = "), "{wrong}: {said}");
+        assert!(error.help().is_some());
+    }
+    let error = refused(rubber(PostYield::Stiffness(-1.0), share(0.05), 10.0));
+    assert!(error.to_string().contains("post_yield_stiffness = -1"));
     for wrong in [0.0, 1.0, -0.1, f64::NAN] {
         let error = refused(rubber(period, share(wrong), 10.0));
         assert!(matches!(error, IsolatorError::Strength { .. }));

@@ -135,9 +135,26 @@ pub enum TimeHistoryError {
         /// Gap levels in contact, or "none".
         place: String,
     },
-    /// Gravity overturned a building (P-Delta).
+    /// Contacts put more energy into the motion than all else, by orders of magnitude.
     #[error(
-        "{building} collapsed at t = {} s: storey {storey} drifted by more than its height of {height} m under gravity",
+        "the motion runs away at t = {} s: impact model {model} has put {} J into it at {place}, and all that moves the buildings {} J at most",
+        seconds(*time), short(*given), short(*input)
+    )]
+    ContactGivesEnergy {
+        /// Time (s).
+        time: f64,
+        /// Gap and level that gave most.
+        place: String,
+        /// Its impact model.
+        model: &'static str,
+        /// Work of that contact on the buildings (J).
+        given: f64,
+        /// Largest input energy so far (J).
+        input: f64,
+    },
+    /// A building fell: gravity overturned it (P-Delta), or the force of a storey's law falls.
+    #[error(
+        "{building} collapsed at t = {} s: storey {storey} drifted by more than its height of {height} m",
         seconds(*time)
     )]
     Collapse {
@@ -235,8 +252,11 @@ impl TimeHistoryError {
             Self::NotFinite { .. } => {
                 "check stiffness, masses and gap widths; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""
             }
+            Self::ContactGivesEnergy { .. } => {
+                "a contact takes energy from the motion: a positive force pushes the floors apart, so that of a spring and a dashpot is k delta + c v; check the signs of that model"
+            }
             Self::Collapse { .. } => {
-                "that is an answer, not a fault of the method: what the storeys can carry after yield is less than what gravity asks of them; check yield force, hardening and mass, or leave out p_delta"
+                "that is an answer, not a fault of the method: what the storeys can carry after yield falls with their drift, by gravity (`p_delta`) or by a law whose force falls; check yield force, hardening, heights and mass, or leave out p_delta"
             }
             Self::NotLinear { .. } => {
                 "use method = \"adaptive\", \"event_driven\" or \"newmark\", or linear storeys and no links"

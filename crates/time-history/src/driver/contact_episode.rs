@@ -395,6 +395,9 @@ impl Driver<'_> {
         }
         self.residual = residual;
         self.largest_residual = self.largest_residual.max(residual.abs());
+        if worked < -self.most_given() {
+            return self.contacts_give(time, residual);
+        }
         Ok(())
     }
 }

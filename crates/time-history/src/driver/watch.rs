@@ -9,9 +9,15 @@ use crate::events::{Candidate, EventKind};
 use crate::ledger;
 use crate::polynomial::{Polynomial, first_rise};
 
+/// Work of contacts on the buildings, over the largest input energy, that no contact does.
+const GIVEN: f64 = 1.0e6;
+/// Part of it up to which the balance counts as closed.
+const OPEN: f64 = 0.1;
+
 impl Driver<'_> {
-    /// Ends the run where gravity has overturned a building in the trial step: in a storey that
-    /// yields, since an elastic one stands or is refused from the start.
+    /// Ends the run where a building has fallen in the trial step: overturned by gravity, or because
+    /// the force of a storey's law falls, in a storey that yields, since an elastic one stands or is
+    /// refused from the start.
     pub(super) fn stands(
         &self,
         segment: &Segment,
@@ -19,7 +25,7 @@ impl Driver<'_> {
         step: f64,
     ) -> Result<(), TimeHistoryError> {
         let mut first: Option<(f64, usize, usize)> = None;
-        for element in self.system.elements() {
+        for (index, element) in self.system.elements().iter().enumerate() {
             let (ElementPlace::Storey { building, storey }, Some(dof)) =
                 (element.place, element.far)
             else {
@@ -27,7 +33,10 @@ impl Driver<'_> {
             };
             let own = &self.system.buildings()[building];
             let ratio = self.peaks.storeys[dof].drift_ratio.value;
-            if own.geometric_stiffness()[storey] > 0.0 && ratio > 1.0 {
+            if ratio > 1.0
+                && (own.geometric_stiffness()[storey] > 0.0
+                    || self.falls_beyond(own.height()[storey], index, step))
+            {
                 let drift = element.polynomial(|k| *self.method.polynomial(k), 0);
                 let theta = first_beyond(&drift, own.height()[storey]);
                 if first.is_none_or(|(earlier, ..)| theta < earlier) {
@@ -46,7 +55,53 @@ impl Driver<'_> {
         })
     }
 
-    /// Takes the ledger at the present state; a motion that is not finite ends the run.
+    /// Whether an element is deformed by more than this height (m) at the end of the trial step, on a
+    /// branch whose force falls with the deformation.
+    fn falls_beyond(&self, height: f64, index: usize, step: f64) -> bool {
+        let (element, layout) = (&self.system.elements()[index], self.dynamics.layout);
+        let (n, state) = (layout.dofs, &self.new_state);
+        let motion = element.motion(&state[..n], &state[n..2 * n]);
+        if motion.deformation.abs() <= height {
+            return false;
+        }
+        let history = &self.contacts.elements.histories[index];
+        let elapsed = self.method.information().implicit.then_some(step);
+        let at = (motion, &state[element.range(layout)]);
+        let response = element.response(history, &mut history.clone(), at, elapsed);
+        response.by_deformation < 0.0
+    }
+
+    /// Work (J) of contacts on the buildings beyond which a run is given up. That of honest contacts
+    /// is never more than round-off.
+    pub(super) fn most_given(&self) -> f64 {
+        GIVEN * self.ledger.largest_input.max(self.least_energy)
+    }
+
+    /// Ends the run if contacts have done more work on the buildings than that. Where the balance is open
+    /// by a good part of it, it is the step that is too long, not a model that is wrong.
+    #[cold]
+    pub(super) fn contacts_give(&self, time: f64, residual: f64) -> Result<(), TimeHistoryError> {
+        let layout = self.dynamics.layout;
+        let work = |l: usize| self.state[layout.work(l)];
+        let levels = 0..layout.levels;
+        let given = -levels.clone().map(work).sum::<f64>();
+        let most = levels.min_by(|a, b| work(*a).total_cmp(&work(*b)));
+        match most {
+            Some(level) if given > self.most_given() && residual.abs() < OPEN * given => {
+                Err(TimeHistoryError::ContactGivesEnergy {
+                    time,
+                    place: self.system.name_of_level(level),
+                    model: self.system.levels()[level].model.descriptor().name,
+                    given: -work(level),
+                    input: self.ledger.largest_input,
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Takes the ledger at the present state; a motion that is not finite ends the run, and so do
+    /// contacts that drive it.
     pub(super) fn balance(&mut self, time: f64) -> Result<(), TimeHistoryError> {
         let energy = ledger::energy(
             self.system,
@@ -62,6 +117,9 @@ impl Driver<'_> {
         }
         self.ledger.largest_input = self.ledger.largest_input.max(energy.input.abs());
         self.largest_residual = self.largest_residual.max(energy.residual.abs());
+        if energy.impact < -self.most_given() {
+            return self.contacts_give(time, energy.residual);
+        }
         Ok(())
     }
 

@@ -26,8 +26,8 @@ pub use links::{Link, LinkedMotion, LinkedPair};
 pub(crate) use motions::Grounds;
 use motions::Motions;
 pub use motions::{FloorForce, ForceHistory, GroundMotion, Support};
-use place::Row;
 pub use place::{BuildingPoint, Floor};
+use place::{Row, no_storey};
 pub(crate) use sections::{SectionForce, SectionPlace};
 use sections::{acceleration_responses, section_forces};
 pub(crate) use terms::Terms;
@@ -280,8 +280,8 @@ impl System {
     ///
     /// # Errors
     /// A floor that does not exist, a level between two walls, a width that is negative or
-    /// not finite, floors that overlap at time zero, or velocity jumps at several points of a
-    /// floor that turns.
+    /// not finite, floors that overlap at time zero, a restitution of velocity jumps that is not
+    /// from 0 to 1, or velocity jumps at several points of a floor that turns.
     pub fn add_gap(
         &mut self,
         name: &str,
@@ -355,6 +355,13 @@ impl System {
         if !(width.is_finite() && width >= 0.0) {
             return Err(wrong(format!(
                 "width is {width} m; it must be zero or more"
+            )));
+        }
+        let restitution = model.rigid_restitution();
+        if let Some(e) = restitution.filter(|e| !(0.0..=1.0).contains(e)) {
+            let name = model.descriptor().name;
+            return Err(wrong(format!(
+                "the restitution of its impact model {name} is {e}; it must be from 0 to 1"
             )));
         }
         let between = [left, right];

@@ -4,7 +4,7 @@
 use pounding_shear_building::{Excitation, ShearBuilding};
 use std::sync::Arc;
 
-use super::{GroundAcceleration, System};
+use super::{GroundAcceleration, System, no_storey};
 use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::estimate::short;
@@ -291,6 +291,7 @@ impl Motions {
     fn with_forces(
         &self,
         forces: Vec<FloorForce>,
+        buildings: &[Arc<ShearBuilding>],
         offsets: &[usize],
         mass: &[f64],
     ) -> Result<Self, TimeHistoryError> {
@@ -298,18 +299,18 @@ impl Motions {
         this.loads.clone_from(&this.grounds);
         this.pushed.clear();
         for (number, force) in forces.iter().enumerate() {
-            let ends = offsets
-                .get(force.building)
-                .zip(offsets.get(force.building + 1));
-            let dof =
-                ends.and_then(|(first, end)| Some(first + force.storey).filter(|dof| dof < end));
-            let dof = dof.ok_or_else(|| TimeHistoryError::Force {
-                reason: format!(
-                    "building {} has no storey {}",
-                    force.building + 1,
-                    force.storey + 1
-                ),
-            })?;
+            let wrong = |reason: String| TimeHistoryError::Force { reason };
+            let Some(building) = buildings.get(force.building) else {
+                let count = buildings.len();
+                return Err(wrong(format!(
+                    "there is no building of index {}; there are {count}, counted from zero",
+                    force.building
+                )));
+            };
+            if force.storey >= building.storeys() {
+                return Err(wrong(no_storey(building, force.storey)));
+            }
+            let dof = offsets[force.building] + force.storey;
             let (load, _) = this.loads[dof];
             match load.checked_sub(this.motions.len()) {
                 Some(known) => this.pushed[known].forces.push(number),
@@ -604,7 +605,7 @@ impl System {
             self.motions = self.under_one_motion().map(Arc::new);
         }
         if let Some(motions) = &self.motions {
-            let made = motions.with_forces(forces, &self.offsets, &self.mass)?;
+            let made = motions.with_forces(forces, &self.buildings, &self.offsets, &self.mass)?;
             self.motions = Some(Arc::new(made));
             self.propagation = Arc::default();
         }

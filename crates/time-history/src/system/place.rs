@@ -1,6 +1,6 @@
 //! Where contacts and links act, and the relative displacement between two such places.
 
-use pounding_shear_building::Excitation;
+use pounding_shear_building::{Excitation, ShearBuilding};
 
 use super::{LevelPlace, LinkedMotion, System, Terms};
 
@@ -140,9 +140,12 @@ impl System {
 
     fn side(&self, floor: Floor) -> Result<Side, String> {
         let found = |b: usize, s: usize| {
-            let building = self.buildings.get(b).filter(|x| s < x.storeys());
-            let name = || self.buildings.get(b).map_or("the building", |b| b.name());
-            building.ok_or_else(|| format!("{} has no storey {}", name(), s + 1))
+            let building = self.buildings.get(b);
+            let building = building.ok_or_else(|| format!("there is no building of index {b}"))?;
+            match s < building.storeys() {
+                true => Ok(building),
+                false => Err(no_storey(building, s)),
+            }
         };
         match floor {
             Floor::Wall | Floor::FixedWall => Ok(Side {
@@ -152,13 +155,16 @@ impl System {
                 carried: 0.0,
                 across: None,
             }),
-            Floor::Storey(b, s) => Ok(Side {
-                weights: vec![(self.offsets[b.min(self.buildings.len())] + s, 1.0)],
-                place: Some((s + 1, found(b, s)?.elevations()[s])),
-                building: Some(b),
-                carried: 1.0,
-                across: None,
-            }),
+            Floor::Storey(b, s) => {
+                let building = found(b, s)?;
+                Ok(Side {
+                    weights: vec![(self.offsets[b] + s, 1.0)],
+                    place: Some((s + 1, building.elevations()[s])),
+                    building: Some(b),
+                    carried: 1.0,
+                    across: None,
+                })
+            }
             Floor::Point(number) => {
                 let point = self.points.get(number);
                 let found_point = point.ok_or_else(|| format!("there is no point {number}"));
@@ -200,4 +206,14 @@ impl System {
             }
         }
     }
+}
+
+/// What is said of a storey, from zero, that a building does not have.
+pub(super) fn no_storey(building: &ShearBuilding, storey: usize) -> String {
+    format!(
+        "{} has no storey {}; the highest is {}",
+        building.name(),
+        storey.saturating_add(1),
+        building.storeys()
+    )
 }

@@ -2,12 +2,16 @@
 //! what is wrong is said with its place.
 #![allow(clippy::unwrap_used)]
 
+mod own_models;
+mod words;
+
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use pounding::gap_element::{ModelParameters, registry};
 use pounding::prelude::*;
+use pounding::time_history::TimeHistoryError;
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -838,4 +842,179 @@ fn buildings_that_cannot_be_come_with_a_remedy() {
         let (said, help) = refused(&of);
         assert!(help.contains(remedy), "{said}: {help}");
     }
+}
+
+/// A motion by code says what one from a file says of itself.
+#[test]
+fn a_motion_by_code_has_an_origin() {
+    let samples = || [0.0, 1.0, -1.0, 0.0].map(Acceleration::metres_per_second_squared);
+    for (step, warned) in [(20.0, true), (1e-300, true), (0.01, false)] {
+        let motion = GroundMotion::of(samples(), Time::seconds(step)).unwrap();
+        let origin = motion.accelerogram().origin().unwrap();
+        let said = origin.warnings.join("\n");
+        assert_eq!(said.contains("the time step is"), warned, "{step}: {said}");
+    }
+    let motion = GroundMotion::of(samples(), Time::seconds(20.0)).unwrap();
+    let simulation = Simulation::of([building("light", 25.0, 3.46)]).ground_motion(motion);
+    let model = simulation.build().unwrap();
+    let said = model.warnings(&model.run().unwrap()).join("\n");
+    assert!(said.contains("the time step is 20 s"), "{said}");
+}
+
+/// Without gaps links stay; isolated buildings have neither.
+#[test]
+fn links_stay_without_gaps() {
+    let spring = Link::between("light", "heavy").law("linear", [("stiffness", 5e7)]);
+    let linked = pair().link(spring).build().unwrap();
+    let roof = |model: Model| {
+        model.run().unwrap().buildings[0].storeys[2]
+            .displacement
+            .value
+    };
+    let without_gaps = linked.without_gaps();
+    assert!(without_gaps.system().gaps().is_empty());
+    assert_eq!(without_gaps.system().links().len(), 1);
+    assert!(linked.isolated().system().links().is_empty());
+    assert!(roof(without_gaps) < 0.5 * roof(linked.isolated()));
+}
+
+/// Storeys whose law falls have an end, and it is said as what it is, without gravity too.
+#[test]
+fn a_falling_backbone_is_a_collapse() {
+    let falling = building("light", 25.0, 3.46).law(
+        "bilinear",
+        [("yield_force", 1e4), ("hardening_ratio", -0.1)],
+    );
+    let relative_tolerance = 1e-10;
+    for method in [
+        MethodChoice::EventDriven { relative_tolerance },
+        MethodChoice::Adaptive { relative_tolerance },
+        MethodChoice::Newmark {
+            step: 1e-3,
+            beta: 0.25,
+            gamma: 0.5,
+        },
+    ] {
+        let simulation = Simulation::of([falling.clone()]).ground_motion(el_centro());
+        let error = simulation.method(method).run().unwrap_err();
+        let Error::Run(TimeHistoryError::Collapse {
+            building,
+            storey,
+            time,
+            ..
+        }) = &error
+        else {
+            panic!("{method:?}: {error}");
+        };
+        assert!(building == "light" && (1..=3).contains(storey));
+        assert!((1.0..10.0).contains(time), "{time}");
+    }
+}
+
+/// What is made of a system is what was made of its parts.
+#[test]
+fn a_system_is_a_model() {
+    let built = pair().title("A pair").build().unwrap();
+    assert_eq!(built.title(), "A pair");
+    let model = Model::of_system(built.system().clone(), *built.options()).unwrap();
+    let model = model.with_title("A system");
+    let outcome = model.run().unwrap();
+    assert_eq!(outcome, built.run().unwrap());
+    assert!(model.warnings(&outcome).len() >= outcome.warnings.len());
+    let asked = model.run_while(&mut [], |_| ControlFlow::Continue(()));
+    assert_eq!(asked.unwrap(), outcome);
+    let folder = tempfile::tempdir().unwrap();
+    assert_eq!(
+        model.run_to_file(folder.path().join("r.h5")).unwrap(),
+        outcome
+    );
+    let duration = Some(-1.0);
+    let options = RunOptions {
+        duration,
+        ..*built.options()
+    };
+    assert!(Model::of_system(built.system().clone(), options).is_err());
+}
+
+/// Without contacts a run is shown and ended as with them.
+#[test]
+fn a_run_without_contacts_is_shown_and_ended() {
+    let stiff = |damping| {
+        let building = Building::shear("light").storeys(3, storey(25.0, 3.46));
+        Simulation::of([building.damping(damping)]).ground_motion(el_centro())
+    };
+    let dashpots = Damping::Dashpots {
+        coefficients: vec![1e5, 5e4, 2e4],
+    };
+    for damping in [Damping::Modal { ratios: vec![0.05] }, dashpots] {
+        let model = stiff(damping).build().unwrap();
+        let mut told = Vec::new();
+        let outcome = model.run_while(&mut [], |done| {
+            told.push(done);
+            ControlFlow::Continue(())
+        });
+        assert_eq!(outcome.unwrap(), model.run().unwrap());
+        assert!(told.len() > 50 && told.is_sorted(), "{}", told.len());
+        assert_eq!(told.iter().filter(|d| **d == 1.0).count(), 1);
+        let ended = model.run_while(&mut [], |done| match done < 0.5 {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        });
+        let Err(Error::Stopped { done }) = ended else {
+            panic!("{ended:?}");
+        };
+        assert!((0.5..0.6).contains(&done), "{done}");
+    }
+}
+
+/// A damping matrix typed in is the one that dashpots make.
+#[test]
+fn a_damping_matrix_from_rows() {
+    let of = |damping| {
+        let building = Building::shear("light").storeys(2, storey(25.0, 3.46));
+        let simulation = Simulation::of([building.damping(damping)]).ground_motion(el_centro());
+        simulation.duration(Time::seconds(6.0)).run().unwrap()
+    };
+    let rows = [vec![1.5e5, -5e4], vec![-5e4, 5e4]];
+    let typed = of(Damping::from_rows(&rows).unwrap());
+    let dashpots = of(Damping::Dashpots {
+        coefficients: vec![1e5, 5e4],
+    });
+    let roof = |outcome: &Outcome| outcome.buildings[0].storeys[1].displacement.value;
+    assert!((roof(&typed) / roof(&dashpots) - 1.0).abs() < 1e-9);
+    for wrong in [
+        vec![],
+        vec![vec![1.0, 2.0], vec![2.0]],
+        vec![vec![1.0, 2.0], vec![3.0, 1.0]],
+        vec![vec![f64::NAN]],
+    ] {
+        assert!(Damping::from_rows(&wrong).is_err());
+    }
+}
+
+/// What errors and descriptors hold can be named.
+#[test]
+fn parts_of_public_types_have_names() {
+    use pounding::FileUseError;
+    use pounding::catalogue::{
+        DefinitionError, ParameterUnit, Parameters, optional_positive, positive,
+    };
+    let taken = FileUseError::SameOutput {
+        role: "a".to_owned(),
+        output: PathBuf::from("r.h5"),
+        other_role: "b".to_owned(),
+        other: PathBuf::from("r.h5"),
+    };
+    assert!(Error::from(taken).help().is_some());
+    assert!(positive("stiffness", ParameterUnit::NewtonPerMetre, "Stiffness").required);
+    assert!(!optional_positive("stiffness", ParameterUnit::NewtonPerMetre, "Stiffness").required);
+    assert_eq!(
+        Parameters::from_pairs(&[("stiffness", 1.0)]).given("stiffness"),
+        Some(1.0)
+    );
+    let error = registry::find("nothing").unwrap_err();
+    let pounding::gap_element::GapElementError::Definition(error) = error else {
+        panic!("{error}");
+    };
+    assert!(matches!(error, DefinitionError::UnknownName { .. }));
 }

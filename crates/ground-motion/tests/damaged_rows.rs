@@ -179,7 +179,7 @@ fn rows_of_other_agencies() {
                 let mut fields = l.split_whitespace();
                 fields.clone().count() > 3 && fields.all(|f| f.parse::<f64>().is_ok())
             };
-            let Some(first) = lines.iter().position(|l| is_row(&l)) else {
+            let Some(first) = lines.iter().position(&is_row) else {
                 continue;
             };
             // Rows before the last one, which may be shorter.

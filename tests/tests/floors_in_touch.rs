@@ -252,3 +252,32 @@ fn floors_at_rest_are_in_contact_since_they_move() {
         }
     }
 }
+
+/// Floors that touch in decimal numbers touch, though 0.1 + 0.2 is more than 0.3 in binary ones; what
+/// overlaps by more is refused.
+#[test]
+fn floors_that_touch_in_decimals_are_let_go() {
+    let law = law("linear_elastic", 1.0, None);
+    let ground = GroundAcceleration {
+        samples: vec![0.0; 2].into(),
+        time_step: 1.0,
+    };
+    let mut system = System::new(vec![building(1, 1.0), building(1, 3.0)], ground);
+    let pair = (Floor::Storey(0, 0), Floor::Storey(1, 0), 0.3, law);
+    let names = ["a".to_owned(), "b".to_owned()];
+    system.add_gap("gap", names, vec![pair]).unwrap();
+    let let_go = |right: f64| {
+        let system = system.clone();
+        system.with_initial_state(&[0.1, right], &[0.5, 0.0])
+    };
+    let level = |right: f64| {
+        let outcome = go(&let_go(right).unwrap(), FAST, 0.1);
+        outcome.gaps[0].levels[0].clone()
+    };
+    let (touching, apart) = (level(-0.2), level(-0.2 + 1e-12));
+    assert!(touching.approach_velocity_max > 0.49);
+    assert_eq!(touching.impacts, apart.impacts);
+    let [a, b] = [&touching, &apart].map(|level| level.peak_force.value);
+    assert!((a / b - 1.0).abs() < 1e-6, "{a} {b}");
+    assert!(let_go(-0.2 - 1e-14).is_err());
+}

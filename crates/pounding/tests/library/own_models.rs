@@ -119,13 +119,20 @@ fn a_wrong_sign_ends_the_run() {
             restitution: None,
         };
         let error = pair(own(-1.0)).method(method).run().unwrap_err();
+        let honest = pair(own(1.0)).method(method).run().unwrap();
+        assert!(honest.gaps[0].levels[0].impacts > 0);
+        if matches!(
+            method,
+            MethodChoice::RungeKutta4 { .. } | MethodChoice::Newmark { .. }
+        ) {
+            // A fixed step that is too long drives the motion, too: it is not said of the model.
+            continue;
+        }
         let Error::Run(TimeHistoryError::ContactGivesEnergy { time, place, .. }) = &error else {
             panic!("{method:?}: {error}");
         };
         assert!(place.starts_with("a-b level 1-1"), "{place}");
         assert!((0.0..3.0).contains(time), "{time}");
         assert!(error.help().is_some_and(|help| help.contains("signs")));
-        let honest = pair(own(1.0)).method(method).run().unwrap();
-        assert!(honest.gaps[0].levels[0].impacts > 0);
     }
 }

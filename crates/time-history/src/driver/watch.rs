@@ -77,8 +77,9 @@ impl Driver<'_> {
         GIVEN * self.ledger.largest_input.max(self.least_energy)
     }
 
-    /// Ends the run if contacts have done more work on the buildings than that. Where the balance is open
-    /// by a good part of it, it is the step that is too long, not a model that is wrong.
+    /// Ends the run if contacts have done more work on the buildings than that. Where steps are fixed, or
+    /// the balance is open by a good part of it, it may be the step that is too long, not a model that is
+    /// wrong.
     #[cold]
     pub(super) fn contacts_give(&self, time: f64, residual: f64) -> Result<(), TimeHistoryError> {
         let layout = self.dynamics.layout;
@@ -87,7 +88,11 @@ impl Driver<'_> {
         let given = -levels.clone().map(work).sum::<f64>();
         let most = levels.min_by(|a, b| work(*a).total_cmp(&work(*b)));
         match most {
-            Some(level) if given > self.most_given() && residual.abs() < OPEN * given => {
+            Some(level)
+                if self.method.information().adaptive
+                    && given > self.most_given()
+                    && residual.abs() < OPEN * given =>
+            {
                 Err(TimeHistoryError::ContactGivesEnergy {
                     time,
                     place: self.system.name_of_level(level),

@@ -390,8 +390,8 @@ impl Driver<'_> {
         let (n, layout) = (self.dynamics.layout.dofs, self.dynamics.layout);
         let level = &self.system.levels()[l];
         let rate = level.relative(&self.state[n..2 * n]);
-        let closed = self.contacts.contact(l).is_some()
-            && self.log.has_just_closed(l, layout, &self.state);
+        let closed =
+            self.contacts.contact(l).is_some() && self.log.has_just_closed(l, layout, &self.state);
         if !closed || rate <= self.velocity_round_off() {
             return;
         }

@@ -248,9 +248,12 @@ impl Survey {
         last.goes_on(source, width, pointed)
     }
 
-    /// Refuses a column (from 0) beside row numbers whose values increase by one step but for a
-    /// few, as damaged times do.
-    fn goes_on_evenly(&self, source: &Source<'_>, k: usize) -> Result<(), GroundMotionError> {
+    /// The values of a column (from 0), and the lines that they stand in.
+    fn values_of(
+        &self,
+        source: &Source<'_>,
+        k: usize,
+    ) -> Result<(Vec<f64>, Vec<usize>), GroundMotionError> {
         let mut values = Vec::with_capacity(self.rows);
         let mut lines = Vec::with_capacity(self.rows);
         for line in rows(source) {
@@ -260,6 +263,13 @@ impl Survey {
             values.push(source.number(line, column + source.options.skip_columns, field)?);
             lines.push(line.number);
         }
+        Ok((values, lines))
+    }
+
+    /// Refuses a column (from 0) beside row numbers whose values increase by one step but for a
+    /// few, as damaged times do.
+    fn goes_on_evenly(&self, source: &Source<'_>, k: usize) -> Result<(), GroundMotionError> {
+        let (values, lines) = self.values_of(source, k)?;
         let steps: Vec<f64> = values.windows(2).map(|w| w[1] - w[0]).collect();
         let mut sorted = steps.clone();
         sorted.sort_by(f64::total_cmp);
@@ -355,15 +365,7 @@ impl Survey {
 
     /// Refuses a column (from 0) whose values increase as times do, but for a few.
     fn breaks_times(&self, source: &Source<'_>, k: usize) -> Result<(), GroundMotionError> {
-        let mut values = Vec::with_capacity(self.rows);
-        let mut lines = Vec::with_capacity(self.rows);
-        for line in rows(source) {
-            let Some((column, field)) = line.fields().nth(k) else {
-                continue;
-            };
-            values.push(source.number(line, column + source.options.skip_columns, field)?);
-            lines.push(line.number);
-        }
+        let (values, lines) = self.values_of(source, k)?;
         let Some(Some(at)) = nearly_times(&values) else {
             return Ok(());
         };

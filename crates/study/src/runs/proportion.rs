@@ -21,8 +21,8 @@ pub(crate) fn further_motions(case: &Case) -> Vec<(String, &GroundMotion)> {
 }
 
 /// The intensity (SI) of the record of the case, scaled as there, if records of the study take its
-/// place at an intensity, and other records stay: it is the strength to which further records keep their proportion. That of
-/// the records of the study is none: they are recorded as strongly as it happens.
+/// place at an intensity, and other records stay: these keep their proportion to it. That of the
+/// study's records would not do: they were recorded strong or weak, as it happened.
 ///
 /// # Errors
 /// A record of the case that cannot be read or has no intensity.
@@ -66,7 +66,8 @@ pub(crate) struct FurtherFactors {
 }
 
 /// By what further records are scaled where `record`, as recorded, is brought to `intensity` by
-/// `scale`; one across the row that `brings_across` says comes with it keeps its proportion to it.
+/// `scale`. With `brings_across` the one across the row came with `record`, and keeps its proportion
+/// to that.
 ///
 /// # Errors
 /// A scale of the case that the record cannot have.

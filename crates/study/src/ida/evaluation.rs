@@ -94,9 +94,6 @@ pub struct MinimumGap {
     /// Width (m); `None` if the intensities of the analysis or the hazard curve do not reach far
     /// enough to tell, or no width does because the isolated buildings collapse.
     pub width: Option<f64>,
-    /// Frequency of pounding at this width (1/year); without a width that of a gap as wide as the
-    /// maximum demand, infinite where there is none.
-    pub frequency: f64,
     /// What the intensities leave open: then the width is an upper bound.
     pub open: Option<OpenGap>,
     /// Where the hazard curve begins, if at the next narrower width, or without a width at any, what
@@ -107,6 +104,13 @@ pub struct MinimumGap {
 }
 
 impl MinimumGap {
+    /// Frequency of pounding at this width (1/year); without a width that of a gap as wide as the
+    /// maximum demand. Infinite where the counts give none.
+    #[must_use]
+    pub fn frequency(&self) -> f64 {
+        self.result.frequency.unwrap_or(f64::INFINITY)
+    }
+
     /// Whether the width is an upper bound.
     #[must_use]
     pub fn is_at_most(&self) -> bool {
@@ -614,29 +618,25 @@ impl Evaluation<'_> {
         demands.dedup();
         let reached = |width: f64| move |r: &Run| r.demands[column] > width;
         let fitted = |width: f64| fit(&self.counts(&reached(width)));
-        let at = |width: Option<f64>, demand: f64, frequency: f64| -> Result<_, StudyError> {
+        let at = |width: Option<f64>, demand: f64| -> Result<_, StudyError> {
             Ok(MinimumGap {
                 width,
-                frequency,
                 open: None,
                 hazard_begins: None,
                 result: self.limit(&pounding_at(gap, demand), &reached(demand))?,
             })
         };
-        let mut best: Option<(f64, f64)> = None;
+        let mut best: Option<f64> = None;
         for (i, width) in demands.iter().enumerate() {
             let fit = fitted(*width);
             let frequency = Self::frequency(&fit, hazard, gap)?.unwrap_or(f64::INFINITY);
             // A gap is wide enough if it is with what the curve leaves out.
             let by_curve = frequency <= target;
             if frequency + hazard::uncounted(&fit, hazard, frequency) <= target {
-                best = Some((*width, frequency));
+                best = Some(*width);
                 continue;
             }
-            let mut least = match best {
-                Some((width, frequency)) => at(Some(width), width, frequency)?,
-                None => at(None, *width, frequency)?,
-            };
+            let mut least = at(best, best.unwrap_or(*width))?;
             if by_curve {
                 least.hazard_begins = Some(self.shown(hazard.points[0].0));
             } else if best.is_some() && least_frequency(&fit, hazard) <= target {
@@ -649,10 +649,7 @@ impl Evaluation<'_> {
             }
             return Ok(Some(least));
         }
-        match best {
-            Some((width, frequency)) => at(Some(width), width, frequency).map(Some),
-            None => Ok(None),
-        }
+        best.map(|width| at(best, width)).transpose()
     }
 
     /// What a fit leaves open of a least gap.
@@ -777,7 +774,10 @@ mod tests {
         let steep = least_gap_under(&per_g, &fine, (&[points[0], points[1], last], 2e-3));
         let (a, b) = (smooth.width.unwrap(), steep.width.unwrap());
         assert!((b / a - 1.0).abs() < 0.02, "{smooth:?} {steep:?}");
-        assert!(steep.frequency <= 2e-3 && steep.open.is_none(), "{steep:?}");
+        assert!(
+            steep.frequency() <= 2e-3 && steep.open.is_none(),
+            "{steep:?}"
+        );
     }
 
     /// A curve cut off where it passes the target leaves out what decides of narrow gaps: the width is
@@ -801,7 +801,7 @@ mod tests {
         assert!((first / STANDARD_GRAVITY - 0.29).abs() < 1e-12);
         assert!(whole.hazard_begins.is_none() && !whole.is_at_most());
         assert_eq!(late.width, whole.width);
-        assert!(late.is_at_most() && late.frequency < whole.frequency);
+        assert!(late.is_at_most() && late.frequency() < whole.frequency());
         let said = late.remarks();
         assert!(
             said[0].contains("the hazard curve begins at 0.290 g"),

@@ -217,7 +217,7 @@ impl Minimum {
     fn of(minimum: &MinimumGap) -> Self {
         Self {
             width: minimum.width,
-            mean_annual_frequency: minimum.frequency,
+            mean_annual_frequency: minimum.frequency(),
             mean_annual_frequency_is: minimum.result.frequency_is(),
             mean_annual_frequency_bounds: bounds(&minimum.result),
             goodness_of_fit: Goodness::of(&minimum.result),

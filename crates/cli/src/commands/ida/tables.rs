@@ -226,7 +226,7 @@ fn widths(
         text.push_str(&poor_fits(report, named));
     }
     if let (Some(minimum), Some(target)) = (&gap.minimum, settings.target_frequency) {
-        let frequency = match minimum.frequency.is_finite() {
+        let frequency = match minimum.frequency().is_finite() {
             true => frequency(&minimum.result, report.shown_intensity()),
             false => "none that the counts give".to_owned(),
         };

@@ -1,0 +1,161 @@
+//! The sweep over widths.
+
+use std::process::Command;
+
+use serde_json::Value;
+
+use super::{alike_buildings, gap, gap_in, json, named, root, text};
+
+/// The sweep's table, picture and worst width. 60 mm by an independent fixed-step
+/// solution with the law of the three-storey pair: roof 0.1323 m against 0.114253 m.
+#[test]
+fn sweep_files() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let (csv, codes, svg) = (path("sweep.csv"), path("codes.csv"), path("sweep.svg"));
+    let arguments = [
+        "--from",
+        "20 mm",
+        "--to",
+        "120 mm",
+        "--points",
+        "6",
+        "--csv",
+        &csv,
+        "--codes-csv",
+        &codes,
+        "--plot",
+        &svg,
+    ];
+    let output = gap("three_storey_pair", &arguments);
+    assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+    let sweep = std::fs::read_to_string(&csv).unwrap();
+    assert_eq!(sweep.lines().count(), 1 + 6 * 6, "six widths, six storeys");
+    let roof = sweep
+        .lines()
+        .find(|l| l.starts_with("0.06,el_centro_1940_ns,light,3,"))
+        .unwrap_or_else(|| panic!("{sweep}"));
+    let value: f64 = roof.split(',').nth(4).unwrap().parse().unwrap();
+    assert!(
+        (value / (0.132_3 / 0.114_253) - 1.0).abs() < 3e-3,
+        "{value}"
+    );
+    let codes = std::fs::read_to_string(&codes).unwrap();
+    assert!(
+        codes
+            .lines()
+            .any(|l| l.contains("nbcc_2015_between,seen in a secondary text,0.116"))
+    );
+    assert!(codes.lines().any(|l| l.contains("unverified")));
+    assert!(std::fs::read_to_string(&svg).unwrap().contains("<svg"));
+    assert!(text(&output.stdout).contains("displacement worst at"));
+}
+
+/// Buildings that are alike move alike: no demand, no sweep, and an answer all the same.
+#[test]
+fn alike_buildings_need_no_sweep() {
+    let folder = alike_buildings("20 mm");
+    let call = |arguments: &[&str]| gap_in(folder.path(), arguments);
+    let output = call(&["--csv", "x.csv", "--plot", "x.svg"]);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(shown.contains("WIDE ENOUGH"), "{shown}");
+    assert!(shown.contains("No sweep: under no record"), "{shown}");
+    let csv = std::fs::read_to_string(folder.path().join("x.csv")).unwrap();
+    assert!(
+        csv.starts_with("width_m,record") && csv.lines().count() == 1,
+        "{csv}"
+    );
+    assert!(folder.path().join("x.svg").is_file());
+    let widths = json(&call(&["--json"]))["sweep"]["widths"].clone();
+    assert_eq!(widths.as_array().map(Vec::len), Some(0));
+    let output = call(&["--from", "10 mm"]);
+    assert_eq!(output.status.code(), Some(2));
+    let said = text(&output.stderr);
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        said.contains("out of range: it must be less than"),
+        "{said}"
+    );
+    let swept = json(&call(&["--to", "10 mm", "--points", "2", "--json"]))["sweep"].clone();
+    assert_eq!(swept["runs"][0][0]["impacts"], 0, "{swept}");
+}
+
+/// Where nothing is demanded, a rule is told with the widest gap that it asks for, which the
+/// verdict beside it and `--json` mean too.
+#[test]
+fn alike_buildings_are_told_the_widest_gap_of_a_rule() {
+    let folder = alike_buildings("150 mm");
+    let shown = text(&gap_in(folder.path(), &["--points", "0", "--all"]).stdout);
+    let report = json(&gap_in(folder.path(), &["--points", "0", "--json"]));
+    for (rule, told) in [
+        ("absolute_sum", "228.4"),
+        ("square_root_of_sum_of_squares", "161.5"),
+    ] {
+        let combination = named(&report["gaps"][0]["combinations"], "rule", rule);
+        let widths = combination["width"][0].as_array().unwrap().iter();
+        let widest = widths.filter_map(Value::as_f64).fold(0.0, f64::max);
+        assert_eq!(format!("{:.1}", widest * 1e3), told);
+        let mut rows = shown.lines().filter(|l| l.starts_with('|'));
+        let line = rows.find(|l| l.contains(&format!(" {rule} ")));
+        let cells: Vec<&str> = line.unwrap().split('|').map(str::trim).collect();
+        assert_eq!(cells[4..7], [told, "no", "-"], "{shown}");
+    }
+    assert!(!shown.contains("inf"), "{shown}");
+}
+
+/// What the sweep of one gap in a row says of impacts is of that gap, as `run` counts them; what
+/// happens in the others stands beside it.
+#[test]
+fn a_sweep_of_one_gap_counts_its_own_impacts() {
+    let folder = tempfile::tempdir().unwrap();
+    let csv = folder.path().join("x.csv").display().to_string();
+    // At its own width first.
+    let one = ["--gap", "R2-R3", "--from", "20 mm", "--to", "40 mm"];
+    let mut arguments = one.to_vec();
+    arguments.extend(["--points", "2", "--csv", &csv]);
+    let shown = text(&gap("row_of_five", &arguments).stdout);
+    assert!(shown.contains("impacts in"), "{shown}");
+    arguments.push("--json");
+    let told = json(&gap("row_of_five", &arguments));
+    let ran = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .args(["run", "--json"])
+        .arg(root().join("examples/row_of_five/case.toml"))
+        .current_dir(root())
+        .output()
+        .unwrap();
+    let ran = json(&ran);
+    let swept = &told["sweep"]["runs"][0][0];
+    let ours = ["impacts", "peak_force", "impact_energy"];
+    let mut all = 0;
+    for (index, of_gap) in ran["gaps"].as_array().unwrap().iter().enumerate() {
+        let levels = of_gap["levels"].as_array().unwrap();
+        let of = |path: &'static str| levels.iter().filter_map(move |l| l.pointer(path)?.as_f64());
+        let here = &swept["gaps"][index];
+        assert_eq!(here["impacts"].as_f64(), Some(of("/impacts").sum()));
+        assert_eq!(
+            here["peak_force"].as_f64(),
+            of("/peak_force/peak").reduce(f64::max)
+        );
+        assert_eq!(
+            here["impact_energy"].as_f64(),
+            Some(of("/energy_dissipated").sum())
+        );
+        all += here["impacts"].as_u64().unwrap();
+        if index == 1 {
+            assert!(ours.iter().all(|key| swept[key] == here[key]), "{swept}");
+        }
+    }
+    let impacts = swept["impacts"].as_u64().unwrap();
+    assert!(impacts > 0 && all > impacts, "{swept}");
+    let rows = std::fs::read_to_string(csv).unwrap();
+    let first: Vec<&str> = rows.lines().nth(1).unwrap().split(',').collect();
+    let expected = ours.map(|key| swept[key].as_f64().unwrap());
+    let written = [7, 8, 9].map(|i| first[i].parse::<f64>().unwrap());
+    assert_eq!(written, expected);
+    let together = [
+        "--from", "20 mm", "--to", "40 mm", "--points", "2", "--json",
+    ];
+    let together = json(&gap("row_of_five", &together));
+    assert_eq!(together["sweep"]["runs"][0][0]["impacts"], all);
+}

@@ -7,6 +7,7 @@ mod base_moments;
 mod columns;
 mod condensed_stiffness;
 mod coupled;
+mod equal_periods;
 mod forces;
 mod general;
 mod isolation;

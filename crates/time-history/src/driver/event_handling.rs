@@ -5,21 +5,22 @@ use pounding_gap_element::{Memory, Phase, SeparationRule, Target, Transition};
 use pounding_hysteresis::Guard;
 
 use super::{
-    CHATTER, EVENT_TOLERANCE, EVENTS_AT_ONCE, LOCATION_STEPS, LONGEST_TOUCH, PROGRESS_STEP,
-    SIMULTANEOUS, TOUCHES,
+    CHATTER, Driver, EVENT_TOLERANCE, EVENTS_AT_ONCE, LOCATION_STEPS, Mute, PROGRESS_STEP,
+    SIMULTANEOUS,
 };
-use super::{Driver, Mute};
 use crate::contact::Contact;
 use crate::dynamics::{Instant, Segment};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
-use crate::impacts::TOUCH;
 use crate::methods::Context;
 use crate::outcome::Peak;
-use crate::polynomial::{Polynomial, derivative, first_rise, value};
+use crate::polynomial::{Polynomial, bound, derivative, first_rise, value};
 
 /// Round-off of a displacement or a velocity, as a part of the maximum one.
 const ROUND_OFF: f64 = 1.0e-14;
+
+/// Round-off of a holding force, as a part of its maximum in the step.
+const HOLDING_FORCE_ROUND_OFF: f64 = 1.0e-9;
 
 impl Driver<'_> {
     /// Cuts the step at the event: Newton on the event function, each time with a
@@ -91,7 +92,11 @@ impl Driver<'_> {
     /// round-off.
     fn is_over(&mut self, segment: &Segment, tau: f64, step: f64, event: Candidate) -> bool {
         let guard = self.function(segment, tau, step, event);
-        value(&guard, 1.0) > self.round_off(event, &self.new_state)
+        let mut limit = self.round_off(event, &self.new_state);
+        if limit.is_infinite() {
+            limit = HOLDING_FORCE_ROUND_OFF * bound(&guard);
+        }
+        value(&guard, 1.0) > limit
     }
 
     /// The function of an event over the trial step.
@@ -131,8 +136,8 @@ impl Driver<'_> {
         (correction, missed)
     }
 
-    /// What round-off of displacements and velocities makes in the function of an event in
-    /// this state; infinite for those that depend on more than that.
+    /// What round-off of displacements, velocities and internal variables makes in the function of
+    /// an event in this state; infinite for those of a holding force, which depends on all forces.
     fn round_off(&self, event: Candidate, state: &[f64]) -> f64 {
         let n = self.dynamics.layout.dofs;
         let (u, v) = (&state[..n], &state[n..2 * n]);
@@ -141,7 +146,12 @@ impl Driver<'_> {
         let index = match event.kind {
             EventKind::Close | EventKind::Open => return displacement,
             EventKind::Branch(Guard::Above | Guard::Below) => return displacement,
-            EventKind::Branch(Guard::Variable(_)) => return f64::INFINITY,
+            EventKind::Branch(Guard::Variable(i)) => {
+                let element = &self.system.elements()[event.level];
+                let first = element.range(self.dynamics.layout).start;
+                let size = element.law.variable_sizes()[usize::from(i)];
+                return ROUND_OFF * size.max(state[first + usize::from(i)].abs());
+            }
             EventKind::Branch(_) => return velocity,
             EventKind::Transition(index) => index,
         };
@@ -215,7 +225,8 @@ impl Driver<'_> {
             }
             self.stalled += 1;
             let model = &self.system.levels()[other.level].model;
-            if other.kind == EventKind::Close && !model.smooth_at_closure() {
+            let begins = other.kind == EventKind::Close && self.mute[other.level] != Mute::Step;
+            if begins && !model.smooth_at_closure() {
                 smooth = false;
             }
         }
@@ -236,45 +247,6 @@ impl Driver<'_> {
             });
         }
         Ok(smooth)
-    }
-
-    /// Whether a closure is one of many between which the floors neither part nor overlap by
-    /// more than a touch. Floors that lie against one another at rest leave, or are pressed
-    /// together, like a high power of time: at first round-off decides on which side of
-    /// zero they are. The gap then stays open for a while in which its floors cannot move
-    /// by more than a touch; if they overlap after it and still approach, it closes.
-    fn goes_on_touching(&mut self, segment: &Segment, tau: f64, event: Candidate) -> bool {
-        let (n, l) = (self.dynamics.layout.dofs, event.level);
-        if event.kind != EventKind::Close {
-            return false;
-        }
-        let level = &self.system.levels()[l];
-        let rate = level.relative(&self.state[n..2 * n]);
-        let overlap = self.contacts.penetration(self.system, l, &self.state[..n]);
-        if event.theta == 0.0 && overlap > 0.0 && rate > 0.0 {
-            return false;
-        }
-        let in_touch = self.log.stays_in_touch(l, segment.start + tau, rate);
-        if !in_touch || self.peaks.penetration[l].value > TOUCH {
-            self.touches[l] = 0;
-            return false;
-        }
-        self.touches[l] += 1;
-        let Some(beyond) = self.touches[l].checked_sub(TOUCHES) else {
-            return false;
-        };
-        self.dynamics.accelerations(
-            &self.contacts,
-            Instant::committed(segment.ground(tau)),
-            &self.state,
-            &mut self.interpolated[..n],
-        );
-        let acceleration = level.relative(&self.interpolated[..n]).abs();
-        let bounded = (TOUCH / rate.abs()).min((2.0 * TOUCH / acceleration).sqrt());
-        let growing = PROGRESS_STEP * f64::from(1_u32 << beyond.min(8));
-        self.quiet[l] = growing.min(LONGEST_TOUCH).min(bounded);
-        // Floors that move by more than a touch soon are not torn by round-off.
-        self.quiet[l] >= PROGRESS_STEP
     }
 
     /// An element leaves its branch.

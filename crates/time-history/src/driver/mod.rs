@@ -7,6 +7,7 @@ mod event_handling;
 mod exact_steps;
 mod functions;
 mod held_contacts;
+mod mute;
 mod parts;
 mod peaks_put_off;
 mod result;
@@ -38,6 +39,7 @@ use crate::system::{Grounds, System};
 use contact_episode::{Left, Open};
 use exact_steps::{Advance, ExactSteps};
 use held_contacts::HeldContacts;
+use mute::Mute;
 use parts::{Marks, Parts};
 use rigid_impacts::RigidImpacts;
 
@@ -55,10 +57,6 @@ const EVENTS_AT_ONCE: usize = 4;
 /// loose: relative velocity and acceleration are zero there, so that only the
 /// next higher derivative tells the direction, and round-off must not.
 const PROGRESS_STEP: f64 = 1.0e-6;
-/// Closures of a level in touch before its gap is left open for a while, and the longest
-/// such while (s).
-const TOUCHES: usize = 8;
-const LONGEST_TOUCH: f64 = 1.0e-5;
 /// Changes of branch of an element at one instant that lie on its way: a hook and a gap without
 /// play have no way between them.
 const CHANGES_ON_THE_WAY: usize = 2;
@@ -157,31 +155,6 @@ fn follow(
     }
     progress(1.0);
     driver.finish(duration, observers.recorders)
-}
-
-/// What events of a level do not count in the next step.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Mute {
-    /// All count.
-    No,
-    /// Not those at its very start: the level has to make progress.
-    Start,
-    /// None: the floors just broke loose.
-    Step,
-}
-
-impl Mute {
-    /// Whether an event so long (s) after the start of the step does not count, at a level
-    /// that had this many at the present instant.
-    fn hides(self, time: f64, at_once: usize) -> bool {
-        match self {
-            Self::No => false,
-            // Round-off may put an event that comes again and again a trifle later.
-            Self::Start if at_once > EVENTS_AT_ONCE => time <= SIMULTANEOUS,
-            Self::Start => time == 0.0,
-            Self::Step => true,
-        }
-    }
 }
 
 struct Driver<'a> {
@@ -362,7 +335,7 @@ impl<'a> Driver<'a> {
             }
             let rest = segment.length - tau;
             step = self.trial(segment, tau, step)?;
-            while step > PROGRESS_STEP && self.overlaps_unseen() {
+            while step > PROGRESS_STEP && self.overlaps_unseen(segment) {
                 step = self.trial(segment, tau, (0.5 * step).max(PROGRESS_STEP))?;
             }
             let mut earliest = self.find(segment, tau, step, None);

@@ -11,7 +11,7 @@
 
 use pounding_gap_element::{Memory, Phase};
 
-use super::{Driver, Mute, SIMULTANEOUS};
+use super::{Driver, SIMULTANEOUS};
 use crate::complementarity::{Complementarity, row};
 use crate::contact::Contact;
 use crate::dynamics::{Instant, Segment, coupling};
@@ -27,9 +27,6 @@ const LOWEST_HOP: f64 = 1.0e-12;
 
 /// Round-off of a velocity, as a part of the maximum one, or of the terms that it is the sum of.
 const ROUND_OFF: f64 = 1.0e-14;
-
-/// Longest time (s) for which a level is let be.
-const LONGEST_QUIET: f64 = 1.0e-4;
 
 /// Solutions of one instant, each of which may let other floors approach, before it is given up. A
 /// light body between heavy ones that lose much is thrown to and fro without end, ever more slowly,
@@ -86,22 +83,6 @@ impl Driver<'_> {
         2.0 * ROUND_OFF * self.state[n..2 * n].iter().fold(0.0, fastest)
     }
 
-    /// Lets a level be for a while, ever longer if it does not come to rest.
-    pub(super) fn keep_quiet(&mut self, l: usize) {
-        if self.mute[l] != Mute::Step {
-            self.eventful = true;
-            self.mute[l] = Mute::Step;
-            self.quiet[l] = (2.0 * self.quiet[l]).min(LONGEST_QUIET);
-        }
-    }
-
-    /// Whether rigid floors that are let be overlap at the end of the trial step: they
-    /// were not let be for round-off then.
-    pub(super) fn overlaps_unseen(&self) -> bool {
-        let mut levels = self.mute.iter().enumerate();
-        levels.any(|(l, mute)| *mute == Mute::Step && self.comes_to_overlap(l))
-    }
-
     /// The first of the other events of the whole step that is over at the end of the trial
     /// step, which was cut at this one: rigid floors overlap there. The gap of floors at rest is
     /// round-off, and the root of such a function may be found far behind where it was expected.
@@ -116,17 +97,6 @@ impl Driver<'_> {
         others
             .copied()
             .reduce(|a, b| if b.theta < a.theta { b } else { a })
-    }
-
-    /// Whether the floors of a rigid level overlap at the end of the trial step by more than
-    /// they did.
-    fn comes_to_overlap(&self, l: usize) -> bool {
-        let n = self.dynamics.layout.dofs;
-        let overlap = |state: &[f64]| {
-            let overlap = self.contacts.penetration(self.system, l, &state[..n]);
-            overlap.max(TOUCHING)
-        };
-        self.is_rigid(l) && overlap(&self.new_state) > overlap(&self.state)
     }
 
     /// Applies the jumps of all rigid levels in touch at this instant.

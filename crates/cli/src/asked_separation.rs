@@ -25,7 +25,7 @@ pub struct Asked<'a> {
 /// Words of a case with those that are asked for in their place.
 ///
 /// # Errors
-/// A file of rules that cannot be read, and rules that cannot be.
+/// A provision that is named twice, a file of rules that cannot be read, and rules that cannot be.
 pub fn overridden(separation: Separation, asked: &Asked<'_>) -> Result<Separation, Failure> {
     if asked.code.is_some() && asked.country.is_some() {
         return Err(Failure::input(
@@ -39,6 +39,13 @@ pub fn overridden(separation: Separation, asked: &Asked<'_>) -> Result<Separatio
         span: usize::MAX..usize::MAX,
     };
     let provisions = asked.provisions;
+    let twice = (1..provisions.len()).find(|i| provisions[..*i].contains(&provisions[*i]));
+    if let Some(twice) = twice {
+        return Err(Failure::input(
+            format!("--provisions names \"{}\" twice", provisions[twice]),
+            Some("remove one of them".to_owned()),
+        ));
+    }
     let mut given = Separation {
         code: asked.code.map(word),
         country: asked.country.map(word),

@@ -58,7 +58,7 @@ pub fn deal(
         for entry in std::fs::read_dir(path).map_err(failed)? {
             let file = entry.map_err(failed)?.path();
             let name = file.file_name().unwrap_or_default().to_string_lossy();
-            if name.contains(&format!(".{check}-shard-")) && name.ends_with(ENDING) {
+            if is_shard_of(check, &name) {
                 inside.push(file);
             }
         }
@@ -75,6 +75,18 @@ pub fn deal(
     }
     reads_too(files, found.iter().map(|file| ("shard", file.clone())))?;
     Ok(Deal::Merged { files: found })
+}
+
+/// Whether a file has the name of a shard of a check.
+fn is_shard_of(check: &str, name: &str) -> bool {
+    name.contains(&format!(".{check}-shard-")) && name.ends_with(&format!(".{ENDING}"))
+}
+
+/// Whether a file has the name of a shard of any check.
+pub fn is_shard(name: &str) -> bool {
+    ["gap", "compare"]
+        .iter()
+        .any(|check| is_shard_of(check, name))
 }
 
 /// Says where the runs of a shard are, which are not the answer; false if the runs are all there.

@@ -3,7 +3,7 @@
 
 use pounding_catalogue::{Descriptor, Registry};
 
-use crate::descriptor::ProvisionDescriptor;
+use crate::descriptor::{Basis, ProvisionDescriptor};
 use crate::edition::{Date, Edition, Validity};
 use crate::error::SeparationError;
 use crate::inputs::{Site, Situation, Structure};
@@ -120,6 +120,9 @@ pub struct CodeWidth {
     pub provision: Provision,
     /// What it requires.
     pub requirement: Requirement,
+    /// Whether displacements count in it: whether the provision takes them, or one that was held
+    /// against it.
+    pub takes_displacements: bool,
 }
 
 impl Listed {
@@ -201,6 +204,7 @@ impl Rules {
             requirement.map(|requirement| CodeWidth {
                 provision: provision.clone(),
                 requirement,
+                takes_displacements: provision.basis() == Basis::Displacement,
             })
         };
         if let Some(rule) = &self.isolated
@@ -231,9 +235,13 @@ impl Rules {
             None | Some(Err(SeparationError::NotApplicable { .. })) => Ok(first),
             Some(least) => {
                 let least = least?;
+                let takes_displacements = first.takes_displacements || least.takes_displacements;
                 // The width of a disputed rule is that of its widest reading.
                 let wider = least.requirement.width > first.requirement.width;
-                Ok(if wider { least } else { first })
+                Ok(CodeWidth {
+                    takes_displacements,
+                    ..if wider { least } else { first }
+                })
             }
         }
     }

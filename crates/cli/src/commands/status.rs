@@ -15,6 +15,7 @@ use pounding_study::{ShardName, ranges};
 use serde::Serialize;
 
 use crate::arguments::{StatusArguments, value};
+use crate::deal::is_shard;
 use crate::failure::Failure;
 use crate::heartbeat::{Beat, State, damaged, read, told};
 use crate::interruption::{resumed, shell_line};
@@ -177,16 +178,39 @@ fn look(folder: &Path, known: &mut Known) -> Result<Vec<Progress>, Failure> {
         studies.entry((shard.study, shard.count)).or_default();
     }
     if studies.is_empty() {
-        let help = "no shard has begun: run the plan, or a shard with --into and this folder";
-        return Err(Failure::input(
-            format!("{} holds no shards", folder.display()),
-            Some(help.to_owned()),
-        ));
+        return Err(match shards_of_checks(folder) {
+            0 => Failure::input(
+                format!("{} holds no shards", folder.display()),
+                Some(
+                    "no shard has begun: run the plan, or a shard with --into and this folder"
+                        .to_owned(),
+                ),
+            ),
+            some => Failure::input(
+                format!(
+                    "{} holds {} of a `gap` or `compare`, which `status` does not follow: each is written when its runs are done",
+                    folder.display(),
+                    counted(some, "shard")
+                ),
+                Some(
+                    "the same command with --merge and the folder says which are missing"
+                        .to_owned(),
+                ),
+            ),
+        });
     }
     let studies = studies.into_iter();
     Ok(studies
         .map(|((study, count), found)| Progress::of(folder, &study, count, &standing(&found)))
         .collect())
+}
+
+/// How many files of shards of a `gap` or a `compare` a folder holds.
+fn shards_of_checks(folder: &Path) -> usize {
+    let inside = std::fs::read_dir(folder).into_iter().flatten().flatten();
+    inside
+        .filter(|entry| is_shard(&entry.file_name().to_string_lossy()))
+        .count()
 }
 
 /// Runs of a result: all, and those that failed and collapsed.

@@ -214,8 +214,8 @@ impl serde::Serialize for CollisionOutcome {
 /// Lets two bodies collide freely.
 ///
 /// # Errors
-/// Masses that are not positive, bodies that do not approach one another, or a
-/// law with which the contact does not end.
+/// Masses that are not positive, bodies that do not approach one another or by less than 1e-30 m/s,
+/// or a law with which the contact does not end.
 pub fn collide(
     model: &dyn ImpactModel,
     bodies: &Bodies,
@@ -354,6 +354,10 @@ fn rigid(
     }
 }
 
+/// Least approach velocity (m/s): below the round-off of any motion of buildings, and far above where
+/// squares of velocities and powers of penetrations leave the range of numbers.
+const LEAST_APPROACH: f64 = 1.0e-30;
+
 fn check(bodies: &Bodies) -> Result<(f64, f64), GapElementError> {
     let positive = |m: f64| m.is_finite() && m > 0.0;
     if !positive(bodies.mass_left) || !bodies.mass_right.is_none_or(positive) {
@@ -370,6 +374,11 @@ fn check(bodies: &Bodies) -> Result<(f64, f64), GapElementError> {
     if !positive(approach) {
         return Err(GapElementError::Bodies(format!(
             "their relative velocity is {approach} m/s"
+        )));
+    }
+    if approach < LEAST_APPROACH {
+        return Err(GapElementError::Bodies(format!(
+            "their relative velocity of {approach:e} m/s is less than {LEAST_APPROACH:e} m/s, and forces and energies would be lost in round-off"
         )));
     }
     let mass = bodies.mass_right.map_or(bodies.mass_left, |m| {

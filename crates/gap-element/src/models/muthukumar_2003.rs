@@ -47,7 +47,7 @@ pub(crate) static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
     ),
     traps: &[
         "The energy to load it is not that of the Hertz spring: at the design penetration it returns 0.7338 for 0.5, 0.7696 for 0.6, 0.7904 for 0.65.",
-        "Without design_penetration it is found from approach velocity and effective mass of each collision: the one that a free collision reaches. The restitution is then the same at every speed.",
+        "Without design_penetration it is found from approach velocity and effective mass of each collision: the one that a free collision reaches. The restitution is then the same at every speed from 1 mm/s on.",
         "With a design_penetration of the user's own, the restitution depends on the penetration reached.",
         "Evaluated from the penetration itself. ImpactMaterial of OpenSees adds increments to its last state, so that travel outside the gap in the step that closes it counts, by design: peaks of pairs are 2 % apart at steps of 1 ms, 2e-4 at 10 us (pounding verify structures).",
     ],

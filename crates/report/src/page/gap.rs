@@ -266,6 +266,9 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
 
 /// Which statistic of the suite decides by a code, and whether there are records enough.
 fn statistic(answer: Answer<'_>, code: &str) -> String {
+    if answer.at(&format!("{code}/takes_records")).as_bool() == Some(false) {
+        return "No displacement counts in the widths of the code here: it decides without the records.".to_owned();
+    }
     let rule = answer.quote(&format!("{code}/statistic_rule"));
     let rule = match answer.text(&format!("{code}/statistic_clause")) {
         "" => format!("Many records: {rule}."),

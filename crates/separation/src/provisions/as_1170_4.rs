@@ -39,6 +39,7 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     status: Status::Unverified("the rule and its limit of 15 m"),
     remarks: &[
         "For structures of more than 15 m; at each of their levels. Of a lower one beside them it asks nothing.",
+        "The edition of 2007 (5.4.5, as recalled) is also satisfied where the primary elements that resist earthquakes are structural walls that extend to the base: that is not judged here, whatever the structural system.",
     ],
     worked: "21000 / 100",
     rule: Rule::BoundaryOfSome(boundary, "it speaks of structures of more than 15 m"),

@@ -74,6 +74,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     ),
     remarks: &[
         "The lower height and the wider of both requirements count.",
+        "A box of load-bearing walls (`box_wall`) counts as a wall.",
         "Single-storey factories have fixed widths, which are not here.",
     ],
     worked: "100 + 20 * ceil((18 - 15) / (11 - 8))",

@@ -91,6 +91,7 @@ pub fn references(
     let mut references = Vec::new();
     for (index, gap) in system.gaps().iter().enumerate() {
         let (level, velocity) = fastest(index);
+        let of_other_gaps = approach_velocity.is_none() && velocity <= 0.0;
         let velocity = if velocity > 0.0 { velocity } else { over_all };
         let velocity = approach_velocity.unwrap_or(velocity);
         if !(velocity.is_finite() && velocity > 0.0) {
@@ -104,6 +105,7 @@ pub fn references(
         let (stiffness, exponent) = own_law(case, index)?;
         let mut reference = ReferenceCollision {
             approach_velocity: velocity,
+            of_other_gaps,
             effective_mass: place.effective_mass,
             stiffness,
             exponent,

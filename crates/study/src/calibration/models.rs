@@ -48,6 +48,8 @@ pub struct OwnLaw {
 pub struct ReferenceCollision {
     /// Approach velocity (m/s).
     pub approach_velocity: f64,
+    /// Whether that is the maximum of the other gaps, as the gap's own law meets none in it.
+    pub of_other_gaps: bool,
     /// Effective mass (kg).
     pub effective_mass: f64,
     /// Stiffness of the gap's own law (N/m^n).
@@ -441,6 +443,7 @@ mod tests {
     fn reference(exponent: f64, stiffness: f64) -> ReferenceCollision {
         ReferenceCollision {
             approach_velocity: 0.6,
+            of_other_gaps: false,
             effective_mass: 24_390.0,
             stiffness,
             exponent,

@@ -90,6 +90,7 @@ mod tests {
     fn reference(exponent: f64, stiffness: f64) -> ReferenceCollision {
         ReferenceCollision {
             approach_velocity: 0.6,
+            of_other_gaps: false,
             effective_mass: 24_390.0,
             stiffness,
             exponent,

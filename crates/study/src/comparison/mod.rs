@@ -253,6 +253,7 @@ pub fn compare_dealt(
     let copies = Repeated::among(records).warnings(&names);
     let mut warnings = warnings(case, records);
     warnings.extend(undamped(system, &references));
+    warnings.extend(untouched(system, &references));
     warnings.extend(slow(system, &references, &models));
     warnings.extend(copies);
     let mut comparison = Comparison {
@@ -289,6 +290,20 @@ fn undamped(system: &System, references: &[ReferenceCollision]) -> Vec<String> {
         format!(
             "gap {}: the columns that are hit have no mass, so that contacts are elastic, and models with damping are compared at restitution 1 without it; `contact_mass` in `column` lets their damping act",
             gap.name
+        )
+    });
+    told.collect()
+}
+
+/// Gaps that the own law closes under no record, so that nothing is known of a collision there.
+fn untouched(system: &System, references: &[ReferenceCollision]) -> Vec<String> {
+    let gaps = system.gaps().iter().zip(references);
+    let untouched = gaps.filter(|(_, reference)| reference.of_other_gaps);
+    let told = untouched.map(|(gap, reference)| {
+        format!(
+            "gap {}: nothing touches it with the own law, and its reference collision has the maximum approach of the other gaps, {} m/s; `--approach-velocity` gives another one",
+            gap.name,
+            significant(reference.approach_velocity)
         )
     });
     told.collect()

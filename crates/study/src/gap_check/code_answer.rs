@@ -53,7 +53,10 @@ pub struct LevelAnswer {
     pub width: CodeWidth,
     /// Provided width (m).
     pub provided: f64,
-    /// Whether the records are what the code asks for; else no width decides.
+    /// Whether displacements under the records count in the width.
+    pub takes_records: bool,
+    /// Whether the records are what the code asks for, or count for nothing in the width; else it
+    /// does not decide.
     pub records_suffice: bool,
 }
 
@@ -120,24 +123,35 @@ impl CodeAnswer {
             .filter(move |c| stated.is_none() || c.ownership.is_none() || c.ownership == stated)
     }
 
-    /// Whether the gap is wide enough by the code; `None` if it gives no answer, as where there
-    /// are fewer records than it asks for, their mean spectrum is below what it asks for, or buildings
-    /// collapse without contact. Where the case does not say who owns the ground, it
-    /// must be for both.
+    /// Whether displacements under the records count in any of its widths; of rules that ask for
+    /// heights alone they do not.
+    #[must_use]
+    pub fn takes_records(&self) -> bool {
+        let mut levels = self
+            .cases
+            .iter()
+            .flat_map(|case| case.levels.iter().flatten());
+        levels.any(|level| level.takes_records)
+    }
+
+    /// Whether the gap is wide enough by the code; `None` if it gives no answer, as where
+    /// buildings collapse without contact, or where displacements count and there are fewer records
+    /// than it asks for, or their mean spectrum is below what it asks for. Where the case does not say
+    /// who owns the ground, it must be for both.
     #[must_use]
     pub fn satisfied(&self) -> Option<bool> {
-        if !records_suffice(self.enough_records, &self.spectrum, self.collapsed) {
-            return None;
-        }
         let answers: Option<Vec<bool>> = self.deciding().map(OwnershipAnswer::satisfied).collect();
         answers.map(|all| all.into_iter().all(|reached| reached))
     }
 }
 
-/// Whether records are what a code asks for: enough of them, with a mean spectrum that reaches its
-/// own as far as that is compared, and none under which buildings collapse without contact.
-fn records_suffice(enough: bool, spectrum: &SuiteSpectrum, collapsed: usize) -> bool {
-    enough && !spectrum.is_below() && collapsed == 0
+/// Whether records are what a code asks for.
+#[derive(Debug, Clone, Copy)]
+struct Suffice {
+    /// Enough of them, with a mean spectrum that reaches its own as far as that is compared.
+    records: bool,
+    /// None under which buildings collapse without contact.
+    standing: bool,
 }
 
 /// The answer of a code at one gap: its rules take the code's statistic of the displacements
@@ -152,7 +166,10 @@ pub(super) fn code_answer(
 ) -> CodeAnswer {
     let statistic = code.suite.statistic(distinct);
     let enough_records = distinct >= code.suite.least;
-    let suffice = records_suffice(enough_records, &spectrum, collapsed);
+    let suffice = Suffice {
+        records: enough_records && !spectrum.is_below(),
+        standing: collapsed == 0,
+    };
     let levels = place.levels();
     let at = |level: usize, sides: &[Option<(usize, usize)>; 2], rule: (_, &Rules)| {
         let of_suite = (records, statistic, suffice);
@@ -196,7 +213,7 @@ pub(super) fn code_answer(
 fn answer_at(
     place: &GapPlace<'_>,
     inputs: &Inputs<'_>,
-    (records, statistic, records_suffice): (&[RecordDemand], Statistic, bool),
+    (records, statistic, suffice): (&[RecordDemand], Statistic, Suffice),
     (level, sides): (usize, [Option<(usize, usize)>; 2]),
     (ownership, rules): (Option<Ownership>, &Rules),
 ) -> Result<LevelAnswer, SeparationError> {
@@ -215,6 +232,7 @@ fn answer_at(
     let displacement = [0, 1].map(|i: usize| structures[i].as_ref().and_then(|s| s.displacement));
     let moves = records.iter().map(|r| r.ground_moves(place.gap, level));
     let moves: Vec<f64> = moves.collect();
+    let ground_moves = moves.iter().any(|moves| *moves != 0.0);
     let site = inputs.site(place, statistic.of(&moves));
     let sides = match structures {
         [Some(left), Some(right)] => Sides::Between(Box::new(Situation { left, right, site })),
@@ -230,10 +248,13 @@ fn answer_at(
             });
         }
     };
+    let width = rules.width(&sides.owned(ownership))?;
+    let takes_records = width.takes_displacements || ground_moves;
     Ok(LevelAnswer {
         displacement,
-        width: rules.width(&sides.owned(ownership))?,
+        width,
         provided: place.width(level),
-        records_suffice,
+        takes_records,
+        records_suffice: suffice.standing && (suffice.records || !takes_records),
     })
 }

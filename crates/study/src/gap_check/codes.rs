@@ -75,25 +75,32 @@ impl CodeGap {
         satisfied(known)
     }
 
-    /// Width by one reading of a disputed provision for one record (m): the maximum over the
-    /// levels.
+    /// Width by one reading of a disputed provision at a level for one record (m).
     #[must_use]
-    pub fn width_by_reading(&self, record: usize, reading: usize) -> Option<f64> {
-        let levels = self.records.get(record)?.iter().flatten();
-        let widths = levels.filter_map(|r| Some(r.readings.get(reading)?.width));
-        widths.reduce(f64::max)
+    pub fn width_by_reading(&self, record: usize, level: usize, reading: usize) -> Option<f64> {
+        let requirement = self.requirement(record, level)?;
+        Some(requirement.readings.get(reading)?.width)
+    }
+
+    /// Width at a level for one record (m).
+    #[must_use]
+    pub fn width_at(&self, record: usize, level: usize) -> Option<f64> {
+        if self.refusal().is_some() {
+            return None;
+        }
+        Some(self.requirement(record, level)?.width)
     }
 
     /// Width for one record (m): the maximum over the levels.
     #[must_use]
     pub fn width(&self, record: usize) -> Option<f64> {
-        if self.refusal().is_some() {
-            return None;
-        }
-        let widths = self.records.get(record)?.iter().flatten().map(|r| r.width);
-        widths.fold(None, |most: Option<f64>, w| {
-            Some(most.map_or(w, |m| m.max(w)))
-        })
+        let levels = self.records.get(record)?.len();
+        let widths = (0..levels).filter_map(|level| self.width_at(record, level));
+        widths.reduce(f64::max)
+    }
+
+    fn requirement(&self, record: usize, level: usize) -> Option<&Requirement> {
+        self.records.get(record)?.get(level)?.as_ref().ok()
     }
 }
 

@@ -84,6 +84,8 @@ pub struct GapReport {
     /// Maximum demand over the levels for each record (m): the uniform width that the
     /// record would just not close.
     pub demand: Vec<f64>,
+    /// Demand (m) by record and level.
+    pub demand_by_level: Vec<Vec<f64>>,
     /// Records that close the provided gap at some level, those that
     /// [collapsed](Self::records_collapsed) among them.
     pub records_in_contact: usize,
@@ -221,22 +223,37 @@ impl GapReport {
         }
     }
 
-    /// Records whose demand exceeds a width (m) that may differ between them, by more than
-    /// two computations of one number differ, and those that collapsed.
+    /// Records whose demand exceeds a width (m) at some level, by more than two computations of one
+    /// number differ, and those that collapsed. The width is given by record and level.
     #[must_use]
-    pub fn records_beyond(&self, width: impl Fn(usize) -> Option<f64>) -> usize {
-        let beyond = |r: &usize| width(*r).is_some_and(|w| w < self.demand[*r] * (1.0 - SAME));
+    pub fn records_beyond(&self, width: impl Fn(usize, usize) -> Option<f64>) -> usize {
+        let beyond = |r: &usize| {
+            let mut levels = self.demand_by_level[*r].iter().enumerate();
+            levels.any(|(l, demand)| width(*r, l).is_some_and(|w| w < demand * (1.0 - SAME)))
+        };
         (0..self.demand.len()).filter(beyond).count() + self.records_collapsed
     }
 
-    /// Least ratio of such a width to the demand (-), with its record. A record that demands
-    /// nothing beside the width has none.
+    /// Least ratio of a width, given by level, to the demand of a record at that level (-). A level
+    /// that demands nothing beside the width has none.
     #[must_use]
-    pub fn least_ratio(&self, width: impl Fn(usize) -> Option<f64>) -> Option<(usize, f64)> {
-        let ratios = (0..self.demand.len()).filter_map(|r| Some((r, width(r)? / self.demand[r])));
+    pub fn ratio_to_demand(
+        &self,
+        record: usize,
+        width: impl Fn(usize) -> Option<f64>,
+    ) -> Option<f64> {
+        let levels = self.demand_by_level[record].iter().enumerate();
+        let ratios = levels.filter_map(|(level, demand)| Some(width(level)? / demand));
         ratios
-            .filter(|(_, ratio)| *ratio * SAME < 1.0)
-            .min_by(|a, b| a.1.total_cmp(&b.1))
+            .filter(|ratio| *ratio * SAME < 1.0)
+            .min_by(f64::total_cmp)
+    }
+
+    /// The least of these over the records, of a width by record and level.
+    #[must_use]
+    pub fn least_ratio(&self, width: impl Fn(usize, usize) -> Option<f64>) -> Option<f64> {
+        let of = |r: usize| self.ratio_to_demand(r, |level| width(r, level));
+        (0..self.demand.len()).filter_map(of).min_by(f64::total_cmp)
     }
 
     /// The level at which a combination is reported (from zero): the governing one, or, where
@@ -409,8 +426,10 @@ fn report(
     let gap = &place.system.gaps()[place.gap];
     let levels = levels(place.system, gap);
     let at = |record: &RecordDemand, level: usize| record.demand[place.gap][level].value;
-    let over_levels = |r: &RecordDemand| (0..levels.len()).fold(0.0_f64, |m, l| m.max(at(r, l)));
-    let demand: Vec<f64> = records.iter().map(over_levels).collect();
+    let by_level = |r: &RecordDemand| (0..levels.len()).map(|l| at(r, l)).collect();
+    let by_record: Vec<Vec<f64>> = records.iter().map(by_level).collect();
+    let over_levels = |levels: &Vec<f64>| levels.iter().fold(0.0_f64, |m, d| m.max(*d));
+    let demand: Vec<f64> = by_record.iter().map(over_levels).collect();
     let touches = |r: &&RecordDemand| {
         let mut closed = levels.iter().enumerate();
         closed.any(|(l, level)| r.demand_exceeds(place.gap, l, level.width))
@@ -424,8 +443,6 @@ fn report(
     let required = required::required_gap(&demand, collapsed, options);
     let allowed = required.allowed_contacts;
     let widths: Vec<f64> = levels.iter().map(|l| l.width).collect();
-    let by_level = |r: &RecordDemand| (0..levels.len()).map(|l| at(r, l)).collect();
-    let by_record: Vec<Vec<f64>> = records.iter().map(by_level).collect();
     Ok(GapReport {
         name: gap.name.clone(),
         between: gap.between.clone(),
@@ -439,6 +456,7 @@ fn report(
         suite: SuiteStatistics::of(&demand),
         code: None,
         demand,
+        demand_by_level: by_record,
         columns: (0..levels.len())
             .filter_map(|level| column_demand(records, (place.gap, level)))
             .collect(),

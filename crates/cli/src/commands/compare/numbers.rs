@@ -118,7 +118,7 @@ impl<'c> Building<'c> {
     }
 }
 
-fn gap_name(c: &Comparison, index: usize) -> Option<&str> {
+pub(super) fn gap_name(c: &Comparison, index: usize) -> Option<&str> {
     let impacts = |q: &&comparison::Quantity| q.kind == QuantityKind::Impacts && q.index == index;
     c.quantities.iter().find(impacts).map(|q| q.of.as_str())
 }

@@ -491,13 +491,23 @@ fn remarks(c: &Comparison) -> String {
         if let Verification::SecondarySources(how) = model.descriptor.verification {
             text.push_str(&format!("  {name} is from secondary sources: {how}\n"));
         }
-        let notes = model.calibrated.iter().flatten().flat_map(|g| &g.notes);
-        let mut reported: Vec<&String> = Vec::new();
-        for note in notes {
-            if !reported.contains(&note) {
-                text.push_str(&format!("  {name}: {note}\n"));
-                reported.push(note);
+        // What holds in some gaps alone is said with their names.
+        let mut notes: Vec<(&String, Vec<&str>)> = Vec::new();
+        for (index, own) in model.calibrated.iter().flatten().enumerate() {
+            let gap = super::numbers::gap_name(c, index).unwrap_or_default();
+            for note in &own.notes {
+                match notes.iter_mut().find(|(known, _)| *known == note) {
+                    Some((_, gaps)) => gaps.push(gap),
+                    None => notes.push((note, vec![gap])),
+                }
             }
+        }
+        for (note, gaps) in notes {
+            let of = match gaps.len() == c.references.len() {
+                true => String::new(),
+                false => format!(", gap {}", gaps.join(" and ")),
+            };
+            text.push_str(&format!("  {name}{of}: {note}\n"));
         }
     }
     text

@@ -58,7 +58,7 @@ fn driven(gap: &GapReport) -> String {
         return String::new();
     }
     format!(
-        "  under {} of them only because another gap of the row closes: the widths below do not see that, make the other gap wide enough first\n",
+        "  under {} of them only because another gap of the row closes: no width by demand or rule sees that, make the other gap wide enough first\n",
         gap.records_driven
     )
 }
@@ -203,6 +203,18 @@ fn edition(answer: &CodeAnswer) -> String {
 /// What decides: which number of the responses, and whether there are records enough.
 fn statistic(answer: &CodeAnswer, (records, distinct): (usize, usize), times: f64) -> String {
     let suite = &answer.code.suite;
+    let collapsed = match answer.collapsed {
+        0 => String::new(),
+        count => format!(
+            "  warning: a building collapses without contact under {}: the code gives no answer, and displacements and widths are those of the others\n",
+            counted(count, "record")
+        ),
+    };
+    if !answer.takes_records() {
+        return format!(
+            "  decided without the records: no displacement counts in the widths of the code here\n{collapsed}"
+        );
+    }
     let clause = match suite.clause {
         "" => String::new(),
         clause => format!(" ({clause}, {})", suite.status.name()),
@@ -214,13 +226,6 @@ fn statistic(answer: &CodeAnswer, (records, distinct): (usize, usize), times: f6
             "  warning: the code asks for {} records at least: with {distinct} the maximum is no answer by the code\n",
             suite.least
         )
-    };
-    let collapsed = match answer.collapsed {
-        0 => String::new(),
-        count => format!(
-            "  warning: a building collapses without contact under {}: the code gives no answer, and displacements and widths are those of the others\n",
-            counted(count, "record")
-        ),
     };
     format!(
         "  decided by the {} of the displacements under {}: {}{clause}\n{few}{}{collapsed}",

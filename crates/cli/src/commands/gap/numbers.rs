@@ -339,6 +339,8 @@ struct Code<'c> {
     statistic_rule: String,
     statistic_clause: &'static str,
     statistic_status: &'static str,
+    /// Whether displacements under the records count in any of its widths.
+    takes_records: bool,
     enough_records: bool,
     /// `null` where nothing is known of what the code asks of the mean spectrum.
     spectrum: Option<CodeSpectrum>,
@@ -456,6 +458,7 @@ impl<'c> Code<'c> {
             statistic_rule: suite.explanation(),
             statistic_clause: suite.clause,
             statistic_status: suite.status.name(),
+            takes_records: answer.takes_records(),
             enough_records: answer.enough_records,
             spectrum: CodeSpectrum::of(&answer.spectrum),
             demand: answer.demand,
@@ -624,7 +627,9 @@ struct Provision<'c> {
 /// What a provision asks for under one record.
 #[derive(Serialize)]
 struct OfRecord<'c> {
+    /// The maximum over the levels.
     width: Option<f64>,
+    /// The least over the levels of the width there to the demand there.
     ratio_to_demand: Option<f64>,
     levels: Vec<OfLevel<'c>>,
 }
@@ -660,10 +665,11 @@ impl<'c> Provision<'c> {
             },
         };
         let records = c.records.iter().enumerate().map(|(r, levels)| {
-            let width = c.width(r).filter(|_| !c.is_disputed());
+            let decides = !c.is_disputed();
+            let at = |level| c.width_at(r, level).filter(|_| decides);
             OfRecord {
-                width,
-                ratio_to_demand: width.map(|w| w / gap.demand[r]),
+                width: c.width(r).filter(|_| decides),
+                ratio_to_demand: gap.ratio_to_demand(r, at),
                 levels: levels.iter().map(level).collect(),
             }
         });

@@ -31,9 +31,11 @@ struct Rule {
     factor: Option<&'static str>,
     judgement: Judgement,
     status: &'static str,
-    /// Least and greatest width over the records (m).
+    /// Least and greatest width over the records (m): at one level, or the maximum over the levels.
     widths: (f64, f64),
+    /// The least over records and levels of the width to the demand (-).
     ratio: Option<f64>,
+    /// Records that demand more at some level.
     beyond: usize,
 }
 
@@ -43,9 +45,12 @@ impl Rule {
         (name, kind): (String, String),
         (judgement, status): (Judgement, &'static str),
         factor: Option<&'static str>,
-        width: impl Fn(usize) -> Option<f64> + Copy,
+        level: Option<usize>,
+        width: impl Fn(usize, usize) -> Option<f64> + Copy,
     ) -> Self {
-        let widths = (0..gap.demand.len()).filter_map(width);
+        let shown = level.map_or(0..gap.levels.len(), |level| level..level + 1);
+        let of_record = |r| shown.clone().filter_map(|l| width(r, l)).reduce(f64::max);
+        let widths = (0..gap.demand.len()).filter_map(of_record);
         Self {
             name,
             kind,
@@ -53,18 +58,19 @@ impl Rule {
             judgement,
             status,
             widths: widths.fold((f64::INFINITY, 0.0_f64), |(l, h), w| (l.min(w), h.max(w))),
-            ratio: gap.least_ratio(width).map(|(_, x)| x),
+            ratio: gap.least_ratio(width),
             beyond: gap.records_beyond(width),
         }
     }
 
     fn combination(gap: &GapReport, c: &CombinationGap) -> Self {
-        let level = gap.reported_level(c);
-        let width = |r: usize| c.records.get(r)?.get(level).map(|l| l.width);
+        let level = Some(gap.reported_level(c));
+        let width = |r: usize, l: usize| c.records.get(r)?.get(l).map(|l| l.width);
         let name = c.rule.title(c.effective.map(EffectiveProperties::name));
         let satisfied = Judgement::Satisfied(c.satisfied_by(&gap.levels));
-        let kind = "combination".to_owned();
-        Self::of(gap, (name, kind), (satisfied, c.status.name()), None, width)
+        let names = (name, "combination".to_owned());
+        let judged = (satisfied, c.status.name());
+        Self::of(gap, names, judged, None, level, width)
     }
 
     /// A rule for each reading of a disputed provision, one for any other.
@@ -84,17 +90,17 @@ impl Rule {
                 // The rest of the text stands in the answer and in files.
                 let text = reading.text.split(',').next().unwrap_or_default();
                 let name = format!("{} ({text})", p.name());
-                Self::of(gap, (name, kind.clone()), judged, factor, |r| {
-                    c.width_by_reading(r, i)
+                let names = (name, kind.clone());
+                Self::of(gap, names, judged, factor, None, |r, l| {
+                    c.width_by_reading(r, l, i)
                 })
             })
             .collect();
         if !readings.is_empty() {
             return readings;
         }
-        let rule = Self::of(gap, (p.name().to_owned(), kind), judged, factor, |r| {
-            c.width(r)
-        });
+        let names = (p.name().to_owned(), kind);
+        let rule = Self::of(gap, names, judged, factor, None, |r, l| c.width_at(r, l));
         vec![rule]
     }
 

@@ -32,7 +32,8 @@ mod excitation;
 mod number_file;
 
 pub use assemble::{
-    Assembly, assemble, assemble_sharing, assemble_with_record, assemble_without_gaps, regap,
+    Assembly, assemble, assemble_sharing, assemble_with_record, assemble_without_gaps,
+    nothing_to_move_across, regap,
 };
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;

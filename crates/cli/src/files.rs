@@ -65,10 +65,27 @@ pub fn inputs_stay(files: &FileUse) -> Result<(), Failure> {
 /// The same, for work that ends before the process does.
 pub fn inputs_stay_meanwhile(files: &FileUse) -> Result<AskedOfTargets, Failure> {
     files.check()?;
+    results_have_names_of_text(files)?;
     let files = files.clone();
     Ok(ask_of_targets(move |target| {
         files.check_output(target).map_err(|e| e.to_string())
     }))
+}
+
+/// HDF5 takes names in UTF-8 alone: this is said before the runs, not after them.
+fn results_have_names_of_text(files: &FileUse) -> Result<(), Failure> {
+    let results = files
+        .outputs()
+        .filter(|path| path.extension().is_some_and(|e| e == "h5"));
+    let shards = files.folders().filter(|(role, _)| *role == "--into");
+    let mut all = results.chain(shards.map(|(_, folder)| folder));
+    match all.find(|path| path.to_str().is_none()) {
+        None => Ok(()),
+        Some(path) => Err(Failure::input(
+            format!("the name of a result is not UTF-8: {}", path.display()),
+            Some("name it in UTF-8: HDF5 opens no other".to_owned()),
+        )),
+    }
 }
 
 /// Outputs of which it was said already what they take the place of, or that there is nothing to say.

@@ -9,8 +9,8 @@
 mod attributes;
 mod chunks;
 pub mod dimension_scales;
+mod hdf5_file;
 mod label;
-mod new_file;
 mod run;
 pub mod study;
 mod values;
@@ -70,7 +70,7 @@ impl Stamp {
         if now != *self {
             return Err(OpenError::Changed);
         }
-        let file = hdf5::File::open(path).map_err(|e| OpenError::Hdf5(reason_of(&e)))?;
+        let file = hdf5_file::open(path).map_err(|e| OpenError::Hdf5(reason_of(&e)))?;
         Ok(ResultFile {
             file,
             checksum: self.checksum,
@@ -116,7 +116,7 @@ impl ResultFile {
         // Before the content is read: what is written meanwhile is seen by it.
         let before = Stamp::of(path, Checksum::Matches).map_err(ChecksumError::Read)?;
         let checksum = check(path, without)?;
-        let file = hdf5::File::open(path).map_err(|e| OpenError::Hdf5(reason_of(&e)))?;
+        let file = hdf5_file::open(path).map_err(|e| OpenError::Hdf5(reason_of(&e)))?;
         // Cut off right where its content ends, a file looks as if it never had one.
         if checksum == Checksum::Absent && file.attr_names().is_ok_and(|all| has_one(&all)) {
             return Err(ChecksumError::Removed.into());

@@ -44,6 +44,12 @@ pub enum StudyError {
         /// Each with its reason, a line each.
         list: String,
     },
+    /// A study whose path is no text: its files could not be named in a case.
+    #[error("the path of the study is not UTF-8: {path}")]
+    NotUtf8 {
+        /// The whole path.
+        path: PathBuf,
+    },
     /// A file cannot be read or written.
     #[error("cannot {what} {path}: {source}")]
     File {
@@ -128,8 +134,8 @@ pub enum StudyError {
         /// What it is.
         reason: String,
     },
-    /// The name of a shard for a merged result, by which commands would take it for that shard.
-    #[error("{path} has the name of a shard, {shard}, which a merged result is not")]
+    /// The name of a shard for another result, by which commands would take it for that shard.
+    #[error("{path} has the name of a shard, {shard}, which the result is not")]
     NamedAsShard {
         /// The file.
         path: PathBuf,
@@ -280,6 +286,7 @@ impl StudyError {
             Self::NotMerged { .. } => {
                 "name another result with -o, merge this one with the others, or move it away if it is of no use"
             }
+            Self::NotUtf8 { .. } => "rename the file, or the folder, in UTF-8",
             Self::NamedAsShard { .. } => "name another result with -o",
             Self::Busy { .. } => "wait for it, or name another result with -o",
             Self::ResultFile(error) => return Some(error.help()),

@@ -10,7 +10,7 @@ use pounding_results::study::{Description, MergeOptions, ResultWriter, Shards};
 use crate::error::StudyError;
 use crate::shard_name::ShardName;
 use crate::study_file::Study;
-use crate::sweep::{default_result, of_this_study};
+use crate::sweep::{Shard, default_result, of_this_study};
 use crate::table::RunTable;
 
 /// What a merged result holds.
@@ -64,7 +64,7 @@ pub fn merge(
         ..MergeReport::default()
     };
     let whole = shards.description();
-    refuse_name_of_shard(output)?;
+    refuse_name_of_shard(output, None)?;
     spare_what_is_not_merged(&shards, output)?;
     let mut writer = ResultWriter::create(output, whole, shards.count()?)?;
     if let Some(study) = study_file(files, whole, output) {
@@ -118,10 +118,14 @@ fn study_file(shards: &[PathBuf], merged: &Description, output: &Path) -> Option
     (says_it && content == merged.study.as_bytes()).then_some(file)
 }
 
-/// A merged result has no name of a shard: in a folder of shards it would be taken for one.
-fn refuse_name_of_shard(output: &Path) -> Result<(), StudyError> {
+/// What is no shard, or is another one, has no name of a shard: in a folder of shards it would be
+/// taken for that.
+pub(crate) fn refuse_name_of_shard(output: &Path, own: Option<Shard>) -> Result<(), StudyError> {
     let name = output.file_name().map(|name| name.to_string_lossy());
-    match name.and_then(|name| ShardName::of(&name)) {
+    let is_other = |named: &ShardName| {
+        own.is_none_or(|own| (own.index, own.count) != (named.index, named.count))
+    };
+    match name.and_then(|name| ShardName::of(&name)).filter(is_other) {
         Some(shard) => Err(StudyError::NamedAsShard {
             path: output.to_owned(),
             shard: format!("{} of {}", shard.index, shard.count),

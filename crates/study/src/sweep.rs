@@ -15,6 +15,7 @@ use pounding_results::study::{
 
 use crate::BUILD;
 use crate::error::StudyError;
+use crate::merge::refuse_name_of_shard;
 use crate::parts::{Parts, Store};
 use crate::runs::{Ending, RecordReport, Row, Runner, run_all};
 use crate::shard_name::ShardName;
@@ -157,6 +158,7 @@ pub fn sweep(
             text: format!("{}/{}", options.shard.index, options.shard.count),
         });
     }
+    refuse_name_of_shard(&options.output, Some(options.shard))?;
     let shared = options.shared.as_deref();
     let mut runner = Runner::new(study, options.keep_going, shared)?;
     let description = describe(&runner, options.shard);

@@ -43,6 +43,20 @@ fn refuse_one_turned_component(
     }
 }
 
+/// What is wrong with a record across the row, and what to do, where no building turns in plan.
+#[must_use]
+pub fn nothing_to_move_across(case: &Case) -> Option<(&'static str, &'static str)> {
+    let turns = case
+        .buildings
+        .iter()
+        .any(|building| building.plan.is_some());
+    let across = case.ground_motion.across.is_some();
+    (across && !turns).then_some((
+        "a record across the row has nothing to move: no building turns in plan",
+        "leave `across` out, or give a building a `plan`",
+    ))
+}
+
 /// The buildings of a case without gaps, each on its ground, that of the record given, now or
 /// later, or of a record of its own, with the forces on its floors.
 pub(super) fn on_their_ground(
@@ -56,16 +70,17 @@ pub(super) fn on_their_ground(
         delay: 0.0,
         origin: Vec::new(),
     }];
-    let turns = |building: &pounding_case::Building| building.plan.is_some();
     let across = match &case.ground_motion.across {
         None => None,
-        Some(given) if !case.buildings.iter().any(turns) => {
-            let message = "a record across the row has nothing to move: no building turns in plan";
-            let help = "leave `across` out, or give a building a `plan`".to_owned();
-            let error = case.error(given.span.clone(), message.to_owned(), Some(help));
-            return Err(error.into());
-        }
         Some(given) => {
+            if let Some((message, help)) = nothing_to_move_across(case) {
+                let error = case.error(
+                    given.span.clone(),
+                    message.to_owned(),
+                    Some(help.to_owned()),
+                );
+                return Err(error.into());
+            }
             refuse_one_turned_component(case, given)?;
             let record = further_record(case, &given.value)?;
             Some((ground(&record), record.echo()))
@@ -99,23 +114,25 @@ pub(super) fn on_their_ground(
                 }
             };
         }
-        let across = across
-            .as_ref()
-            .filter(|_| turns(building))
-            .map(|(acceleration, origin)| {
-                let delay = motions[along].delay;
-                let same = |m: &GroundMotion| {
-                    m.delay == delay && Arc::ptr_eq(&m.acceleration.samples, &acceleration.samples)
-                };
-                motions.iter().position(same).unwrap_or_else(|| {
-                    motions.push(GroundMotion {
-                        acceleration: acceleration.clone(),
-                        delay,
-                        origin: origin.clone(),
-                    });
-                    motions.len() - 1
-                })
-            });
+        let across =
+            across
+                .as_ref()
+                .filter(|_| building.plan.is_some())
+                .map(|(acceleration, origin)| {
+                    let delay = motions[along].delay;
+                    let same = |m: &GroundMotion| {
+                        m.delay == delay
+                            && Arc::ptr_eq(&m.acceleration.samples, &acceleration.samples)
+                    };
+                    motions.iter().position(same).unwrap_or_else(|| {
+                        motions.push(GroundMotion {
+                            acceleration: acceleration.clone(),
+                            delay,
+                            origin: origin.clone(),
+                        });
+                        motions.len() - 1
+                    })
+                });
         supports.push(Support { along, across });
     }
     let system = match motions.len() {

@@ -11,7 +11,7 @@ use pounding_files::checksum::{ChecksumError, WithoutChecksum};
 use pounding_files::{free_name, same_file};
 use pounding_results::OpenError;
 use pounding_results::study::{Part, ResultReader, StudyFileError};
-use pounding_study::{ShardName, ranges};
+use pounding_study::{ShardName, default_result, ranges, study_name};
 use serde::Serialize;
 
 use crate::arguments::{StatusArguments, value};
@@ -446,6 +446,16 @@ impl Progress {
         all
     }
 
+    /// Where the merged result of the study is written by default.
+    fn merged(&self) -> PathBuf {
+        let is_study = |file: &PathBuf| study_name(file).to_string_lossy() == self.name;
+        let study = self.command.iter().find_map(|(called_in, words)| {
+            let files = words.iter().filter(|word| word.ends_with(".toml"));
+            files.map(|file| called_in.join(file)).find(is_study)
+        });
+        default_result(&study.unwrap_or_else(|| PathBuf::from(format!("{}.toml", self.name))))
+    }
+
     /// The command that goes on with a shard in a folder: that of another one, with this number. The
     /// folder may have been moved or copied since.
     fn goes_on(&self, into: &Path, shard: usize) -> Option<String> {
@@ -539,9 +549,9 @@ impl Progress {
         }
         if self.is_done() {
             text.push_str(&format!(
-                "merge them with\n  pounding merge {} -o {}.h5\n",
+                "merge them with\n  pounding merge {} -o {}\n",
                 shell_line(&[path_word(folder)]),
-                shell_line(&[path_word(Path::new(&self.name))])
+                shell_line(&[path_word(&self.merged())])
             ));
         }
         text

@@ -9,7 +9,7 @@ use hdf5::File;
 use pounding_time_history::History;
 
 use super::{Result, RunEnding, RunHead, RunWriter, WriteError, begin_in, finish};
-use crate::new_file;
+use crate::hdf5_file;
 
 /// Bytes by which a file in memory grows.
 const INCREMENT: usize = 1 << 20;
@@ -42,7 +42,7 @@ pub fn run_in_memory(
     static COUNT: AtomicU64 = AtomicU64::new(0);
     // HDF5 tells open files apart by their names.
     let name = format!("run in memory {}", COUNT.fetch_add(1, Ordering::Relaxed));
-    let mut builder = new_file::builder();
+    let mut builder = hdf5_file::builder();
     builder.with_fapl(|list| list.core_options(INCREMENT, false));
     let file = builder.create(&name)?;
     let mut tables = begin_in(&file, head)?;

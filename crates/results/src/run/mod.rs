@@ -198,7 +198,7 @@ impl HistorySink for RunWriter<'_> {
 }
 
 fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
-    let file = crate::new_file::create(path)?;
+    let file = crate::hdf5_file::create(path)?;
     let tables = begin_in(&file, head)?;
     Ok((file, tables))
 }

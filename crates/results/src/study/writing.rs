@@ -14,7 +14,7 @@ use super::datasets::{
 use super::{Description, Row, StudyFileError, Value};
 use crate::attributes::unicode;
 use crate::dimension_scales::make_scale;
-use crate::{label, new_file, reason_of};
+use crate::{hdf5_file, label, reason_of};
 
 /// Rows of a block, and of a chunk of the file: hundreds of kilobytes before compression.
 pub(super) const BLOCK: usize = 1024;
@@ -128,7 +128,7 @@ impl ResultWriter {
 
 impl Open {
     fn create(path: &Path, description: &Description, rows: usize) -> Result<Self> {
-        let file = new_file::create(path)?;
+        let file = hdf5_file::create(path)?;
         root(&file, description)?;
         let run = dataset::<i64>(&file, "run", rows, None)?;
         describe(&run, "", "number of the run, from 0")?;

@@ -35,7 +35,7 @@ pub(super) fn part<T: Stored>(
         if file.exists() {
             return Err(refused(
                 file,
-                "it is not this shard of this check: move it away",
+                "it is not this shard of this check, or damaged: move it away",
             ));
         }
         let made = runs_in_parallel(mine.len(), threads, progress, |i, ending| {

@@ -154,7 +154,17 @@ pub fn study_schema() -> serde_json::Value {
     schema_of::<StudyFile>("pounding/study.schema.json")
 }
 
+/// Cases of a study are text, and name their files by whole paths.
+fn in_a_folder_of_text(file: &Path) -> Result<(), StudyError> {
+    let path = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    match path.to_str() {
+        Some(_) => Ok(()),
+        None => Err(StudyError::NotUtf8 { path }),
+    }
+}
+
 pub(super) fn study(source: &str, file: &Path) -> Result<Study, StudyError> {
+    in_a_folder_of_text(file)?;
     let name = file.display().to_string();
     if let Some(span) = root_key(
         source,

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::LazyLock;
 
+use pounding_assembly::nothing_to_move_across;
 use pounding_case::document::{
     Cycles, Dimensioned, Entry, Field, FreeKeys, List, Number, Optional, Reader, Signed, TableOr,
     Time, Velocity,
@@ -243,6 +244,9 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
             return reader.refuse(span, message, e.help.unwrap_or_default());
         }
     };
+    if let Some((message, help)) = nothing_to_move_across(&case) {
+        return reader.refuse(span, message, help);
+    }
     let name = name.unwrap_or_else(|| stem(Path::new(&file)));
     let missing = missing(reader, &name, (&case, base), (place, span));
     context.missing.borrow_mut().extend(missing.clone());

@@ -1,4 +1,4 @@
-//! New HDF5 files.
+//! Files of HDF5, new ones and others.
 
 use std::path::Path;
 
@@ -8,9 +8,31 @@ use hdf5::{File, FileBuilder, Result};
 /// release of HDF5 before the second. That one takes a newer form for its own, which keeps the
 /// time at which groups were made: files with the same results would differ.
 pub(crate) fn builder() -> FileBuilder {
-    let mut builder = FileBuilder::new();
+    let mut builder = without_lock();
     builder.with_fapl(|list| list.libver_earliest());
     builder
+}
+
+/// What makes and opens files without a lock, which network file systems may refuse: a new file has a
+/// name of its own until it is whole, and another one was compared with its checksum.
+/// The variable `HDF5_USE_FILE_LOCKING` has the last word.
+fn without_lock() -> FileBuilder {
+    #[cfg_attr(
+        not(file_locking),
+        expect(unused_mut, reason = "HDF5 is too old for it")
+    )]
+    let mut builder = FileBuilder::new();
+    #[cfg(file_locking)]
+    builder.with_fapl(|list| list.file_locking(false));
+    builder
+}
+
+/// The file at this path, to be read.
+///
+/// # Errors
+/// What HDF5 says.
+pub(crate) fn open(path: &Path) -> Result<File> {
+    without_lock().open(path)
 }
 
 /// A new file at this path.
@@ -24,7 +46,20 @@ pub(crate) fn create(path: &Path) -> Result<File> {
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
 mod tests {
-    use super::create;
+    use super::{create, open};
+
+    /// Where a lock cannot be had, as another process holds it or as the file system has none.
+    #[test]
+    #[cfg(file_locking)]
+    fn files_are_made_and_opened_without_a_lock() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.h5");
+        let held = std::fs::File::create(&path).unwrap();
+        held.lock().unwrap();
+        // With a lock of its own HDF5 says: unable to lock file.
+        create(&path).unwrap().create_group("group").unwrap();
+        assert_eq!(open(&path).unwrap().member_names().unwrap(), ["group"]);
+    }
 
     /// Files of different times are the same, whichever HDF5 is linked in.
     #[test]

@@ -3,6 +3,7 @@
 use std::ffi::OsString;
 
 use crate::arguments::ColorChoice;
+use crate::tables::width;
 
 impl ColorChoice {
     /// Whether a stream has colour, which is a terminal or not.
@@ -43,17 +44,25 @@ pub fn among(arguments: &[OsString]) -> ColorChoice {
 /// find out themselves.
 pub fn apply(choice: ColorChoice, command: clap::Command) -> clap::Command {
     let on = match choice {
-        ColorChoice::Auto => return command,
-        ColorChoice::Always => true,
-        ColorChoice::Never => false,
+        ColorChoice::Auto => None,
+        ColorChoice::Always => Some(true),
+        ColorChoice::Never => Some(false),
     };
+    let columns = width();
     // In a process that has a hook already, that one stays.
     let _ = miette::set_hook(Box::new(move |_| {
-        Box::new(miette::MietteHandlerOpts::new().color(on).build())
+        let mut report = miette::MietteHandlerOpts::new();
+        if let Some(on) = on {
+            report = report.color(on);
+        }
+        if let Some(columns) = columns {
+            report = report.width(usize::from(columns));
+        }
+        Box::new(report.build())
     }));
-    command.color(if on {
-        clap::ColorChoice::Always
-    } else {
-        clap::ColorChoice::Never
-    })
+    match on {
+        None => command,
+        Some(true) => command.color(clap::ColorChoice::Always),
+        Some(false) => command.color(clap::ColorChoice::Never),
+    }
 }

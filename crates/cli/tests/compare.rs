@@ -527,3 +527,44 @@ fn storeys_that_answer_otherwise_are_reported() {
         assert!(shown.contains(part), "{part}: {shown}");
     }
 }
+
+/// Values that are found for one gap alone are said with its name, and so is a gap that nothing
+/// touches, whose reference collision is that of others.
+#[test]
+fn what_is_of_one_gap_names_it() {
+    let run = |case: &Path| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .arg("compare")
+            .arg(case)
+            .args(["--models", "adams_impact"])
+            .output()
+            .unwrap();
+        assert!(output.status.success(), "{}", text(&output.stderr));
+        (text(&output.stdout), text(&output.stderr))
+    };
+    let example = root().join("examples/row_of_five/case.toml");
+    let (shown, told) = run(&example);
+    for gap in ["R1-R2", "R4-R5"] {
+        assert!(
+            shown.contains(&format!("adams_impact, gap {gap}: damping = ")),
+            "{shown}"
+        );
+    }
+    assert!(!told.contains("nothing touches it"), "{told}");
+    let folder = tempfile::tempdir().unwrap();
+    let case = std::fs::read_to_string(example).unwrap();
+    let case = case.replace(
+        "../../ground_motions",
+        root().join("ground_motions").to_str().unwrap(),
+    );
+    let at = case.rfind("width = ").unwrap();
+    let end = at + case[at..].find('\n').unwrap();
+    let wide = format!("{}width = \"3 m\"{}", &case[..at], &case[end..]);
+    let file = folder.path().join("case.toml");
+    std::fs::write(&file, wide).unwrap();
+    let (_, told) = run(&file);
+    assert!(
+        told.contains("gap R4-R5: nothing touches it with the own law"),
+        "{told}"
+    );
+}

@@ -192,3 +192,12 @@ fn manual_pages() {
     assert!(count > 30, "{count}");
     assert_eq!(std::fs::read_dir(&path).unwrap().count(), count);
 }
+
+/// Messages are as wide as tables: a path is not cut in two where there is room.
+#[test]
+fn messages_are_as_wide_as_the_terminal() {
+    let path = format!("{}.toml", "long/".repeat(20));
+    let whole =
+        |columns: &str| told(&pounding(&["check", &path], &[("COLUMNS", columns)])).contains(&path);
+    assert!(whole("200") && !whole("80"));
+}

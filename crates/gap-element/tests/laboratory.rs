@@ -229,3 +229,28 @@ fn a_history_that_begins_in_contact_is_warned_of() {
     assert!(!warned(-22, None));
     assert!(!warned(-12, Some(-0.006)));
 }
+
+/// At 1e-160 m/s squares of velocities leave the range of numbers: refused, where a collision at the
+/// least velocity returns what it is asked for.
+#[test]
+fn bodies_that_hardly_move_do_not_collide() {
+    let descriptor = registry::find("exact_linear").unwrap();
+    let model = registry::build("exact_linear", &descriptor.example_parameters(0.65)).unwrap();
+    let at = |velocity_left| {
+        collide(
+            model.as_ref(),
+            &Bodies {
+                mass_left: 1e5,
+                mass_right: None,
+                velocity_left,
+                velocity_right: 0.0,
+            },
+        )
+    };
+    for velocity in [1e-300, 1e-160, 9e-31] {
+        let error = at(velocity).unwrap_err();
+        assert!(error.to_string().contains("round-off"), "{error}");
+    }
+    let returned = at(1e-30).unwrap().restitution;
+    assert!((returned - 0.65).abs() < 1e-9, "{returned}");
+}

@@ -289,6 +289,14 @@ fn a_lower_roof_that_lies_at_no_level_is_said() {
         said.contains("at 9 m, storey 3, lies") && said.contains("levels up to 6 m"),
         "{said}"
     );
+    // The roof of one acts on a low floor of the other, whose own roof is left out.
+    let acts = "levels = [[3, 1]]\nfloor_to_floor = true";
+    let said = warned(high, (3, "3"), acts).unwrap();
+    assert!(
+        said.contains("the roof of \"B\" at 9 m, storey 3, lies")
+            && said.contains("levels up to 3 m"),
+        "{said}"
+    );
 }
 
 /// A rule that asks for nothing at the lowest level, by rounding up or by a limit, and for 10 and 20 mm,

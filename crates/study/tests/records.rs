@@ -119,7 +119,7 @@ fn records_of_one_motion_are_told_in_every_shard() {
         let [told] = told.as_slice() else {
             panic!("{told:?}");
         };
-        let says = "el_centro_1940_ns, copy, doubled and tripled are the same motion, at most scaled, reversed or cut: they are one record, of 3 records in all";
+        let says = "el_centro_1940_ns, copy, doubled and tripled are the same motion, at most scaled, reversed, cut or at another time step: they are one record, of 3 records in all";
         assert!(told.starts_with(says), "{index} {shared:?}: {told}");
     }
 }

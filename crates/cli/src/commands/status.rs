@@ -9,9 +9,9 @@ use pounding_case::Dimension;
 use pounding_catalogue::wording::counted;
 use pounding_files::checksum::{ChecksumError, WithoutChecksum};
 use pounding_files::{free_name, same_file};
-use pounding_results::OpenError;
 use pounding_results::study::{Part, ResultReader, StudyFileError};
-use pounding_study::{ShardName, default_result, ranges, study_name};
+use pounding_results::{Label, OpenError};
+use pounding_study::{ShardName, default_result, ranges};
 use serde::Serialize;
 
 use crate::arguments::{StatusArguments, value};
@@ -446,14 +446,18 @@ impl Progress {
         all
     }
 
-    /// Where the merged result of the study is written by default.
-    fn merged(&self) -> PathBuf {
-        let is_study = |file: &PathBuf| study_name(file).to_string_lossy() == self.name;
-        let study = self.command.iter().find_map(|(called_in, words)| {
-            let files = words.iter().filter(|word| word.ends_with(".toml"));
-            files.map(|file| called_in.join(file)).find(is_study)
-        });
-        default_result(&study.unwrap_or_else(|| PathBuf::from(format!("{}.toml", self.name))))
+    /// Where the merged result of the study is written by default: as one call names it, which takes
+    /// the name of the folder of a `study.toml`. What shards are of their commands or results say.
+    fn merged(&self, folder: &Path) -> PathBuf {
+        let words = self.command.iter().flat_map(|(_, words)| words);
+        let mut files: Vec<PathBuf> = words.map(PathBuf::from).collect();
+        let shard = self.done.first().map(|shard| self.shard(*shard).result());
+        let label = shard.and_then(|result| Label::of(&folder.join(result)));
+        files.extend(label.map(|label| PathBuf::from(label.file)));
+        match files.iter().any(|file| file.ends_with("study.toml")) {
+            true => default_result(&Path::new(&self.name).join("study.toml")),
+            false => default_result(Path::new(&format!("{}.toml", self.name))),
+        }
     }
 
     /// The command that goes on with a shard in a folder: that of another one, with this number. The
@@ -551,7 +555,7 @@ impl Progress {
             text.push_str(&format!(
                 "merge them with\n  pounding merge {} -o {}\n",
                 shell_line(&[path_word(folder)]),
-                shell_line(&[path_word(&self.merged())])
+                shell_line(&[path_word(&self.merged(folder))])
             ));
         }
         text

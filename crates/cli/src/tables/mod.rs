@@ -18,7 +18,7 @@ use pounding_time_history::{
 
 pub use collapsed::collapsed;
 use elements::kilojoules;
-pub use width::{Table, paragraphs};
+pub use width::{Table, paragraphs, width};
 
 /// The unit of accelerations on the screen (m/s2).
 pub use pounding_catalogue::STANDARD_GRAVITY as G;

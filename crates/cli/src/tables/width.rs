@@ -62,7 +62,7 @@ impl fmt::Display for Table {
 }
 
 /// Columns to fill: what `COLUMNS` says, else those of a terminal; `None` elsewhere.
-fn width() -> Option<u16> {
+pub fn width() -> Option<u16> {
     let stated = std::env::var("COLUMNS").ok();
     let stated = stated.and_then(|text| text.trim().parse::<u16>().ok());
     stated

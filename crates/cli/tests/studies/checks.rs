@@ -58,6 +58,10 @@ fn shards_of_checks_give_what_one_process_gives() {
     assert!(told.contains("no runs to share"), "{told}");
     let told = bench.complaint("compare case.toml --merge .", 2);
     assert!(told.contains("holds no shards of a `compare`"), "{told}");
+    let told = bench.complaint("status parts", 2);
+    for part in ["shards of a `gap` or `compare`", "with --merge"] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
 }
 
 /// A shard that cannot be stored is an output that could not be written.

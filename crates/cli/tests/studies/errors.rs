@@ -125,6 +125,15 @@ fn errors_point_at_their_place() {
             "to = \"5 mm\"",
             vec!["the range is empty"],
         ),
+        (
+            "\"MOTIONS/kobe_1995_jma_ns.csv\"",
+            "{ file = \"MOTIONS/kobe_1995_jma_ns.csv\", across = { file = \"MOTIONS/el_centro_1940_ns.csv\" } }",
+            vec![
+                "study.toml:19:",
+                "has nothing to move",
+                "give a building a `plan`",
+            ],
+        ),
     ] {
         assert!(MIXED.contains(from), "{from}");
         bench.study(&MIXED.replacen(from, to, 1));
@@ -420,4 +429,35 @@ fn options_without_use_are_refused() {
         "{told}"
     );
     assert!(told.contains("leave --study away"), "{told}");
+}
+
+/// HDF5 and the cases of a study take names of text alone, which is said before the runs.
+#[cfg(target_os = "linux")]
+#[test]
+fn names_that_are_no_text_are_refused() {
+    use std::ffi::OsStr;
+    use std::os::unix::ffi::OsStrExt;
+
+    let bench = Bench::new(MIXED);
+    let name = |bytes: &[u8]| OsStr::from_bytes(bytes).to_owned();
+    let refused = |command: &mut std::process::Command| {
+        let output = command.output().unwrap();
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(2), "{told}");
+        assert!(
+            told.contains("not UTF-8") && told.contains("ame it") || told.contains("rename"),
+            "{told}"
+        );
+    };
+    for (option, given) in [("-o", name(b"r\xfc.h5")), ("--into", name(b"r\xfc"))] {
+        let mut command = bench.command("sweep study.toml --shard 1/2");
+        refused(command.arg(option).arg(&given));
+        assert!(!bench.folder.path().join(&given).exists());
+    }
+    let folder = bench.folder.path().join(name(b"n\xfc"));
+    std::fs::create_dir(&folder).unwrap();
+    for file in ["case.toml", "study.toml"] {
+        std::fs::copy(bench.path(file), folder.join(file)).unwrap();
+    }
+    refused(bench.command("sweep study.toml").current_dir(&folder));
 }

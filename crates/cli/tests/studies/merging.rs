@@ -396,3 +396,21 @@ fn a_check_reads_all_rows() {
     let told = String::from_utf8(output.stdout).unwrap();
     assert!(told.contains("1.h5 does not have the runs 0 to"), "{told}");
 }
+
+/// In a folder of shards the result of the whole would be taken for a shard, and another shard for
+/// this one.
+#[test]
+fn no_result_has_the_name_of_another_shard() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml --shard 1/3 --into all");
+    let shard = std::fs::read_dir(bench.path("all")).unwrap();
+    let mut names = shard.map(|entry| entry.unwrap().file_name().into_string().unwrap());
+    let name = names.find(|name| name.ends_with(".h5")).unwrap();
+    let before = bench.bytes(&format!("all/{name}"));
+    for call in ["sweep study.toml", "sweep study.toml --shard 2/3"] {
+        let told = bench.complaint(&format!("{call} -o all/{name}"), 2);
+        assert!(told.contains("name of a shard, 1 of 3"), "{told}");
+    }
+    assert!(bench.bytes(&format!("all/{name}")) == before);
+    bench.text(&format!("sweep study.toml --shard 1/3 -o {name}"));
+}

@@ -80,6 +80,8 @@ fn what_is_missing_is_named_and_goes_on() {
     }
     let told = bench.text("status all --watch");
     assert!(told.contains("4 of 4 shards done"), "{told}");
+    // The name that one call gives the result of a `study.toml`.
+    assert!(told.contains(".study.h5"), "{told}");
     assert_eq!(bench.run("status all --unfinished").stdout, b"\n");
     bench.text("merge all -o merged.h5");
     bench.text("sweep study.toml -o whole.h5");

@@ -1,6 +1,7 @@
 //! Is the gap wide enough? Demand by simulation of the isolated buildings, gaps by code,
 //! and what pounding does at the provided gap and at many others.
 
+mod averaged;
 mod band_extremes;
 mod code_answer;
 mod codes;

@@ -1,12 +1,15 @@
 //! Records that are one motion under several names.
 
+use std::cell::OnceCell;
+
 use pounding_catalogue::wording::counted;
 use pounding_ground_motion::Accelerogram;
 
+use super::averaged::Averaged;
 use super::records::CaseUnderRecord;
 
 /// Which records are copies of others: the same samples as they are used, but for a factor, its
-/// sign, what is cut off at the ends, and digits.
+/// sign, what is cut off at the ends, digits, and the time step.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
 pub struct Repeated {
     /// Records of one motion, by their numbers from zero: two or more together.
@@ -43,7 +46,7 @@ impl Repeated {
             let names: Vec<&str> = group.iter().map(|r| names[*r]).collect();
             let (last, others) = names.split_last().unwrap_or((&"", &[]));
             format!(
-                "{} and {last} are the same motion, at most scaled, reversed or cut: they are one record, of {} in all, and weigh in every statistic as several; name each record once",
+                "{} and {last} are the same motion, at most scaled, reversed, cut or at another time step: they are one record, of {} in all, and weigh in every statistic as several; name each record once",
                 others.join(", "),
                 counted(self.distinct, "record"),
             )
@@ -66,6 +69,10 @@ pub(crate) struct Shape<'a> {
     peak: Option<usize>,
     /// Sum of all squares.
     squares: f64,
+    /// Whether it may be that of a record at another time step.
+    of_a_file: bool,
+    /// The motion whatever its samples, where it comes to that.
+    averaged: OnceCell<Averaged<'a>>,
 }
 
 impl<'a> Shape<'a> {
@@ -76,14 +83,41 @@ impl<'a> Shape<'a> {
             time_step: record.time_step(),
             peak: place_of_peak(samples),
             squares: samples.iter().map(|x| x * x).sum(),
+            of_a_file: true,
+            averaged: OnceCell::new(),
         }
     }
 
-    /// Whether the record is the other one times a factor, cut at other times or in other digits.
-    pub(crate) fn is_that_of(&self, other: &Self) -> bool {
-        if (self.time_step - other.time_step).abs() > 1.0e-9 * self.time_step {
-            return false;
+    /// That of a motion that a generator made, of which none is sampled from another one.
+    pub(crate) fn of_generated(motion: &'a Accelerogram) -> Self {
+        Self {
+            of_a_file: false,
+            ..Self::of(motion)
         }
+    }
+
+    /// Whether the record is the other one times a factor, cut at other times, in other digits or at
+    /// another time step.
+    pub(crate) fn is_that_of(&self, other: &Self) -> bool {
+        if self.has_step_of(other) {
+            return self.has_samples_of(other);
+        }
+        let moves = self.peak.is_some() && other.peak.is_some();
+        let from_files = self.of_a_file && other.of_a_file;
+        from_files && moves && self.averaged().is_that_of(other.averaged())
+    }
+
+    fn has_step_of(&self, other: &Self) -> bool {
+        (self.time_step - other.time_step).abs() <= 1.0e-9 * self.time_step
+    }
+
+    fn averaged(&self) -> &Averaged<'a> {
+        self.averaged
+            .get_or_init(|| Averaged::of(self.samples, self.time_step))
+    }
+
+    /// The same at one time step: by the samples themselves.
+    fn has_samples_of(&self, other: &Self) -> bool {
         let (first, second) = (self.samples, other.samples);
         let (Some(i), Some(j)) = (self.peak, other.peak) else {
             // Both are zero throughout, or one of them.
@@ -165,8 +199,31 @@ mod tests {
         // The same samples at another time step are another motion.
         let unit = AccelerationUnit::MetrePerSecondSquared;
         let slow = Accelerogram::new(all, unit, 0.02).unwrap();
-        assert!(!are_one_motion(&whole, &slow));
+        assert!(!are_one_motion(&whole, &slow) && !are_one_motion(&slow, &whole));
+        // Two motions of equal envelopes and bands.
+        assert!(!are_one_motion(&record(motion(2.0)), &record(motion(2.6))));
         let zeros = record(vec![0.0; 10]);
         assert!(are_one_motion(&zeros, &record(vec![0.0; 12])) && !are_one_motion(&zeros, &whole));
+    }
+
+    /// Twice as many samples on straight lines, and every second one alone, reversed and cut.
+    #[test]
+    fn one_motion_at_another_time_step() {
+        let all = motion(0.3);
+        let whole = record(all.clone());
+        let unit = AccelerationUnit::MetrePerSecondSquared;
+        let between = all.windows(2).map(|pair| 0.5 * (pair[0] + pair[1]));
+        let fine = all.iter().zip(between).flat_map(|(x, half)| [*x, half]);
+        let fine = Accelerogram::new(fine.collect(), unit, 0.005).unwrap();
+        let coarse = all.iter().skip(21).step_by(2).map(|x| -2.0 * x);
+        let coarse = Accelerogram::new(coarse.collect(), unit, 0.02).unwrap();
+        let other = record(motion(0.31));
+        for copy in [&fine, &coarse] {
+            assert!(are_one_motion(&whole, copy) && are_one_motion(copy, &whole));
+            assert!(!are_one_motion(&other, copy) && !are_one_motion(copy, &other));
+        }
+        assert!(are_one_motion(&fine, &coarse) && are_one_motion(&coarse, &fine));
+        let made = Shape::of_generated(&whole);
+        assert!(!made.is_that_of(&Shape::of(&fine)));
     }
 }

@@ -86,7 +86,10 @@ impl Motions {
             let (Ok(motion), Some(record)) = (motion, record) else {
                 continue;
             };
-            let shape = Shape::of(record);
+            let shape = match &source.kind {
+                RecordKind::File { .. } => Shape::of(record),
+                RecordKind::Made { .. } | RecordKind::Refused(_) => Shape::of_generated(record),
+            };
             motion.first = match firsts.iter().find(|(_, first)| first.is_that_of(&shape)) {
                 Some((first, _)) => first.clone(),
                 None => {

@@ -271,7 +271,11 @@ fn missing(
     let known = base.files();
     let mut own = case.files().into_iter().filter(|f| !known.contains(f));
     own.find_map(|(what, path)| {
-        let error = std::fs::metadata(&path).err()?;
+        let error = match std::fs::metadata(&path) {
+            Err(error) => error.to_string(),
+            Ok(found) if found.is_dir() => "it is a folder, not a file".to_owned(),
+            Ok(_) => return None,
+        };
         let place = match path == case.resolve(&case.ground_motion.file.value) {
             true => file.clone(),
             false => record.clone(),

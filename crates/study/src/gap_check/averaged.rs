@@ -52,7 +52,10 @@ impl<'a> Averaged<'a> {
             averages: Vec::new(),
             times: [0.0; PARTS.len()],
         };
-        let count = (averaged.duration() / STEP) as usize + 1;
+        let count = match time_step <= HALF_BASE {
+            true => (averaged.duration() / STEP) as usize + 1,
+            false => 0,
+        };
         let all = (0..count).map(|i| averaged.at(STEP * i as f64));
         averaged.averages = all.collect();
         averaged.times = PARTS.map(|part| averaged.time_of(part));
@@ -97,8 +100,12 @@ impl<'a> Averaged<'a> {
         u + tau * (v + tau * (0.5 * self.samples[i] + tau * slope / 6.0))
     }
 
-    /// Whether the motion is the other one times a factor, sampled at other times.
+    /// Whether the motion is the other one times a factor, sampled at other times. Of records whose
+    /// steps are longer than averages nothing can be said.
     pub(super) fn is_that_of(&self, other: &Self) -> bool {
+        if self.averages.is_empty() || other.averages.is_empty() {
+            return false;
+        }
         let half = PARTS.len() / 2;
         let about = other.times[half] - self.times[half];
         let allowed = APART[0] + APART[1] * (self.times[PARTS.len() - 1] - self.times[0]);

@@ -56,6 +56,14 @@ def test_types_are_right() -> None:
     assert ended.returncode == 0, ended.stdout + ended.stderr
 
 
+def test_the_stub_of_the_native_part_is_that_of_the_module(tmp_path: Path) -> None:
+    pytest.importorskip("mypy")
+    (tmp_path / "mypy.ini").write_text("[mypy]\nignore_missing_imports = True\n")
+    call = [sys.executable, "-m", "mypy.stubtest", "pounding._native", "--mypy-config-file", "mypy.ini"]
+    ended = subprocess.run(call, cwd=tmp_path, capture_output=True, text=True, check=False)
+    assert ended.returncode == 0, ended.stdout + ended.stderr
+
+
 #: What users write, with what a checker says of it.
 TYPED = """
 import pounding

@@ -1,19 +1,39 @@
 """The native part: see the modules that wrap it."""
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypeAlias, final
 
 import numpy as np
 import numpy.typing as npt
 
-Array = npt.NDArray[np.float64]
-Progress = Callable[[int, int], object]
+_Array: TypeAlias = npt.NDArray[np.float64]
+_Progress: TypeAlias = Callable[[int, int], object]
 #: A number (SI), or a text with a unit.
-Quantity = float | str
+_Quantity: TypeAlias = float | str
+
+__all__ = [
+    "__version__",
+    "BUILD",
+    "command_line",
+    "Case",
+    "Motion",
+    "periods",
+    "formats",
+    "Run",
+    "run",
+    "run_many",
+    "models_json",
+    "collide",
+    "run_study",
+    "has_ida",
+    "gap_check_json",
+    "compare_json",
+]
 
 __version__: str
 BUILD: str
 
+@final
 class Case:
     @staticmethod
     def from_text(source: str, file: str) -> Case: ...
@@ -36,8 +56,9 @@ class Case:
     def gaps(self) -> list[str]: ...
     def check_json(self) -> str: ...
 
+@final
 class Motion:
-    def __init__(self, acceleration: Array, time_step: Quantity, unit: str) -> None: ...
+    def __new__(cls, acceleration: _Array, time_step: _Quantity, unit: str) -> Motion: ...
     @staticmethod
     def read(
         path: str,
@@ -45,25 +66,25 @@ class Motion:
         format: str | None,
         component: str | None,
         unit: str | None,
-        time_step: Quantity | None,
+        time_step: _Quantity | None,
         quantity: str | None,
         skip_lines: int,
         skip_columns: int,
         prepend_zero: bool,
         layout: str | None,
-        sensitivity: Quantity | None,
+        sensitivity: _Quantity | None,
         lenient: bool,
         response: str | None,
-        gravity: Quantity | None,
+        gravity: _Quantity | None,
         offset: str | None,
     ) -> Motion: ...
     @staticmethod
     def restored(
-        acceleration: Array, time_step: float, history: str, file: str | None
+        acceleration: _Array, time_step: float, history: str, file: str | None
     ) -> Motion: ...
     def history_json(self) -> str: ...
     @property
-    def acceleration(self) -> Array: ...
+    def acceleration(self) -> _Array: ...
     @property
     def time_step(self) -> float: ...
     @property
@@ -75,11 +96,12 @@ class Motion:
     @property
     def description(self) -> list[str]: ...
     def origin_json(self) -> str: ...
-    def scaled_by(self, factor: Quantity) -> Motion: ...
-    def scaled_to_peak(self, peak: Quantity) -> Motion: ...
-    def spectrum(self, periods: Array, damping: Quantity) -> dict[str, Array]: ...
-    def measures_json(self, damping: Quantity) -> str: ...
+    def scaled_by(self, factor: _Quantity) -> Motion: ...
+    def scaled_to_peak(self, peak: _Quantity) -> Motion: ...
+    def spectrum(self, periods: _Array, damping: _Quantity) -> dict[str, _Array]: ...
+    def measures_json(self, damping: _Quantity) -> str: ...
 
+@final
 class Run:
     def summary_json(self) -> str: ...
     @property
@@ -95,9 +117,9 @@ class Run:
     @property
     def gap_columns(self) -> list[tuple[str, int, int]]: ...
     @property
-    def time(self) -> Array: ...
-    def array(self, name: str) -> Array: ...
-    def energy(self) -> dict[str, Array]: ...
+    def time(self) -> _Array: ...
+    def array(self, name: str) -> _Array: ...
+    def energy(self) -> dict[str, _Array]: ...
     def impacts(self) -> dict[str, Any]: ...
     def to_hdf5(self, path: str) -> None: ...
     def image(self) -> bytes: ...
@@ -105,28 +127,28 @@ class Run:
     def write_page(self, path: str, page: str) -> None: ...
 
 def command_line(arguments: list[str]) -> int: ...
-def periods(first: float, last: float, count: int) -> Array: ...
+def periods(first: float, last: float, count: int) -> _Array: ...
 def formats() -> list[tuple[str, str]]: ...
 def run(
-    case: Case, histories: bool = True, isolated: bool = True, progress: Progress | None = None
+    case: Case, histories: bool = True, isolated: bool = True, progress: _Progress | None = None
 ) -> Run: ...
 def run_many(
     cases: list[Case],
     threads: int,
     histories: bool = False,
     isolated: bool = False,
-    progress: Progress | None = None,
+    progress: _Progress | None = None,
 ) -> list[Run | BaseException]: ...
 def models_json(name: str | None = None) -> str: ...
 def collide(
     model: str,
-    parameters: list[tuple[str, Quantity]],
-    mass_left: Quantity,
-    mass_right: Quantity | None,
-    velocity_left: Quantity,
-    velocity_right: Quantity,
+    parameters: list[tuple[str, _Quantity]],
+    mass_left: _Quantity,
+    mass_right: _Quantity | None,
+    velocity_left: _Quantity,
+    velocity_right: _Quantity,
     separation: str | None = None,
-    spring: list[tuple[Quantity, Quantity]] | None = None,
+    spring: list[tuple[_Quantity, _Quantity]] | None = None,
 ) -> dict[str, Any]: ...
 def has_ida(study: str) -> bool: ...
 def run_study(
@@ -138,7 +160,7 @@ def run_study(
     resume: bool = False,
     keep_going: bool = False,
     evaluated: bool = False,
-    progress: Progress | None = None,
+    progress: _Progress | None = None,
 ) -> tuple[str, str | None]: ...
 def gap_check_json(
     case: Case,
@@ -149,22 +171,22 @@ def gap_check_json(
     rules: str | None,
     provisions: list[str],
     entries: dict[str, Any] | None,
-    probability: Quantity,
-    confidence: Quantity,
+    probability: _Quantity,
+    confidence: _Quantity,
     points: int,
-    widths: tuple[Quantity | None, Quantity | None],
+    widths: tuple[_Quantity | None, _Quantity | None],
     gap: str | None,
     threads: int,
-    progress: Progress | None = None,
+    progress: _Progress | None = None,
 ) -> str: ...
 def compare_json(
     case: Case,
     models: list[str],
     motions: list[tuple[str, Any]],
-    restitution: Quantity | None,
-    approach_velocity: Quantity | None,
+    restitution: _Quantity | None,
+    approach_velocity: _Quantity | None,
     same_duration: bool,
     exact: bool,
     threads: int,
-    progress: Progress | None = None,
+    progress: _Progress | None = None,
 ) -> str: ...

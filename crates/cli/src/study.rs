@@ -87,7 +87,11 @@ pub fn options(
         files.fills(folder, parts_folder(&output));
     }
     reads_too(files, study.files())?;
-    writable(&output)?;
+    // What stands there and is gone on with is left as it is where it is complete, and refused else.
+    let goes_on = running.resume || into.is_some();
+    if !(goes_on && output.is_file()) {
+        writable(&output)?;
+    }
     let replaced = Replaced {
         output: &output,
         kind: Kind::Study,
@@ -95,7 +99,7 @@ pub fn options(
         text_sha256: Some(text_sha256(study)),
         named: running.output.is_some() || into.is_some(),
     };
-    replaced.spared(running.resume || into.is_some())?;
+    replaced.spared(goes_on)?;
     if let Some(csv) = &running.csv {
         table_has_a_place(csv)?;
     }
@@ -116,7 +120,7 @@ pub fn options(
         threads: running.threads.map_or(cores, |n| n as usize),
         shard: shard.unwrap_or(Shard::WHOLE),
         // What stands in a folder of shards is gone on with, or refused.
-        resume: running.resume || into.is_some(),
+        resume: goes_on,
         store_every,
         keep_going: running.keep_going,
         shared: into.map(Path::to_owned),
@@ -192,13 +196,12 @@ pub fn run(
     // Until the folder of the finished runs is there, there is nothing to go on with.
     interruption::resume_with(interruption::shell_line(&interruption::this_command()));
     let mut begun = false;
-    let heartbeat = into.map(|folder| {
-        Heartbeat::begin(
-            folder,
-            &ShardName::of_study_file(&study.file, options.shard),
-        )
-    });
-    let mut heartbeat = heartbeat.transpose()?;
+    let name = ShardName::of_study_file(&study.file, options.shard);
+    let mut heartbeat = match into.map(|folder| Heartbeat::begin(folder, &name)) {
+        // A finished shard is read where nothing can be written any more.
+        Some(Err(_)) if options.output.is_file() => None,
+        begun => begun.transpose()?,
+    };
     let progress = Progress::begin(Unit::Runs)?;
     let report = make(study, options, &mut |now| {
         if is_child() {

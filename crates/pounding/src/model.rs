@@ -235,7 +235,7 @@ impl Model {
     /// record. What stood under its name is untouched then.
     pub fn run_to_file(&self, path: impl AsRef<std::path::Path>) -> Result<Outcome, Error> {
         use pounding_results::{RunEnding, RunHead, RunWriter};
-        use pounding_time_history::{GridRecorder, TimeHistoryError};
+        use pounding_time_history::{GridRecorder, IsolatedRun, TimeHistoryError, run_isolated};
 
         if !(self.output_step.is_finite() && self.output_step > 0.0) {
             return Err(Error::Run(TimeHistoryError::Option {
@@ -267,13 +267,10 @@ impl Model {
             return Err(failure.into());
         }
         let outcome = outcome?;
-        let isolated = self.isolated().run();
+        let isolated = run_isolated(&self.system, &self.options, &mut [], &mut |_| {});
         let mut warnings = self.warnings(&outcome);
-        // What is there for comparison does not take the result away.
-        let isolated = isolated.unwrap_or_else(|error| {
-            warnings.push(format!("without gaps and links: {error}"));
-            outcome.with_unknown_peaks()
-        });
+        let (isolated, told) = IsolatedRun::beside(&outcome, isolated);
+        warnings.extend(told);
         writer.responses.finish(&RunEnding {
             outcome: &outcome,
             isolated: &isolated,

@@ -14,8 +14,8 @@ use pounding_files::checksum::Checksum;
 use pounding_report::{RunResult, page};
 use pounding_results::{Kind, RunEnding, RunHead, check_size, image, run_in_memory, write_run};
 use pounding_time_history::{
-    Energy, GridRecorder, History, Impact, Outcome, Recorder, Summary, TimeHistoryError,
-    in_parallel, run as integrate,
+    Energy, GridRecorder, History, Impact, IsolatedRun, Outcome, Recorder, Summary,
+    TimeHistoryError, in_parallel, run as integrate, run_isolated,
 };
 use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
@@ -65,14 +65,12 @@ impl Run {
         let started = Instant::now();
         let recorder = || GridRecorder::new(assembly.output_step).map_err(failed);
         let mut recorder = wanted.histories.then(recorder).transpose()?;
-        let mut without = wanted.isolated.then(|| system.isolated());
         let (outcome, isolated) = std::thread::scope(|scope| {
             // Neither run depends on the other.
-            let beside = without.as_mut().map(|system| {
-                let system = &*system;
+            let beside = wanted.isolated.then(|| {
                 let work = move || {
                     let mut stop = Stop(watch);
-                    integrate(system, options, &mut [&mut stop], &mut |_| {})
+                    run_isolated(system, options, &mut [&mut stop], &mut |_| {})
                 };
                 scope.spawn(work)
             });
@@ -88,15 +86,10 @@ impl Run {
         });
         let outcome = outcome.map_err(failed)?;
         let mut warnings = assembly.with_those_of_the_record(&outcome.warnings);
-        // What the buildings do without their neighbours is for comparison: where it has no
-        // end, the run still has one.
         let isolated = isolated.map(|isolated| {
-            isolated.unwrap_or_else(|error| {
-                warnings.push(format!(
-                    "without gaps and links: {error}; there is nothing to compare with"
-                ));
-                outcome.with_unknown_peaks()
-            })
+            let (isolated, told) = IsolatedRun::beside(&outcome, isolated);
+            warnings.extend(told);
+            isolated
         });
         // Thousands of runs are kept.
         assembly.system.release_tables();

@@ -445,37 +445,47 @@ impl Outcome {
     /// gaps where that one failed.
     #[must_use]
     pub fn with_unknown_peaks(&self) -> Self {
-        let unknown = Peak {
-            value: f64::NAN,
-            time: f64::NAN,
-        };
-        let mut outcome = self.clone();
-        for storey in outcome.buildings.iter_mut().flat_map(|b| &mut b.storeys) {
-            *storey = StoreyPeaks {
-                displacement: unknown,
-                drift_ratio: unknown,
-                storey_shear: unknown,
-                acceleration_absolute: unknown,
-            };
+        let all: Vec<usize> = (0..self.buildings.len()).collect();
+        let mut outcome = self.with_unknown_peaks_of(&all);
+        let levels = outcome.gaps.iter_mut().flat_map(|g| &mut g.levels);
+        for response in levels.flat_map(|l| &mut l.responses) {
+            response.peak = UNKNOWN;
         }
-        for building in &mut outcome.buildings {
-            building.base_moment = building.base_moment.map(|_| unknown);
+        outcome
+    }
+
+    /// The same with the peaks of some buildings, by their numbers, unknown.
+    pub(crate) fn with_unknown_peaks_of(&self, buildings: &[usize]) -> Self {
+        let mut outcome = self.clone();
+        for index in buildings {
+            let building = &mut outcome.buildings[*index];
+            building.storeys.fill(StoreyPeaks {
+                displacement: UNKNOWN,
+                drift_ratio: UNKNOWN,
+                storey_shear: UNKNOWN,
+                acceleration_absolute: UNKNOWN,
+            });
+            building.base_moment = building.base_moment.map(|_| UNKNOWN);
             building.isolator = building.isolator.map(|isolator| IsolatorOutcome {
-                displacement: unknown,
-                force: unknown,
+                displacement: UNKNOWN,
+                force: UNKNOWN,
                 effective_period: f64::NAN,
                 effective_damping_ratio: f64::NAN,
                 ..isolator
             });
-        }
-        let buildings = outcome.buildings.iter_mut().flat_map(|b| &mut b.responses);
-        let levels = outcome.gaps.iter_mut().flat_map(|g| &mut g.levels);
-        for response in buildings.chain(levels.flat_map(|l| &mut l.responses)) {
-            response.peak = unknown;
+            for response in &mut building.responses {
+                response.peak = UNKNOWN;
+            }
         }
         outcome
     }
 }
+
+/// A peak that is not known.
+const UNKNOWN: Peak = Peak {
+    value: f64::NAN,
+    time: f64::NAN,
+};
 
 /// Result of a run.
 #[derive(Debug, Clone, PartialEq)]

@@ -10,6 +10,7 @@ mod coupled;
 mod equal_periods;
 mod forces;
 mod general;
+mod isolated_collapse;
 mod isolation;
 mod motions;
 mod reference;

@@ -9,7 +9,8 @@ use pounding_files::FileUse;
 use pounding_report::pictures::run::Responses;
 use pounding_results::{Kind, RunEnding, RunHead, RunWriter, WriteError};
 use pounding_time_history::{
-    GridRecorder, HistorySink, Outcome, Recorder, Summary, TimeHistoryError, run as integrate,
+    GridRecorder, HistorySink, IsolatedRun, Outcome, Recorder, Summary, TimeHistoryError,
+    run as integrate, run_isolated,
 };
 
 use crate::arguments::RunArguments;
@@ -75,14 +76,8 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
     let span = tracing::info_span!("write").entered();
     let wall_time = started.elapsed().as_secs_f64();
     let mut warnings = assembly.with_those_of_the_record(&outcome.warnings);
-    // What the buildings do without their neighbours is for comparison: where it has no end,
-    // the run still has one.
-    let isolated = isolated.unwrap_or_else(|error| {
-        warnings.push(format!(
-            "without gaps and links: {error}; there is nothing to compare with"
-        ));
-        outcome.with_unknown_peaks()
-    });
+    let (isolated, told) = IsolatedRun::beside(&outcome, isolated);
+    warnings.extend(told);
     if let Some(writer) = writer {
         writer.responses.finish(&RunEnding {
             outcome: &outcome,
@@ -149,8 +144,8 @@ fn output_path(arguments: &RunArguments) -> PathBuf {
     })
 }
 
-/// The outcome of the buildings without gaps, or why there is none.
-type Isolated = Result<Outcome, TimeHistoryError>;
+/// The buildings without gaps, or why there is no such run.
+type Isolated = Result<IsolatedRun, TimeHistoryError>;
 
 /// The run and, at the same time, the same buildings without gaps. Neither depends on the
 /// other, so that threads do not change a bit of either. The second may fail by itself.
@@ -160,7 +155,6 @@ fn integrate_both(
     progress: &Progress,
 ) -> Result<(Outcome, Isolated), TimeHistoryError> {
     let options = &assembly.options;
-    let system = assembly.system.isolated();
     // Thousandths, of which contacts and recording take more.
     let shares = [AtomicUsize::new(0), AtomicUsize::new(0)];
     let done = |run: usize, part: f64| {
@@ -169,7 +163,11 @@ fn integrate_both(
         let [with, without] = shares.each_ref().map(|s| s.load(Ordering::Relaxed));
         progress.show(with + without, 1000, "");
     };
-    let without = || integrate(&system, options, &mut [], &mut |part| done(1, part));
+    let without = || {
+        run_isolated(&assembly.system, options, &mut [], &mut |part| {
+            done(1, part)
+        })
+    };
     std::thread::scope(|scope| {
         let thread = std::thread::Builder::new().spawn_scoped(scope, without);
         let outcome = integrate(&assembly.system, options, recorders, &mut |part| {

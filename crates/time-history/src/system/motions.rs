@@ -869,11 +869,14 @@ impl System {
         Some(peak)
     }
 
-    /// Ground motion along the row under a building, by its number in
-    /// [`System::ground_motions`].
-    pub(crate) fn motion_under(&self, building: usize) -> usize {
+    /// Ground motions under a building, by their numbers in [`System::ground_motions`].
+    pub(crate) fn support(&self, building: usize) -> Support {
+        let first = Support {
+            along: 0,
+            across: None,
+        };
         let motions = self.motions.as_ref();
-        motions.map_or(0, |m| m.supports[building].along)
+        motions.map_or(first, |m| m.supports[building])
     }
 
     /// Degree of freedom that is the displacement of a ground motion; made when first asked for.

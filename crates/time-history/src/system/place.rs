@@ -121,7 +121,7 @@ impl System {
 
     /// Displacements of the ground, where it is not the same on both sides.
     fn add_ground(&mut self, sides: &[Side; 2], floors: [Floor; 2], terms: &mut Terms) {
-        let motions = [0, 1].map(|k| sides[k].building.map(|b| self.motion_under(b)));
+        let motions = [0, 1].map(|k| sides[k].building.map(|b| self.support(b).along));
         let fixed = floors.contains(&Floor::FixedWall);
         let moves = match motions {
             [Some(a), Some(b)] => a != b,

@@ -235,7 +235,8 @@ fn scales_are_moved() {
     assert!(control["value"].as_str().unwrap().contains("spectrum"));
 }
 
-/// A model can be chosen where a building collapses without contact: there is nothing to be like.
+/// A model can be chosen where a building collapses without contact: there is nothing to be like. Such a
+/// case is sound, and so is one of more steps than a page takes.
 #[test]
 fn models_of_what_collapses() {
     let calibrate = json!({ "do": "calibrate", "changes": [], "gap": 0, "model": "hertz_1882" });
@@ -243,7 +244,13 @@ fn models_of_what_collapses() {
     let open = json!({ "do": "open", "name": "case.toml", "$text": falling(&pair("31 s")) });
     let massless = json!([{ "path": "building.0.mass", "value": 0 }]);
     let refused = json!({ "do": "run", "changes": massless, "frames": 0 });
-    let answers = natively(&of_the_pair(vec![open, calibrate, run, refused]));
+    let endless = pair("31 s").replacen(
+        "[analysis]",
+        "[analysis]\nmethod = \"newmark\"\nstep = \"1e-7 s\"",
+        1,
+    );
+    let long = json!({ "do": "open", "name": "case.toml", "$text": endless });
+    let answers = natively(&of_the_pair(vec![open, calibrate, run, refused, long]));
     assert_eq!(answers[3]["keys"][0], json!(["model", "hertz_1882"]));
     let fault = &answers[4]["faults"][0];
     assert!(fault["message"].as_str().unwrap().contains("collapsed"));
@@ -255,6 +262,12 @@ fn models_of_what_collapses() {
             .unwrap()
             .contains("above zero")
     );
+    let fault = &answers[6]["faults"][0];
+    assert!(
+        fault["message"].as_str().unwrap().contains("steps"),
+        "{fault}"
+    );
+    assert_eq!(fault["sound"], true);
 }
 
 /// A pair whose light building falls by itself.

@@ -2,7 +2,7 @@
 
 python ask_page.py PAGE.html EXPRESSION...
 
-The expressions are JavaScript; the answers are a JSON list. `@screen` and `@print` in the place of one change the medium.
+The expressions are JavaScript; the answers are a JSON list. `@screen` and `@print` in the place of one change the medium, `@400` the width.
 Chromium is named by POUNDING_CHROMIUM.
 """
 
@@ -31,7 +31,9 @@ def main(file, *expressions):
             time.sleep(0.1)
         answers = []
         for expression in expressions:
-            if expression.startswith("@"):
+            if expression[:1] == "@" and expression[1:].isdigit():
+                page.wide(int(expression[1:]))
+            elif expression.startswith("@"):
                 page.call("Emulation.setEmulatedMedia", media=expression[1:])
             else:
                 answers.append(page.value(expression))

@@ -292,7 +292,12 @@ def in_chromium(arguments, pictures):
         until(shared, opened_with)
         garbage = browser.open(url + "#%7Bnothing")
         until(garbage, f"{DATA}.ready === 'true' && document.querySelectorAll('.fault').length === 1")
-        for one in (page, shared, garbage):
+        # What cannot be run is left out, and said.
+        refused = browser.open(url + "#%7B%22entries%22%3A%7B%22gap.0.width%22%3A%22abc%22%7D%7D")
+        until(refused, f"{DATA}.ready === 'true' && Number({DATA}.runs) > 0 && document.querySelectorAll('.fault').length === 1")
+        assert "the address" in told(refused) and "abc" in told(refused), told(refused)
+        assert refused.value("document.getElementById('control-gap.0.width').value") == "20"
+        for one in (page, shared, garbage, refused):
             foreign = [r for r in one.requests if not r.startswith((url, "blob:", "data:"))]
             assert not foreign, foreign
             assert not one.complaints, one.complaints

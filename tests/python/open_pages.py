@@ -25,6 +25,13 @@ PAPER = {"A4": (8.27, 11.69), "Letter": (8.5, 11.0)}
 MARGIN = 2 * 12 / 25.4
 
 
+# Headings of the curves of a run that pass the edge of their picture, once that has its new size.
+CUT = (
+    "(async () => { for (let i = 0; i < 2; i++) await new Promise((next) => requestAnimationFrame(next));"
+    "return [...document.querySelectorAll('[data-heading]')].filter((e) => e.getBoundingClientRect().right > e.closest('svg').getBoundingClientRect().right + 0.5).map((e) => e.textContent); })()"
+)
+
+
 def bare(text):
     """Without blanks and line ends, and with the letters of ligatures."""
     return re.sub(r"\s|\u00ad", "", unicodedata.normalize("NFKC", text))
@@ -41,6 +48,8 @@ def looks(page):
             page.wide(width, dark=dark, touch=width < 500)
             shown = page.value("[document.documentElement.scrollWidth, document.body.scrollWidth]")
             assert max(shown) <= width, (width, shown)
+            cut = page.value(CUT)
+            assert cut == [], (width, cut)
             colours = page.value(
                 "['backgroundColor','color'].map(n => getComputedStyle(document.body)[n])"
             )
@@ -221,6 +230,13 @@ def curves(page, file, data):
     assert abs(page.value(span) / whole - 0.5) < 1e-9
     drawn = page.value(f"{chart}.querySelectorAll('path.opening, path.force').length")
     assert drawn == 2
+    caption = (
+        "((factor, select) => { select.value = factor; select.dispatchEvent(new Event('change'));"
+        "return document.querySelector('[data-part=factor]').parentElement.textContent; })"
+    )
+    for factor, words in (("10", "gaps are drawn 10 times as wide as they are."), ("1", "gaps are drawn to scale too.")):
+        told = page.value(f"{caption}('{factor}', document.querySelector('[data-part=magnification]'))")
+        assert words in told, told
 
 
 def stands(browser, url):

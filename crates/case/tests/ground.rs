@@ -262,7 +262,7 @@ fn forces_that_cannot_be_are_refused_at_their_place() {
         (
             "storey = 1\npoints = [[-1, 5]]",
             "`points`",
-            "correct the value",
+            "write zero or a value above it",
         ),
         (
             "storey = 1\npoints = [[\"1 kN\", 5]]",

@@ -166,7 +166,7 @@ fn mistakes_are_placed() {
     for (from, to, line, says) in [
         ("importance", "importanse", 20, "did you mean `importance`?"),
         ("[8, 5]", "[8, 5, 3]", 19, "one value per building"),
-        ("[8, 5]", "[8, -5]", 19, "correct the value"),
+        ("[8, 5]", "[8, -5]", 19, "write a value above zero"),
         ("\"frame\"", "[\"frame\"]", 21, "one value per building"),
         ("\"0.25 g\"", "\"0.25 m\"", 24, "correct the unit"),
         ("same_owner = true", "same_owner = 1", 22, "true or false"),

@@ -518,7 +518,7 @@ fn negative_or_zero_mass() {
         &[
             "case.toml:6:17",
             "must be greater than zero",
-            "correct the value",
+            "write a value above zero",
         ],
     );
     refused(

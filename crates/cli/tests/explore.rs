@@ -13,7 +13,7 @@ use serde_json::{Value, json};
 
 use crate::support::{Bench, run, text};
 
-fn root() -> PathBuf {
+pub fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
@@ -40,7 +40,7 @@ fn bytes_of(request: &Value) -> Vec<u8> {
 }
 
 /// The answers of the solver, as it is compiled for this machine.
-fn natively(requests: &[Value]) -> Vec<Value> {
+pub fn natively(requests: &[Value]) -> Vec<Value> {
     let mut explorer = Explorer::default();
     let answer = |request: &Value| {
         let mut plain = request.as_object().unwrap().clone();
@@ -89,7 +89,7 @@ fn under_node(requests: &[Value]) -> Option<Vec<Value>> {
 }
 
 /// The requests that open the README's pair, and these.
-fn of_the_pair(requests: Vec<Value>) -> Vec<Value> {
+pub fn of_the_pair(requests: Vec<Value>) -> Vec<Value> {
     let file = root().join("ground_motions/el_centro_1940_ns.csv");
     let case = root().join("examples/three_storey_pair/case.toml");
     let open = [
@@ -353,13 +353,13 @@ fn sweeps_of_a_row_are_of_their_gap() {
 
 /// What a page of a case says to expressions of JavaScript, once it has run the case and the widths
 /// of its gap; `None` where nothing opens pages.
-fn asked_of_page(case: &str, expressions: &[&str]) -> Option<Vec<Value>> {
+pub fn asked_of_page(case: &str, expressions: &[&str]) -> Option<Vec<Value>> {
     let bench = Bench::with(&case.replace("../../ground_motions", "MOTIONS"));
     asked_of(&bench, expressions)
 }
 
 /// The same of the case in a folder.
-fn asked_of(bench: &Bench, expressions: &[&str]) -> Option<Vec<Value>> {
+pub fn asked_of(bench: &Bench, expressions: &[&str]) -> Option<Vec<Value>> {
     let named = ["POUNDING_PYTHON", "POUNDING_CHROMIUM"].map(std::env::var_os);
     let [Some(python), Some(_)] = named else {
         eprintln!(
@@ -383,7 +383,7 @@ fn asked_of(bench: &Bench, expressions: &[&str]) -> Option<Vec<Value>> {
 }
 
 /// The text of a part of the page.
-fn part(name: &str) -> String {
+pub fn part(name: &str) -> String {
     format!("document.querySelector('[data-part={name}]').textContent")
 }
 
@@ -421,7 +421,9 @@ fn page_names_the_gap_of_its_curve() {
     let lines = told[2].as_array().unwrap();
     let head = lines[0].as_str().unwrap();
     assert!(
-        head.starts_with("gap,model,width,impacts,peak_force,"),
+        head.starts_with(
+            "gap,model,width_m,building,displacement_amplification,impacts,peak_force_n,"
+        ),
         "{head}"
     );
     let line = lines[1].as_str().unwrap();

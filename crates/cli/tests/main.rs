@@ -13,6 +13,7 @@ mod documents;
 mod examples;
 mod excitation;
 mod explore;
+mod explore_input;
 mod files;
 mod foundations;
 mod gap;

@@ -29,7 +29,8 @@ impl Answer {
 #[wasm_bindgen]
 impl Answer {
     /// The object as a JSON text. If anything is wrong it has `faults` alone, each with `message`,
-    /// `help` (or null) and the `line` of the case.
+    /// `help` (or null), the `line` of the case, and whether the case is `sound`: a building collapsed,
+    /// or the run takes longer than a page waits.
     #[must_use]
     pub fn text(&self) -> String {
         Value::from(self.object.clone()).to_string()

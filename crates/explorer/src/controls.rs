@@ -2,6 +2,7 @@
 //! what it is in a line, from the descriptors and from the schema of the case file.
 
 use pounding_case::{Building, Case, Gap, schema};
+use pounding_catalogue::numbers::significant;
 use pounding_gap_element::{ModelDescriptor, ParameterDescriptor, ParameterUnit, registry};
 use pounding_ground_motion::processing::Scale;
 use serde::Serialize;
@@ -29,7 +30,7 @@ struct Control {
     /// Where it stands in the case.
     path: String,
     /// `number`, `list` of one number a storey, `model`, `record` or `component` of it; `fixed`
-    /// for values that the page shows and does not move.
+    /// for values that the page shows and does not move, `said` for what is no number.
     kind: &'static str,
     /// Unit that it is shown and written in; empty for SI.
     unit: String,
@@ -275,8 +276,23 @@ fn of_motion(schema: &Value, case: &Case) -> Vec<Control> {
             let path = "ground_motion.scale.pga";
             Some(scale("scale: pga", path, ("g", gravity), *x))
         }
-        // What is more than a number is left as the case says it.
-        _ => None,
+        Some(Scale::PeakVelocity(x)) => {
+            let path = "ground_motion.scale.pgv";
+            Some(scale("scale: pgv", path, ("m/s", 1.0), *x))
+        }
+        Some(Scale::SpectralAcceleration { target, period, .. }) => {
+            let label = format!("scale: psa at {} s", significant(*period));
+            let path = "ground_motion.scale.psa";
+            Some(scale(&label, path, ("g", gravity), *target))
+        }
+        // Nearest to a spectrum is no number: it stays as the case says it.
+        Some(Scale::Band(_)) => Some(Control {
+            kind: "said",
+            value: json!("nearest to a spectrum over a band of periods"),
+            slider: None,
+            logarithmic: false,
+            ..scale("scale", "ground_motion.scale", ("", 1.0), 1.0)
+        }),
     };
     let component = case.ground_motion.component.as_ref();
     // A motion that is turned needs both.

@@ -17,6 +17,8 @@ pub(crate) struct Fault {
     pub help: Option<String>,
     /// The line of the case that it stands in; empty where it has none.
     pub line: String,
+    /// Whether the case is sound, and only its run came to no end here.
+    pub sound: bool,
 }
 
 /// Why a request has no other answer.
@@ -30,7 +32,16 @@ impl Refused {
             message: message.into(),
             help,
             line: String::new(),
+            sound: false,
         }])
+    }
+
+    /// The same of a case that is sound.
+    pub(crate) fn of_a_sound_case(mut self) -> Self {
+        for fault in &mut self.0 {
+            fault.sound = true;
+        }
+        self
     }
 
     /// The faults of a case, in its text.
@@ -40,6 +51,7 @@ impl Refused {
             message: error.to_string(),
             line: line(error.line).unwrap_or_default().trim().to_owned(),
             help: error.help,
+            sound: false,
         };
         Self(error.each().map(fault).collect())
     }
@@ -64,7 +76,14 @@ impl Refused {
 
 impl From<TimeHistoryError> for Refused {
     fn from(error: TimeHistoryError) -> Self {
-        Self::new(words(&error), error.help())
+        let refused = Self::new(words(&error), error.help());
+        match error {
+            // What looks at runs here ends those that take too long.
+            TimeHistoryError::Collapse { .. } | TimeHistoryError::Recorder(_) => {
+                refused.of_a_sound_case()
+            }
+            _ => refused,
+        }
     }
 }
 

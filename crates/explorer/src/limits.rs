@@ -86,21 +86,17 @@ pub(crate) fn case(case: &Case) -> Result<(), Refused> {
 pub(crate) fn run(assembly: &Assembly) -> Result<(), Refused> {
     let samples = assembly.accelerogram.samples().len();
     if samples > MOST_SAMPLES {
-        return Err(refuse(
-            samples,
-            MOST_SAMPLES,
-            "samples of the ground motion",
-        ));
+        return Err(
+            refuse(samples, MOST_SAMPLES, "samples of the ground motion").of_a_sound_case(),
+        );
     }
     let (system, options) = (&assembly.system, &assembly.options);
     let duration = options.duration.unwrap_or(system.record_duration());
     let steps = StepEstimate::new(system, &options.method, duration).steps;
     match steps <= MOST_STEPS {
         true => Ok(()),
-        false => Err(refuse(
-            format!("{steps:.1e}"),
-            format!("{MOST_STEPS:.0e}"),
-            "steps",
-        )),
+        false => Err(
+            refuse(format!("{steps:.1e}"), format!("{MOST_STEPS:.0e}"), "steps").of_a_sound_case(),
+        ),
     }
 }

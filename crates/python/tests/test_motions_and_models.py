@@ -298,7 +298,7 @@ def test_masses_are_above_zero() -> None:
         bodies = {"mass_left": 1e3, "mass_right": 1e3, name: -1}
         with pytest.raises(pounding.CaseError, match=f"^{name} = -1 must be greater than zero") as told:
             pounding.collide("linear_elastic", velocity_left=1.0, stiffness=1e8, **bodies)
-        assert told.value.help == "correct the value"
+        assert told.value.help == "write a value above zero"
 
 
 @pytest.mark.parametrize("name", ["format", "component", "unit", "quantity", "layout", "offset"])

@@ -175,6 +175,37 @@ fn the_answers_stand_in_the_page() {
     assert!(!html.contains("yielding"));
 }
 
+/// A building with many modes shows the first ones, and says so; few are all there.
+#[test]
+fn modes_that_are_left_out_are_said() {
+    let with = |modes: usize| {
+        let mut result = result();
+        result.buildings[0].period = (0..modes).map(|i| 1.0 / (i + 1) as f64).collect();
+        result.buildings[0].damping_ratio = vec![0.05; modes];
+        page(&result, "pair.h5").unwrap()
+    };
+    let [few, many] = [with(6), with(14)];
+    assert!(few.contains("aria-label=\"Modes\"") && !few.contains("The first"));
+    assert!(few.contains("<tr data-row=\"5\">"));
+    assert!(many.contains("<p class=\"note\">The first 12 of 14 modes.</p>"));
+}
+
+/// Displacements that are drawn as large as they are are to scale.
+#[test]
+fn what_is_drawn_as_it_is_is_to_scale() {
+    let mut result = result();
+    for building in &mut result.buildings {
+        for value in &mut building.displacement.values {
+            *value *= 10.0;
+        }
+    }
+    let html = page(&result, "pair.h5").unwrap();
+    assert!(
+        html.contains("drawn <span data-part=\"factor\">to scale too</span>."),
+        "{html}"
+    );
+}
+
 /// The energy is that of what acts: the ground, forces on floors, the motion at the start.
 #[test]
 fn energy_has_the_sources_of_the_case() {

@@ -294,9 +294,9 @@ macro_rules! ranges {
 ranges! {
     Any "Any value." &[], |value| true, format!(" = {value}"), "";
     AboveZero "Above zero." &[("exclusiveMinimum", 0.0)], |value| value > 0.0,
-        format!(" = {value} must be greater than zero"), "correct the value";
+        format!(" = {value} must be greater than zero"), "write a value above zero";
     FromZero "Zero or more." &[("minimum", 0.0)], |value| value >= 0.0,
-        format!(" = {value} must be zero or more"), "correct the value";
+        format!(" = {value} must be zero or more"), "write zero or a value above it";
     BelowOne "A damping ratio." &[("minimum", 0.0), ("exclusiveMaximum", 1.0)],
         |value| (0.0..1.0).contains(&value),
         format!("damping ratio {value} is not in 0..1"), "5 % of critical is 0.05 or \"5 %\"";

@@ -4,7 +4,7 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::{alike_buildings, gap, gap_in, json, named, root, text};
+use super::{alike_buildings, example_with, gap, gap_in, json, named, root, text};
 
 /// The sweep's table, picture and worst width. 60 mm by an independent fixed-step
 /// solution with the law of the three-storey pair: roof 0.1323 m against 0.114253 m.
@@ -158,4 +158,20 @@ fn a_sweep_of_one_gap_counts_its_own_impacts() {
     ];
     let together = json(&gap("row_of_five", &together));
     assert_eq!(together["sweep"]["runs"][0][0]["impacts"], all);
+}
+
+/// Tables that leave widths out say which they show.
+#[test]
+fn widths_that_are_left_out_are_said() {
+    let folder = example_with("\"20 mm\"");
+    let page = folder.path().join("gap.html");
+    let arguments = ["--points", "41", "--report", page.to_str().unwrap()];
+    let output = gap_in(folder.path(), &arguments);
+    let told = text(&output.stdout);
+    assert!(
+        told.contains("one width in every 3 shown, --csv writes all"),
+        "{told}"
+    );
+    let page = std::fs::read_to_string(page).unwrap();
+    assert!(page.contains("One width in every 3 is shown; --csv writes all."));
 }

@@ -24,7 +24,8 @@ const controlsOf = (state, documentation, actions) => {
     const from = () =>
       logarithmic ? Number((low * (high / low) ** (Number(input.value) / 1000)).toPrecision(3)) : Number(input.value) * factor;
     const stand = (x) => {
-      if (Number.isFinite(x)) input.value = String(to(x));
+      // Where nothing holds it stands at its left end.
+      input.value = Number.isFinite(x) ? String(to(x)) : input.min;
       input.setAttribute("aria-valuetext", Number.isFinite(x) ? `${shown(x / factor, 6)} ${control.unit}`.trim() : "left out");
     };
     stand(now);
@@ -194,10 +195,21 @@ const controlsOf = (state, documentation, actions) => {
       html("p", { class: "note" }, "Widths that differ by level are not moved here, the case file says them. ", more(documentation, control.page)),
     );
 
+  // What is no number, and stays as the case file says it.
+  const said = (control) =>
+    html(
+      "div",
+      { class: "control", "data-fixed": control.path },
+      html("span", {}, control.label),
+      html("span", { class: "value" }, control.value),
+      html("p", { class: "note" }, "Not moved here, the case file says it. ", more(documentation, control.page)),
+    );
+
   const made = {
     number,
     list,
     fixed,
+    said,
     model: (control) => {
       const options = actions.models().map((model) => [model.name, model.recommended ? `${model.name} (recommended)` : model.name]);
       const chosen = actions.models().find((model) => model.name === control.value);

@@ -27,8 +27,15 @@ const elements = (() => {
     if (size !== 0 && (size < 1e-3 || size >= 1e7)) return x.toExponential(digits - 1).replace("e+", "e");
     return String(rounded);
   };
-  // A text as a value of a table of comma-separated values.
-  const quoted = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+  // A text as a value of a table of comma-separated values, as those of the command line have it: what a
+  // spreadsheet would take for a formula has an apostrophe before it, unless it is a number or the sign of no unit.
+  const NUMBER = /^[-+]?((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|inf|infinity|nan)$/i;
+  const quoted = (text) => {
+    const cell = /^[=+\-@\t\r]/.test(text) && text !== "-" && !NUMBER.test(text) ? `'${text}` : text;
+    return /[",\n\r]/.test(cell) ? `"${cell.replaceAll('"', '""')}"` : cell;
+  };
+  // A number with the noun that it counts.
+  const counted = (count, noun) => `${count} ${noun}${count === 1 ? "" : "s"}`;
   // A number without the noise of a change of units.
   const clean = (x) => Number(x.toPrecision(12));
   // At most this many even steps between two values.
@@ -60,5 +67,5 @@ const elements = (() => {
     link.remove();
     setTimeout(() => URL.revokeObjectURL(address), 60000);
   };
-  return { part, html, svg, shown, quoted, clean, ticks, more, save };
+  return { part, html, svg, shown, quoted, counted, clean, ticks, more, save };
 })();

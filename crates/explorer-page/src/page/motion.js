@@ -1,7 +1,7 @@
 "use strict";
 // The buildings in motion. The run may be another at any moment: the time stays.
 const motion = (() => {
-  const { part, svg, shown } = elements;
+  const { part, svg, shown, counted } = elements;
   const MAGNIFICATIONS = [1, 2, 5, 10, 20, 50, 100, 200, 500];
   // A contact that is over stays in sight for this part of a second of the reader.
   const LASTING = 1 / 6;
@@ -56,7 +56,7 @@ const motion = (() => {
     const factor = magnification();
     scene.draw(factor, closed);
     part("instant").textContent = time.toFixed(3);
-    part("factor").textContent = shown(factor);
+    part("factor").textContent = factor === 1 ? "to scale too" : `${shown(factor)} times as wide as they are`;
     part("elevation").dataset.time = String(time);
     part("time").value = String(time);
     part("time").setAttribute("aria-valuetext", `${time.toFixed(2)} s`);
@@ -126,7 +126,7 @@ const motion = (() => {
     part("time").max = String(end);
     part("automatic").textContent = `automatic (${shown(answer.scene.magnification)})`;
     const names = answer.scene.bodies.map((body) => body.title).join(", ");
-    part("elevation").setAttribute("aria-label", `Elevation of ${names}, moving; ${closes.length} impacts`);
+    part("elevation").setAttribute("aria-label", `Elevation of ${names}, moving; ${counted(closes.length, "impact")}`);
     if (first && !matchMedia("(prefers-reduced-motion: reduce)").matches) play(true);
     else draw();
   };

@@ -28,12 +28,18 @@
   const given = data.rules || null;
   let rules = given;
 
+  // Impact models by the paths of their gaps that the reader chose and that are not in the state yet: a
+  // model is made like the one before, which takes a case that can be run.
+  const wishes = new Map();
+
   // What is wrong with the run that is looked at, and with what the reader asked for before. A run
   // that succeeds says nothing of the second.
   const wrong = { run: [], asked: [] };
   const told = (faults, of = "asked") => {
     wrong[of] = faults;
-    const all = [...wrong.asked, ...wrong.run];
+    // What both say is said once.
+    const same = (one) => (other) => other.message === one.message && other.line === one.line;
+    const all = [...wrong.asked, ...wrong.run].filter((fault, i, every) => every.findIndex(same(fault)) === i);
     const blocks = all.slice(0, 20).map((fault) =>
       html(
         "div",
@@ -46,15 +52,33 @@
     part("faults").replaceChildren(...blocks);
     part("faults").hidden = !blocks.length;
     // Answers of another state than that of the controls are not taken for its own.
-    const stale = wrong.run.length > 0;
-    part("main").classList.toggle("stale", stale);
-    part("stale").hidden = !stale;
+    part("main").classList.toggle("stale", wrong.run.length > 0);
+    const words = ofStale();
+    part("stale").textContent = words;
+    part("stale").hidden = words === "";
     downloads();
+  };
+  // A case that collapses, or takes longer than a page waits, is sound: it has no numbers here.
+  const isSound = () => wrong.run.every((fault) => fault.sound);
+  // What is said above answers that are not those of the controls.
+  const ofStale = () => {
+    if (!wrong.run.length) return "";
+    const models = [...wishes.values()].join(", ");
+    const sentences = isSound()
+      ? ["This input has no peaks, for the reason above; Case file and Share give it all the same.", run && "The answers below are of the last input that ran to its end, and there are no files of them."]
+      : [run && "The present input cannot be run, see above: the answers below are of the last input that could, and there are no files of them until it is corrected."];
+    if (models) sentences.push(`The impact model ${models} is taken up as soon as the input can be run.`);
+    return sentences.filter(Boolean).join(" ");
+  };
+  // Whoever changes something else has read what was told of what they asked for before.
+  const heard = () => {
+    if (wrong.asked.length) told([]);
   };
   // There are no files of answers of another state than that of the controls, nor of a part of them.
   const downloads = () => {
     const stale = wrong.run.length > 0;
-    for (const name of ["case", "peaks-csv"]) part(name).disabled = stale;
+    for (const name of ["case", "share"]) part(name).disabled = !isSound();
+    part("peaks-csv").disabled = stale;
     for (const name of ["sweep-csv", "png"]) part(name).disabled = stale || !sweep || !sweep.whole();
   };
 
@@ -91,21 +115,57 @@
     wanted = true;
     if (!busy && solver) settled = compute();
   };
+  // Takes up a model that was chosen, in the place of the one of these changes: whether it was, or why
+  // it cannot be.
+  const takeUp = async (changes) => {
+    const [path, model] = wishes.entries().next().value;
+    const gap = Number(path.split(".")[1]);
+    const answer = await solver.live.ask({ do: "calibrate", changes, gap, model });
+    // Something else was changed.
+    if (wanted || wishes.get(path) !== model) return { taken: true };
+    if (answer.faults) return { path, refused: answer.faults };
+    wishes.delete(path);
+    part("notes").textContent = answer.notes.join("; ");
+    state.model(path, answer.keys);
+    await describe();
+    return { taken: true };
+  };
+  // Whether controls are those of another state, as that which was chosen could not be run.
+  let undescribed = false;
   const compute = async () => {
     busy = true;
     while (wanted) {
       wanted = false;
+      // New controls would end the drag.
+      if (wishes.size && dragging) break;
       const changes = state.changes();
       working.begin();
+      const wish = wishes.size ? await takeUp(changes) : {};
+      if (wish.taken) {
+        working.end();
+        wanted = true;
+        continue;
+      }
       const answer = await solver.live.ask({ do: "run", changes, frames: dragging ? FEW : MANY });
       working.end();
       if (answer.faults) {
         // What is wrong with a state that is no longer wanted helps nobody.
-        if (!wanted) told(answer.faults, "run");
+        if (!wanted) {
+          told(answer.faults, "run");
+          if (undescribed && isSound() && !dragging) await describe();
+        }
         continue;
+      }
+      if (wish.refused) {
+        if (wanted) continue;
+        // The case can be run, with the model that it has.
+        wishes.delete(wish.path);
+        undescribed = true;
       }
       told([], "run");
       run = answer;
+      if (undescribed && !dragging) await describe();
+      if (wish.refused) told(wish.refused);
       part("main").hidden = false;
       results.show(run);
       motion.show(run);
@@ -118,13 +178,18 @@
   };
   const later = () => {
     clearTimeout(timer);
-    timer = setTimeout(() => {
+    timer = setTimeout(async () => {
       sweep.begin();
+      await settled;
+      // An address is one of what can be run, and one that was refused stays until something is changed.
+      if (busy || !isSound() || state.text({}) === untouched) return;
+      untouched = null;
       written = `#${address()}`;
       history.replaceState(null, "", written);
     }, PAUSE);
   };
   let written = location.hash;
+  let untouched = null;
   // The state behind the sign #, with what the reader brought.
   const address = () =>
     state.text({
@@ -137,7 +202,11 @@
     downloads();
   });
 
-  const controls = controlsOf(state, data.documentation, {
+  const set = (path, value) => {
+    heard();
+    state.set(path, value);
+  };
+  const controls = controlsOf({ ...state, set }, data.documentation, {
     dragged: () => {
       dragging = true;
     },
@@ -150,18 +219,15 @@
     models: () => models,
     records: () => records.keys(),
     components: () => records.get(recordInUse()) || [],
-    chooseModel: async (path, model) => {
-      const gap = Number(path.split(".")[1]);
-      const answer = await solver.live.ask({ do: "calibrate", changes: state.changes(), gap, model });
-      if (answer.faults) {
-        told(answer.faults);
-        return;
-      }
-      part("notes").textContent = answer.notes.join("; ");
-      state.model(path, answer.keys);
-      await describe();
+    chooseModel: (path, model) => {
+      heard();
+      if (model === modelOf(path.split(".")[1])) wishes.delete(path);
+      else wishes.set(path, model);
+      told(wrong.run, "run");
+      update();
     },
     chooseRecord: async (name) => {
+      heard();
       const own = base.files.find(([what]) => what === "record");
       await useRecord(own && own[1] === name ? null : name);
     },
@@ -183,6 +249,7 @@
   // The controls of the state, with their values.
   const describe = async () => {
     const answer = await solver.live.ask({ do: "controls", changes: state.changes() });
+    undescribed = Boolean(answer.faults);
     if (answer.faults) {
       told(answer.faults);
       return false;
@@ -200,9 +267,11 @@
     const component = before.entries["ground_motion.component"];
     const { record } = before;
     const [first] = (name !== null && records.get(name)) || [];
+    const faulty = (await solver.live.ask({ do: "controls", changes: state.changes() })).faults;
     // Of several components the first, until another is chosen.
     state.record(name === null ? null : [["file", name], ...(first ? [["component", first]] : [])]);
-    if (await describe()) return;
+    // Of an input that is wrong without it the record stays chosen, like all else.
+    if ((await describe()) || faulty) return;
     state.record(record);
     if (component !== undefined) state.set("ground_motion.component", component);
     // The faults of the record are told, not those of the run before it.
@@ -253,19 +322,49 @@
   };
   // What stands behind the sign # of the address.
   const restore = async (hash) => {
-    let refused = null;
+    const refused = [];
+    let ignored = [];
     state.clear();
+    wishes.clear();
+    told([]);
+    written = hash;
+    untouched = null;
     if (hash.length > 1) {
       try {
         const own = state.read(hash.slice(1));
-        if (own.case) await open(own.case.name, encoder.encode(own.case.text), true);
+        ({ ignored } = own);
+        if (own.case && !(await open(own.case.name, encoder.encode(own.case.text), true))) {
+          // What it changes is of that case.
+          refused.push(...wrong.asked);
+          state.clear();
+        }
         if (own.rules) await useRules(own.rules);
+        if (own.rules) refused.push(...wrong.asked);
+        const { faults } = await solver.live.ask({ do: "controls", changes: state.changes() });
+        if (faults) {
+          refused.push(...faults.map((fault) => ({ ...fault, message: `what the address changes is left out: ${fault.message}` })));
+          state.clear();
+        }
       } catch (error) {
-        refused = { message: `the address holds no state of this page: ${error.message}`, help: "open the page without what follows the sign #", line: "" };
+        refused.push({ message: `the address holds no state of this page: ${error.message}`, help: "open the page without what follows the sign #", line: "" });
       }
     }
     await refresh();
-    if (refused) told([refused]);
+    const { overlays, quantity, gap } = state.get();
+    const gaps = base.controls.filter((control) => control.kind === "model").length;
+    const known = overlays.filter((name) => models.some((model) => model.name === name));
+    ignored.push(...overlays.filter((name) => !known.includes(name)).map((name) => `overlays ${name}`));
+    if (!sweep.has(quantity)) ignored.push(`quantity ${quantity}`);
+    if (gap >= Math.max(1, gaps)) ignored.push(`gap ${gap}`);
+    if (ignored.length) {
+      state.look({ overlays: known, quantity: sweep.has(quantity) ? quantity : "impacts", gap: gap < gaps ? gap : 0 });
+      await describe();
+      refused.push({ message: `of the address is ignored, as this page has nothing of the kind: ${ignored.join("; ")}`.slice(0, 500), help: null, line: "" });
+    }
+    if (refused.length) {
+      untouched = state.text({});
+      told(refused);
+    }
   };
 
   try {
@@ -284,6 +383,7 @@
     differ: (gap) => run !== null && results.differ(run.summary.gaps[gap]?.levels || []),
     model: modelOf,
     opened: () => opened.number,
+    buildings: () => run.summary.buildings.map((building) => building.name),
     demanded: (gaps) =>
       gaps.forEach((gap, i) => controls.reach(`gap.${i}.width`, Math.ceil(130 * gap.demand) / 100)),
   });
@@ -299,6 +399,7 @@
     openCase: async (name, bytes) => {
       if (!(await open(name, bytes, true))) return;
       state.clear();
+      wishes.clear();
       await refresh();
     },
     openRecord: async (name, bytes, use) => {
@@ -324,6 +425,8 @@
     if (opened.own) await open(data.name, encoder.encode(data.case), false);
     if (rules !== given) await useRules(given);
     part("notes").textContent = "";
+    wishes.clear();
+    untouched = null;
     state.reset();
     await describe();
   });
@@ -345,7 +448,12 @@
     await settled;
     if (run && !wrong.run.length) save(name, kind, text(run));
   };
-  part("case").addEventListener("click", () => saveOfRun(opened.name, "text/plain", (run) => run.case));
+  part("case").addEventListener("click", async () => {
+    await settled;
+    if (!wrong.run.length) return saveOfRun(opened.name, "text/plain", (run) => run.case);
+    const answer = await solver.live.ask({ do: "controls", changes: state.changes() });
+    if (!answer.faults) save(opened.name, "text/plain", answer.case);
+  });
   part("peaks-csv").addEventListener("click", () => saveOfRun("peaks.csv", "text/csv", results.csv));
   addEventListener("resize", results.redraw);
   addEventListener("hashchange", () => {

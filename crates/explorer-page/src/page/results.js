@@ -1,7 +1,7 @@
 "use strict";
 // The answer of the run: in numbers, storey by storey, and its impacts over time.
 const resultsOf = (documentation) => {
-  const { part, html, svg, shown, quoted, ticks, more } = elements;
+  const { part, html, svg, shown, quoted, counted, ticks, more } = elements;
   const GAP_CHECK = "reference/gap-check.md";
   const RESULT = "reference/result-file.md";
   const most = (values) => values.reduce((m, x) => (x > m ? x : m), 0);
@@ -139,12 +139,17 @@ const resultsOf = (documentation) => {
     const [left, right, top, bottom] = [64, 12, 24, height - 34];
     const end = time[time.length - 1] || 1;
     const high = 1e-3 * most([...values]) || 1;
+    const [what, unit] = jumps ? ["impulses of impacts", "kN s"] : ["peak forces of impacts", "kN"];
     const across = (t) => left + (t / end) * (width - left - right);
     const up = (y) => bottom - (y / high) * (bottom - top);
+    // Without impacts there is no scale, as there is nothing to draw.
+    const none = !closes.length;
+    const levels = none ? [] : ticks(0, high, 3);
     const marks = [
-      ...ticks(0, high, 3).map((y) => [svg("path", { class: "axis", d: `M${left} ${up(y)}H${width - right}` }), svg("text", { x: left - 6, y: up(y) + 4, "text-anchor": "end" }, shown(y))]).flat(),
+      ...levels.map((y) => [svg("path", { class: "axis", d: `M${left} ${up(y)}H${width - right}` }), svg("text", { x: left - 6, y: up(y) + 4, "text-anchor": "end" }, shown(y))]).flat(),
       ...ticks(0, end, Math.max(2, Math.floor(width / 110))).map((t) => svg("text", { x: across(t), y: bottom + 16, "text-anchor": "middle" }, String(t))),
-      svg("text", { x: left, y: 14 }, jumps ? "impulses of impacts (kN s)" : "peak forces of impacts (kN)"),
+      svg("text", { x: left, y: 14 }, none ? "impacts: none" : `${what} (${unit})`),
+      none ? svg("path", { class: "axis", d: `M${left} ${bottom}H${width - right}` }) : null,
       svg("text", { x: (left + width) / 2, y: height - 4, "text-anchor": "middle" }, "time (s)"),
     ];
     let path = "";
@@ -152,8 +157,8 @@ const resultsOf = (documentation) => {
       path += `M${across(t).toFixed(1)} ${bottom}V${up(1e-3 * values[i]).toFixed(1)}`;
     });
     picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
-    picture.replaceChildren(...marks, svg("path", { class: "force", d: path }));
-    picture.setAttribute("aria-label", `${closes.length} impacts over ${shown(end)} s, the largest ${shown(high)} ${jumps ? "kN s" : "kN"}`);
+    picture.replaceChildren(...marks.filter((mark) => mark !== null), svg("path", { class: "force", d: path }));
+    picture.setAttribute("aria-label", `${none ? "no impacts" : counted(closes.length, "impact")} over ${shown(end)} s${none ? "" : `, the largest ${shown(high)} ${unit}`}`);
   };
 
   return {

@@ -73,21 +73,33 @@ const stateOf = (changed) => {
     // `{ name, text }` each or null.
     text: (own) => encodeURIComponent(JSON.stringify({ ...now, ...own }, (_, x) => (x === null ? undefined : x))),
     // Takes a text back; a case and rules of somebody's own are returned, null where there are
-    // none. Throws what is wrong with it.
+    // none, and what of it says nothing that a state has. Throws what is wrong with it.
     read: (text) => {
       const given = JSON.parse(decodeURIComponent(text));
       if (!isRecord(given)) throw new Error("it is no object");
       const next = empty();
-      if (isRecord(given.entries) && Object.values(given.entries).every(isWord)) next.entries = given.entries;
-      if (Array.isArray(given.absent)) next.absent = given.absent.filter((x) => typeof x === "string").slice(0, 64);
-      if (isRecord(given.models) && Object.values(given.models).every(areKeys)) next.models = given.models;
-      if (areKeys(given.record)) next.record = given.record;
-      if (Array.isArray(given.overlays)) next.overlays = given.overlays.filter((x) => typeof x === "string").slice(0, 8);
-      if (typeof given.quantity === "string") next.quantity = given.quantity;
-      if (Number.isInteger(given.gap) && given.gap >= 0) next.gap = given.gap;
+      const own = { case: null, rules: null };
+      const isFile = (x) => isRecord(x) && typeof x.name === "string" && typeof x.text === "string";
+      const areTexts = (x) => Array.isArray(x) && x.length <= 64 && x.every((y) => typeof y === "string");
+      const forms = {
+        entries: (x) => isRecord(x) && Object.values(x).every(isWord),
+        absent: areTexts,
+        models: (x) => isRecord(x) && Object.values(x).every(areKeys),
+        record: areKeys,
+        overlays: areTexts,
+        quantity: (x) => typeof x === "string",
+        gap: (x) => Number.isInteger(x) && x >= 0,
+        case: isFile,
+        rules: isFile,
+      };
+      const ignored = [];
+      for (const [key, value] of Object.entries(given)) {
+        if (!Object.hasOwn(forms, key) || !forms[key](value)) ignored.push(`${key} ${JSON.stringify(value)}`.slice(0, 80));
+        else if (key in own) own[key] = value;
+        else next[key] = value;
+      }
       now = next;
-      const file = (own) => (isRecord(own) && typeof own.name === "string" && typeof own.text === "string" ? own : null);
-      return { case: file(given.case), rules: file(given.rules) };
+      return { ...own, ignored };
     },
   };
 };

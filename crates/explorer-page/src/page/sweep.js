@@ -3,7 +3,7 @@
 // for each model beside it. Widths grow from right to left of what is known: the curve is drawn as
 // it comes.
 const sweepOf = (state, background, dashes, actions) => {
-  const { part, html, svg, shown, clean, ticks, save, quoted } = elements;
+  const { part, html, svg, shown, clean, ticks, save, quoted, counted } = elements;
   // What a quantity is called, what its unit is in SI, its values, and whether it is of the whole
   // row where one gap of several varies.
   const QUANTITIES = {
@@ -132,7 +132,7 @@ const sweepOf = (state, background, dashes, actions) => {
     }
     picture.setAttribute("viewBox", `0 0 ${width} ${height}`);
     picture.replaceChildren(...drawn);
-    picture.setAttribute("aria-label", `${title} over widths of ${nameOf(gap)} up to ${shown(1e3 * far)} mm, ${lines.length} models`);
+    picture.setAttribute("aria-label", `${title} over widths of ${nameOf(gap)} up to ${shown(1e3 * far)} mm, ${counted(lines.length, "model")}`);
     const legend = lines.map(({ name }, i) => [looks(i), name]);
     if (Number.isFinite(provided)) legend.push([{ class: "now" }, `provided, ${shown(1e3 * provided)} mm`]);
     if (marks.length) {
@@ -148,7 +148,7 @@ const sweepOf = (state, background, dashes, actions) => {
     }
     part("remarks").replaceChildren(...remarks.map((text) => html("p", { class: "note" }, text)));
     part("legend").replaceChildren(...legend.map(([look, text]) => html("li", {}, sample(look), text)));
-    part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${done[1]} runs` : done[1] ? `${done[1]} runs` : undemanded ? "the record demands no gap: no widths are run" : "";
+    part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${counted(done[1], "run")}` : done[1] ? counted(done[1], "run") : undemanded ? "the record demands no gap: no widths are run" : "";
     picture.dataset.done = String(done[0]);
     picture.dataset.all = String(done[1]);
   };
@@ -201,6 +201,8 @@ const sweepOf = (state, background, dashes, actions) => {
   };
   // Whether all runs of the sweep of the state are done.
   const whole = () => finished !== null && finished === wantedNow();
+  // Whether there are curves of this quantity.
+  const has = (quantity) => Object.hasOwn(QUANTITIES, quantity);
   // Begins again where that was changed.
   const begin = async () => {
     const { gap, overlays } = state.get();
@@ -326,11 +328,17 @@ const sweepOf = (state, background, dashes, actions) => {
   };
   const csv = () => {
     const of = (named[state.get().gap] || "").replace(/^Gap /, "");
-    const lines = [];
+    // Columns have the names that `pounding gap --csv` gives them; a row a width, model and building.
+    const lines = ["gap,model,width_m,building,displacement_amplification,impacts,peak_force_n,impact_energy_j"];
+    const number = (x) => (Number.isFinite(x) ? x : "");
+    const buildings = actions.buildings();
     for (const [name, columns] of curves) {
-      const names = Object.keys(columns);
-      if (!lines.length) lines.push(["gap", "model", ...names].join(","));
-      columns.width.forEach((_, i) => lines.push([quoted(of), name, ...names.map((n) => (Number.isFinite(columns[n][i]) ? columns[n][i] : ""))].join(",")));
+      columns.width.forEach((width, i) => {
+        const after = [columns.impacts, columns.peak_force, columns.impact_energy].map((column) => number(column[i]));
+        buildings.forEach((building, b) =>
+          lines.push([quoted(of), name, width, quoted(building), number(columns[`displacement_${b}`][i]), ...after].join(",")),
+        );
+      });
     }
     return `${lines.join("\n")}\n`;
   };
@@ -362,5 +370,5 @@ const sweepOf = (state, background, dashes, actions) => {
     part("gap").replaceChildren(...gaps.map((name, i) => new Option(name, String(i), false, i === gap)));
     part("gap").closest("label").hidden = gaps.length < 2;
   };
-  return { prepare, choices, begin, draw, whole };
+  return { prepare, choices, begin, draw, whole, has };
 };

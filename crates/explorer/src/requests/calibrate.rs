@@ -12,8 +12,8 @@ use crate::answer::Answer;
 use crate::explorer::Prepared;
 use crate::fault::Refused;
 
-/// The keys of a gap with this model. Where no collision is known, or the gap's own law gives
-/// nothing to calibrate to, the parameters are those of the model's example.
+/// The keys of a gap with this model. Where no collision is known, as a building collapses by itself, or
+/// the gap's own law gives nothing to calibrate to, the parameters are those of the model's example.
 pub(crate) fn answer(prepared: Prepared, gap: usize, model: &str) -> Result<Answer, Refused> {
     let case = prepared.case.clone();
     let descriptor = registry::find(model).map_err(|e| Refused::new(e.to_string(), e.help()))?;
@@ -22,9 +22,9 @@ pub(crate) fn answer(prepared: Prepared, gap: usize, model: &str) -> Result<Answ
     }
     let records = [under_its_record(prepared)];
     let system = &records[0].assembly.system;
-    let own = demands(&records, 1, UNWATCHED).map_err(|e| Refused::of_check(e, &case))?;
     let rules = (StiffnessRule::Penetration, RestitutionRule::AsPublished);
-    let like_it = references(&case, system, &own, (None, None))
+    let like_it = demands(&records, 1, UNWATCHED)
+        .and_then(|own| references(&case, system, &own, (None, None)))
         .map_err(|e| e.to_string())
         .and_then(|references| calibrated(descriptor, &references[gap], rules));
     let (values, notes) = match like_it {

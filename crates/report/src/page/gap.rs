@@ -599,7 +599,12 @@ fn swept(answer: Answer<'_>) -> String {
     let table = collapses(answer, buildings) + &answer.table("Sweep over widths", &columns, shown);
     match every {
         1 => table,
-        every => table + &note(&format!("One width of {every}; --csv writes all.")),
+        every => {
+            table
+                + &note(&format!(
+                    "One width in every {every} is shown; --csv writes all."
+                ))
+        }
     }
 }
 

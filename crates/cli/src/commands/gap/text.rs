@@ -359,7 +359,7 @@ fn swept(check: &GapCheck, sweep: &GapSweep) -> String {
     let shown = if every == 1 {
         "every width shown".to_owned()
     } else {
-        format!("one width of {every} shown, --csv writes all")
+        format!("one width in every {every} shown, --csv writes all")
     };
     let mut text = format!(
         "\nSweep over {} ({which}): maximum amplification over storeys and records; {shown}\n{table}\n",

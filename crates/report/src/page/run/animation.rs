@@ -109,10 +109,14 @@ fn on_different_grounds(result: &RunResult) -> bool {
 fn caption(result: &RunResult, row: usize, magnification: f64) -> String {
     format!(
         "Elevation at <span data-part=\"instant\">{:.3}</span> s. Heights are to scale; displacements and \
-         gaps are drawn <span data-part=\"factor\">{magnification}</span> times as wide as they are. The case \
+         gaps are drawn <span data-part=\"factor\">{}</span>. The case \
          does not say how wide buildings are: they are drawn alike. Displacements are relative to the ground \
          under each building.{}{}",
         result.time[row],
+        match magnification {
+            1.0 => "to scale too".to_owned(),
+            times => format!("{times} times as wide as they are"),
+        },
         match on_different_grounds(result) {
             true =>
                 " The grounds move apart and together, which is left out: gaps are not drawn as wide as they are then.",

@@ -73,7 +73,7 @@
     part("time").setAttribute("aria-valuetext", `${time.toFixed(3)} s`);
     part("now").textContent = `${time.toFixed(3)} s`;
     part("instant").textContent = time.toFixed(3);
-    part("factor").textContent = String(magnification);
+    part("factor").textContent = magnification === 1 ? "to scale too" : `${magnification} times as wide as they are`;
     chart.mark();
   };
   // Opening and force of one level over time, drawn for the range that is looked at.
@@ -110,7 +110,7 @@
       for (let i = Math.ceil(low / step); i * step <= high; i++) out.push(Number((i * step).toPrecision(12)));
       return out;
     };
-    const panel = (values, factor, [top, bottom], name, kind) => {
+    const panel = (values, factor, [top, bottom], names, kind) => {
       const s = series[chosen];
       const first = place(s.time, range[0]);
       const last = Math.min(place(s.time, range[1]) + 1, s.time.length - 1);
@@ -123,7 +123,12 @@
       if (high === low) high = low + 1;
       const up = (y) => bottom - ((y - low) / (high - low)) * (bottom - top);
       const [width] = size();
-      add("text", { x: margin.left, y: top - 8 }, name);
+      // The longest of its names that has room.
+      const heading = add("text", { x: margin.left, y: top - 8, "data-heading": kind }, "");
+      for (const words of names) {
+        heading.textContent = words;
+        if (heading.getComputedTextLength() <= width - margin.left) break;
+      }
       for (const y of ticks(low, high, 4)) {
         add("path", { class: y === 0 ? "zero" : "axis", d: `M${margin.left} ${up(y)}H${width - margin.right}` });
         add("text", { x: margin.left - 6, y: up(y) + 4, "text-anchor": "end" }, shown(y));
@@ -156,8 +161,8 @@
       svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
       const s = series[chosen];
       const middle = s.force ? (height - 40) / 2 : height - 40;
-      panel(s.opening, 1e3, [24, middle - 4], "Distance across the gap (mm), 0 and below: contact", "opening");
-      if (s.force) panel(s.force, 1e-3, [middle + 32, height - 36], "Contact force (kN)", "force");
+      panel(s.opening, 1e3, [24, middle - 4], ["Distance across the gap (mm), 0 and below: contact", "Distance (mm), 0 and below: contact", "Distance (mm)"], "opening");
+      if (s.force) panel(s.force, 1e-3, [middle + 32, height - 36], ["Contact force (kN)"], "force");
       for (const t of ticks(range[0], range[1], Math.max(2, Math.floor(width / 110)))) {
         add("text", { x: across(t), y: height - 18, "text-anchor": "middle" }, String(t));
       }

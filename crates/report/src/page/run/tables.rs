@@ -9,8 +9,8 @@ use crate::result::{
     BuildingResult, GapResult, ImpactResult, LevelResponses, LinkResult, StoreyPeaks,
 };
 
-/// Modes listed.
-const MODES: usize = 5;
+/// Modes listed at most.
+const MODES: usize = 12;
 
 /// The first periods of a building.
 pub(super) fn modes(building: &BuildingResult) -> String {
@@ -29,7 +29,11 @@ pub(super) fn modes(building: &BuildingResult) -> String {
         Column::of("period (s)", format!("{of}/period[*]"), 1.0),
         Column::of("damping (%)", format!("{of}/damping_ratio[*]"), 1.0e2),
     ];
-    table("Modes", &columns, rows)
+    let table = table("Modes", &columns, rows);
+    match building.period.len() {
+        all if all > MODES => table + &note(&format!("The first {MODES} of {all} modes.")),
+        _ => table,
+    }
 }
 
 /// Path of a building in the result file.

@@ -3,15 +3,15 @@
 use pounding_elevation::{Neighbour, Row, RowGap, Scene};
 use pounding_study::gap_check::amplification;
 use pounding_time_history::{
-    ContactLevel, Energy, GridRecorder, History, Impact, Outcome, Peak, Recorder,
-    RelativeDisplacement, Summary, System, TimeHistoryError, VELOCITY_JUMPS, run,
+    ContactLevel, Energy, GridRecorder, History, Impact, IsolatedRun, Outcome, Peak, Recorder,
+    RelativeDisplacement, Summary, System, TimeHistoryError, VELOCITY_JUMPS, run, run_isolated,
 };
 use serde_json::{Value, json};
 
 use super::deadline::Deadline;
 use crate::answer::Answer;
 use crate::explorer::Prepared;
-use crate::fault::{Refused, words};
+use crate::fault::Refused;
 use crate::limits::MOST_NUMBERS;
 
 /// Runs a case; at most so many times of its motion are in the answer.
@@ -31,18 +31,14 @@ pub(crate) fn answer(prepared: &Prepared, frames: usize) -> Result<Answer, Refus
     let outcome = run(system, options, &mut recorders, &mut |_| {})?;
     let mut warnings = assembly.with_those_of_the_record(&outcome.warnings);
     let mut demand = RelativeDisplacement::of_levels(system);
-    let isolated = isolated(prepared, &mut demand).unwrap_or_else(|error| {
-        warnings.push(format!(
-            "without gaps and links: {}; there is nothing to compare with",
-            words(&error)
-        ));
-        outcome.with_unknown_peaks()
-    });
+    let (isolated, is_demanded) = isolated(prepared, &mut demand);
+    let (isolated, told) = IsolatedRun::beside(&outcome, isolated);
+    warnings.extend(told);
     let mut answer = Answer::default();
     let summary = Summary::of(system, (&outcome, &isolated), &warnings);
     answer.say("summary", json!(summary));
     answer.say("scene", scene(system, &outcome));
-    answer.say("demand", demands(system, demand.peaks()));
+    answer.say("demand", demands(system, demand.peaks(), is_demanded));
     answer.say("levels", levels(system));
     answer.say("jumps", jumps(system, &outcome));
     answer.say("amplification", amplifications(&outcome, &isolated));
@@ -97,30 +93,45 @@ fn scene(system: &System, outcome: &Outcome) -> Value {
     scene.json(scene.contacts.iter().enumerate().map(name))
 }
 
-/// The run without gaps and links, and what the buildings without gaps demand.
+/// The run without gaps and links, and whether what the buildings without gaps demand is known: not
+/// where one of them collapses.
 fn isolated(
     prepared: &Prepared,
     demand: &mut RelativeDisplacement,
-) -> Result<Outcome, TimeHistoryError> {
+) -> (Result<IsolatedRun, TimeHistoryError>, bool) {
     let (system, options) = (&prepared.assembly.system, &prepared.assembly.options);
-    let integrate = |system: &System, demand: Option<&mut RelativeDisplacement>| {
-        let mut deadline = Deadline::from_now();
-        let mut recorders: Vec<&mut dyn Recorder> = vec![&mut deadline];
-        recorders.extend(demand.map(|demand| demand as &mut dyn Recorder));
-        run(system, options, &mut recorders, &mut |_| {})
-    };
-    if system.links().is_empty() {
-        return integrate(&system.isolated(), Some(demand));
+    let mut deadline = Deadline::from_now();
+    let recorders: &mut [&mut dyn Recorder] = &mut [&mut deadline, demand];
+    let without_gaps = run(&system.without_gaps(), options, recorders, &mut |_| {});
+    match without_gaps {
+        Ok(outcome) if system.links().is_empty() => {
+            let collapses = Vec::new();
+            (Ok(IsolatedRun { outcome, collapses }), true)
+        }
+        without_gaps => {
+            let mut deadline = Deadline::from_now();
+            let alone = run_isolated(system, options, &mut [&mut deadline], &mut |_| {});
+            (alone, without_gaps.is_ok())
+        }
     }
-    integrate(&system.without_gaps(), Some(demand))?;
-    integrate(&system.isolated(), None)
 }
 
-/// What every gap demands at each of its levels.
-fn demands(system: &System, peaks: &[Peak]) -> Value {
+/// What every gap demands at each of its levels; not numbers where that is not known.
+fn demands(system: &System, peaks: &[Peak], is_known: bool) -> Value {
+    let told = |peak: &Peak| match is_known {
+        true => *peak,
+        false => Peak {
+            value: f64::NAN,
+            time: f64::NAN,
+        },
+    };
     let gaps = system.gaps().iter();
-    let levels = gaps.map(|g| &peaks[g.first_level..g.first_level + g.levels]);
-    json!(levels.collect::<Vec<_>>())
+    let levels = gaps.map(|g| {
+        peaks[g.first_level..g.first_level + g.levels]
+            .iter()
+            .map(told)
+    });
+    json!(levels.map(Iterator::collect::<Vec<_>>).collect::<Vec<_>>())
 }
 
 /// What the levels of every gap are called.

@@ -33,6 +33,7 @@ pub use records::{
     CaseUnderRecord, RecordFiles, SkippedFile, distinct, record_files, under_records,
 };
 pub use repeated::Repeated;
+#[cfg(feature = "results")]
 pub(crate) use repeated::Shape;
 pub use required::{LognormalFit, RequiredGap};
 pub use spectra::{SuiteSpectra, SuiteTarget};
@@ -46,10 +47,14 @@ pub use sweep::{
 #[cfg(feature = "results")]
 pub(crate) use demand::closes;
 pub(crate) use demand::levels;
-pub(crate) use parallel::{Ending, in_parallel, runs_in_parallel};
+#[cfg(feature = "results")]
+pub(crate) use parallel::in_parallel;
+pub(crate) use parallel::{Ending, runs_in_parallel};
 #[cfg(feature = "results")]
 pub(crate) use records::across_of_another;
-pub(crate) use records::{of_each_record, of_reading, said_in_reading, warnings};
+pub(crate) use records::warnings;
+#[cfg(feature = "results")]
+pub(crate) use records::{of_each_record, of_reading, said_in_reading};
 pub use systems::rebuilt;
 
 use pounding_case::{Case, Separation};

@@ -89,6 +89,7 @@ impl<'a> Shape<'a> {
     }
 
     /// That of a motion that a generator made, of which none is sampled from another one.
+    #[cfg(feature = "results")]
     pub(crate) fn of_generated(motion: &'a Accelerogram) -> Self {
         Self {
             of_a_file: false,

@@ -304,6 +304,45 @@ fn a_collapse_leaves_the_case() {
     assert_eq!(told[5], text);
 }
 
+/// A building that its neighbours hold up, and that falls without them: it alone has nothing to be compared
+/// with, and what the gaps demand is not known.
+#[test]
+fn a_building_that_neighbours_hold_up() {
+    let building = |name: &str, mass: &str, stiffness: &str, further: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nstoreys = 1\nmass = \"{mass}\"\nstiffness = \"{stiffness}\"\nheight = \"3 m\"\ndamping = {{ modal = 0.05 }}\n{further}"
+        )
+    };
+    let gap = |left: &str, right: &str| {
+        format!(
+            "[[gap]]\nbetween = [\"{left}\", \"{right}\"]\nwidth = \"30 mm\"\nmodel = \"kelvin_voigt\"\nstiffness = \"100 MN/m\"\nrestitution = 0.6\n"
+        )
+    };
+    let falls = "p_delta = true\nlaw = { model = \"elastic_perfectly_plastic\", yield_force = \"15 kN\" }\n";
+    let case = [
+        building("a", "300 t", "150 MN/m", ""),
+        building("weak", "50 t", "3.46 MN/m", falls),
+        building("b", "300 t", "120 MN/m", ""),
+        gap("a", "weak"),
+        gap("weak", "b"),
+        "[ground_motion]\nfile = \"../../ground_motions/el_centro_1940_ns.csv\"\n[analysis]\nduration = \"12 s\"\n".to_owned(),
+    ]
+    .concat();
+    let open = json!({ "do": "open", "name": "case.toml", "$text": &case });
+    let run = json!({ "do": "run", "changes": [], "frames": 0 });
+    let answer = &natively(&of_the_pair(vec![open, run]))[3];
+    let isolated = |building: usize| {
+        &answer["summary"]["buildings"][building]["isolated"][0]["displacement"]["peak"]
+    };
+    assert!(isolated(0).is_number() && isolated(1).is_null() && isolated(2).is_number());
+    assert_eq!(answer["demand"][0][0]["peak"], Value::Null);
+    let warnings = answer["summary"]["warnings"].to_string();
+    assert!(
+        warnings.contains("weak collapsed at") && warnings.contains("compare this building with"),
+        "{warnings}"
+    );
+}
+
 /// Of an address what cannot be run is left out, and what nobody knows is ignored: both are said, and
 /// the page is there.
 #[test]

@@ -306,11 +306,8 @@ fn a_code_takes_its_own_rule_for_isolated_buildings() {
         assert_eq!(level["provision"]["name"], rule, "{found}");
         close(&level["required"], by_hand);
         let provided = found["cases"][0]["provided"].as_f64().unwrap();
-        let satisfied = match code {
-            "asce_7_2010" => Value::from(provided >= by_hand),
-            // Eleven records are asked for.
-            _ => Value::Null,
-        };
+        // Eleven records are asked for by the later editions, for displacements, which do not count here.
+        let satisfied = Value::from(provided >= by_hand);
         assert_eq!(found["satisfied"], satisfied, "{found}");
         assert_eq!(found["cases"][0]["satisfied"], satisfied, "{found}");
     }

@@ -27,6 +27,16 @@ const resultsOf = (documentation) => {
     ];
   };
 
+  // What a gap demands; a building that collapses without contact leaves that unknown.
+  const demandOf = (demand, name, where) => {
+    const known = Number.isFinite(demand);
+    const text = known ? `${shown(1e3 * demand)} mm` : "not known";
+    const means = known
+      ? `the width that the buildings without contact would just not close${where}`
+      : "without contact a building collapses, or cannot be followed to the end";
+    return ["demand", `Gap demand${known ? name : ""}`, text, means, GAP_CHECK];
+  };
+
   // The numbers of a gap, each with what it is.
   const numbersOf = (run, index) => {
     const gap = run.summary.gaps[index];
@@ -41,7 +51,7 @@ const resultsOf = (documentation) => {
     const force = most(levels.map((level) => level.peak_force.peak ?? NaN));
     const impacts = levels.reduce((sum, level) => sum + level.impacts, 0);
     return [
-      ["demand", `Gap demand${name}`, `${shown(1e3 * demand)} mm`, `the width that the buildings without contact would just not close${where}`, GAP_CHECK],
+      demandOf(demand, name, where),
       ["width", `Provided width${name}`, `${shown(1e3 * width)} mm`, widthOf, "reference/case-file.md"],
       ["impacts", "Impacts", String(impacts), "how often floors came into contact, at all levels", RESULT],
       forceOf(force, run.jumps[index] !== null, impacts),

@@ -1,5 +1,8 @@
 //! A motion as averages over a moment, which hardly depend on how it was sampled.
 
+use pounding_ground_motion::Accelerogram;
+use pounding_ground_motion::measures::GroundMotion;
+
 /// Half the base (s) of the triangle with which accelerations are averaged: what is faster than some
 /// 5 Hz is left out, in which samples of another time step or phase differ.
 const HALF_BASE: f64 = 0.1;
@@ -21,38 +24,24 @@ const NARROWINGS: usize = 20;
 /// Part of the shorter record that must lie in the other one too.
 const OVERLAP: f64 = 0.9;
 
-/// A motion between whose samples lie straight lines, integrated twice.
+/// A motion between whose samples lie straight lines, with its averages.
 #[derive(Debug)]
-pub(super) struct Averaged<'a> {
-    samples: &'a [f64],
-    time_step: f64,
-    velocity: Vec<f64>,
-    displacement: Vec<f64>,
+pub(super) struct Averaged {
+    motion: GroundMotion,
     /// Averages at whole steps from the first sample on.
     averages: Vec<f64>,
     /// Times (s) of the parts of the sum of squares.
     times: [f64; PARTS.len()],
 }
 
-impl<'a> Averaged<'a> {
-    pub(super) fn of(samples: &'a [f64], time_step: f64) -> Self {
-        let (mut v, mut u) = (0.0, 0.0);
-        let (mut velocity, mut displacement) = (vec![0.0], vec![0.0]);
-        for pair in samples.windows(2) {
-            u += time_step * v + time_step * time_step * (2.0 * pair[0] + pair[1]) / 6.0;
-            v += 0.5 * time_step * (pair[0] + pair[1]);
-            velocity.push(v);
-            displacement.push(u);
-        }
+impl Averaged {
+    pub(super) fn of(record: &Accelerogram) -> Self {
         let mut averaged = Self {
-            samples,
-            time_step,
-            velocity,
-            displacement,
+            motion: GroundMotion::of(record, 0.0, 0.0),
             averages: Vec::new(),
             times: [0.0; PARTS.len()],
         };
-        let count = match time_step <= HALF_BASE {
+        let count = match record.time_step() <= HALF_BASE {
             true => (averaged.duration() / STEP) as usize + 1,
             false => 0,
         };
@@ -63,7 +52,7 @@ impl<'a> Averaged<'a> {
     }
 
     fn duration(&self) -> f64 {
-        self.time_step * self.samples.len().saturating_sub(1) as f64
+        self.motion.time_step * self.motion.acceleration.len().saturating_sub(1) as f64
     }
 
     /// Time (s) until which this part of the sum of squares of the averages is reached.
@@ -86,18 +75,24 @@ impl<'a> Averaged<'a> {
     }
 
     fn displacement_at(&self, time: f64) -> f64 {
-        let last = self.samples.len().saturating_sub(1);
+        let GroundMotion {
+            time_step,
+            acceleration,
+            velocity,
+            displacement,
+        } = &self.motion;
+        let last = acceleration.len().saturating_sub(1);
         if !(time > 0.0) || last == 0 {
             return 0.0;
         }
-        let i = ((time / self.time_step) as usize).min(last);
-        let tau = time - self.time_step * i as f64;
-        let (u, v) = (self.displacement[i], self.velocity[i]);
+        let i = ((time / time_step) as usize).min(last);
+        let tau = time - time_step * i as f64;
+        let (u, v) = (displacement[i], velocity[i]);
         if i == last {
             return u + v * tau;
         }
-        let slope = (self.samples[i + 1] - self.samples[i]) / self.time_step;
-        u + tau * (v + tau * (0.5 * self.samples[i] + tau * slope / 6.0))
+        let slope = (acceleration[i + 1] - acceleration[i]) / time_step;
+        u + tau * (v + tau * (0.5 * acceleration[i] + tau * slope / 6.0))
     }
 
     /// Whether the motion is the other one times a factor, sampled at other times. Of records whose

@@ -4,9 +4,8 @@ use pounding_shear_building::are_level;
 
 use super::codes::GapPlace;
 
-/// Says that no level of a gap holds the roof of the lower of two buildings, or of one of two of a
-/// height, where codes ask for most
-/// and the building moves most: nothing is computed or judged there.
+/// Says that no level of a gap holds the roof of the lower of two buildings, or of one of two of a height,
+/// where codes ask for most and the building moves most: nothing is computed or judged there.
 pub(super) fn left_out(place: &GapPlace<'_>) -> Option<String> {
     let levels = place.levels();
     let [Some((left, _)), Some((right, _))] = *levels.first()? else {

@@ -64,23 +64,21 @@ const DIFFERENCE: f64 = 1.0e-3;
 /// What tells a motion from others: its samples with the place of their peak.
 #[derive(Debug)]
 pub(crate) struct Shape<'a> {
-    samples: &'a [f64],
-    time_step: f64,
+    record: &'a Accelerogram,
     peak: Option<usize>,
     /// Sum of all squares.
     squares: f64,
     /// Whether it may be that of a record at another time step.
     of_a_file: bool,
     /// The motion whatever its samples, where it comes to that.
-    averaged: OnceCell<Averaged<'a>>,
+    averaged: OnceCell<Averaged>,
 }
 
 impl<'a> Shape<'a> {
     pub(crate) fn of(record: &'a Accelerogram) -> Self {
         let samples = record.samples();
         Self {
-            samples,
-            time_step: record.time_step(),
+            record,
             peak: place_of_peak(samples),
             squares: samples.iter().map(|x| x * x).sum(),
             of_a_file: true,
@@ -109,17 +107,17 @@ impl<'a> Shape<'a> {
     }
 
     fn has_step_of(&self, other: &Self) -> bool {
-        (self.time_step - other.time_step).abs() <= 1.0e-9 * self.time_step
+        let [own, others] = [self, other].map(|shape| shape.record.time_step());
+        (own - others).abs() <= 1.0e-9 * own
     }
 
-    fn averaged(&self) -> &Averaged<'a> {
-        self.averaged
-            .get_or_init(|| Averaged::of(self.samples, self.time_step))
+    fn averaged(&self) -> &Averaged {
+        self.averaged.get_or_init(|| Averaged::of(self.record))
     }
 
     /// The same at one time step: by the samples themselves.
     fn has_samples_of(&self, other: &Self) -> bool {
-        let (first, second) = (self.samples, other.samples);
+        let (first, second) = (self.record.samples(), other.record.samples());
         let (Some(i), Some(j)) = (self.peak, other.peak) else {
             // Both are zero throughout, or one of them.
             return self.peak == other.peak;

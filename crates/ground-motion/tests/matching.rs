@@ -205,6 +205,11 @@ fn what_cannot_be_matched() {
             tolerance: 0.0,
             ..MatchOptions::band(0.1, 3.0)
         },
+        // 5 % is 0.05.
+        MatchOptions {
+            tolerance: 5.0,
+            ..MatchOptions::band(0.1, 3.0)
+        },
     ] {
         assert!(match_by_wavelets(&seed, &target, bad).is_err());
         assert!(match_by_fourier_amplitudes(&seed, &target, bad).is_err());

@@ -92,6 +92,23 @@ fn bad_input() {
     process("--remove-offset", "median", &["write \"mean\""]);
     process("--trim", "start=2 s", &["`end`"]);
     process("--taper", "start=1 s, 2 s", &["\"2 s\" is not key=value"]);
+    // A word beside pairs was dropped, and the record filtered without phase.
+    process(
+        "--filter",
+        "causal, high_pass=0.1 Hz",
+        &["\"causal\" is not key=value"],
+    );
+    for (step, text) in [
+        ("--scale", "2, pga=0.3 g"),
+        ("--remove-offset", "mean, value=1 m/s^2"),
+        ("--trim", "5, end=10 s"),
+        ("--taper", "1 s, end=2 s"),
+        ("--pad", "10 s, after=2 s"),
+        ("--baseline", "2, velocity=1"),
+        ("--resample", "0.01 s, time_step=0.005 s"),
+    ] {
+        process(step, text, &["is not key=value"]);
+    }
     process("--sign", "positive", &["write \"reversed\""]);
     process("--true-unit", "furlong", &["\"furlong\" is not a unit"]);
     refused(

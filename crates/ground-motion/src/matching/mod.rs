@@ -10,7 +10,7 @@ mod wavelets;
 use serde::Serialize;
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, ascending, positive, within};
+use crate::error::{GroundMotionError, ascending, within};
 use crate::generators::achieved;
 use crate::matching::misfit::{Deviations, MOST_PERIODS};
 use crate::processing::band_factor;
@@ -27,6 +27,10 @@ const STEP: &str = "spectrum matching";
 /// Most iterations that are meant: what is not reached by then is not reached at all.
 const MOST_ITERATIONS: f64 = 1.0e5;
 
+/// Largest tolerance that is meant: beyond it a motion that is only scaled would be matched, as by
+/// 5 for 5 %.
+const WIDEST: f64 = 0.5;
+
 /// What is asked of a match.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 pub struct MatchOptions {
@@ -37,7 +41,7 @@ pub struct MatchOptions {
     /// Periods matched from the start, evenly spaced in their logarithm: iterations that bring
     /// nothing add those between them where the deviation is largest.
     pub periods: usize,
-    /// Maximum deviation as a part of the target: at any period of the band.
+    /// Maximum deviation as a part of the target, up to 0.5: at any period of the band.
     pub tolerance: f64,
     /// Iterations at most.
     pub iterations: usize,
@@ -103,7 +107,13 @@ fn iterate<A: Adjustment>(
     options: MatchOptions,
     adjustment: &mut A,
 ) -> Result<Matched, GroundMotionError> {
-    positive(STEP, "tolerance", options.tolerance)?;
+    within(
+        STEP,
+        "tolerance",
+        options.tolerance,
+        f64::MIN_POSITIVE,
+        WIDEST,
+    )?;
     // Shorter periods swing more than once between two samples.
     let shortest = 2.0 * record.time_step();
     let longest = record.duration();

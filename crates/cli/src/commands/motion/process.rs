@@ -59,7 +59,7 @@ fn option(key: &str) -> String {
 fn step(key: &str, text: &str) -> Result<(ProcessingStep, Option<PathBuf>), Failure> {
     let option = option(key);
     let words = Words::of(&option, text)?;
-    let line = format!("process = [{{ {} }}]", words.as_toml(key));
+    let line = format!("process = [{{ {} }}]", words.as_toml(key)?);
     let read = pounding_case::process_steps(&line, "process")
         .map_err(|e| Failure::input(format!("--{option}: {}", e.message), e.help))?;
     let [step] = read.as_slice() else {

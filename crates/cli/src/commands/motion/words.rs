@@ -26,17 +26,17 @@ impl<'a> Words<'a> {
             match part.split_once('=') {
                 Some((key, value)) => words.add(key.trim(), value.trim())?,
                 None if place == 0 => words.word = part,
-                None => {
-                    return Err(Failure::input(
-                        format!("--{option}: \"{part}\" is not key=value"),
-                        Some(
-                            "write pairs divided by commas, such as \"start=2 s, end=30 s\"".into(),
-                        ),
-                    ));
-                }
+                None => return Err(words.no_pair(part)),
             }
         }
         Ok(words)
+    }
+
+    fn no_pair(&self, part: &str) -> Failure {
+        Failure::input(
+            format!("--{}: \"{part}\" is not key=value", self.option),
+            Some("write pairs divided by commas, such as \"start=2 s, end=30 s\"".into()),
+        )
     }
 
     /// Takes a pair; of two with one key it could not be known which is meant.
@@ -90,12 +90,14 @@ impl<'a> Words<'a> {
         )
     }
 
-    /// The same as a line of a case file: `key = { ... }` or `key = "word"`.
-    pub fn as_toml(&self, key: &str) -> String {
-        if self.pairs.is_empty() {
-            return format!("{key} = {}", literal(self.word));
+    /// The same as a line of a case file: `key = { ... }` or `key = "word"`, which holds no word
+    /// beside pairs.
+    pub fn as_toml(&self, key: &str) -> Result<String, Failure> {
+        match (self.word, self.pairs.is_empty()) {
+            (word, true) => Ok(format!("{key} = {}", literal(word))),
+            ("", false) => Ok(format!("{key} = {{ {} }}", self.pairs_as_toml().join(", "))),
+            (word, false) => Err(self.no_pair(word)),
         }
-        format!("{key} = {{ {} }}", self.pairs_as_toml().join(", "))
     }
 
     /// The pairs as lines of a case file.

@@ -29,7 +29,7 @@ const MOST_ITERATIONS: f64 = 1.0e5;
 
 /// Largest tolerance that is meant: beyond it a motion that is only scaled would be matched, as by
 /// 5 for 5 %.
-const WIDEST: f64 = 0.5;
+const LARGEST_TOLERANCE: f64 = 0.5;
 
 /// What is asked of a match.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -112,7 +112,7 @@ fn iterate<A: Adjustment>(
         "tolerance",
         options.tolerance,
         f64::MIN_POSITIVE,
-        WIDEST,
+        LARGEST_TOLERANCE,
     )?;
     // Shorter periods swing more than once between two samples.
     let shortest = 2.0 * record.time_step();

@@ -29,7 +29,7 @@ const MOST_ITERATIONS: f64 = 1.0e5;
 
 /// Largest tolerance that is meant: beyond it a motion that is only scaled would be matched, as by
 /// 5 for 5 %.
-const LARGEST_TOLERANCE: f64 = 0.5;
+const LARGEST_TOLERANCE: f64 = 1.0;
 
 /// What is asked of a match.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -41,7 +41,7 @@ pub struct MatchOptions {
     /// Periods matched from the start, evenly spaced in their logarithm: iterations that bring
     /// nothing add those between them where the deviation is largest.
     pub periods: usize,
-    /// Maximum deviation as a part of the target, up to 0.5: at any period of the band.
+    /// Maximum deviation as a part of the target, up to 1: at any period of the band.
     pub tolerance: f64,
     /// Iterations at most.
     pub iterations: usize,

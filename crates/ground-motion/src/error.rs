@@ -210,7 +210,7 @@ pub enum GroundMotionError {
     },
     /// A spectrum that was not reached.
     #[error(
-        "the spectrum is off by {worst:.4} of the target at {period:.4} s after {iterations} iterations, more than {tolerance}"
+        "the spectrum is off by {worst:.4} of the target at {period:.4} s at best, after {best_at} of {iterations} iterations, more than {tolerance}"
     )]
     NotMatched {
         /// Maximum deviation as a part of the target.
@@ -219,6 +219,8 @@ pub enum GroundMotionError {
         period: f64,
         /// Iterations made.
         iterations: usize,
+        /// Iterations after which it was nearest.
+        best_at: usize,
         /// Deviation asked for.
         tolerance: f64,
     },
@@ -302,8 +304,13 @@ impl GroundMotionError {
                 "use the components of one recording, resampled to one time step".to_owned()
             }
             Self::NotPossible { remedy, .. } => (*remedy).to_owned(),
-            Self::NotMatched { .. } => {
-                "take a record whose own spectrum is nearer the target, narrow the band, or allow more iterations".to_owned()
+            Self::NotMatched { iterations, best_at, .. } => {
+                let mut remedy = "take a record whose own spectrum is nearer the target, or narrow the band".to_owned();
+                // The later half brought nothing: nor would another one.
+                if best_at * 2 >= *iterations {
+                    remedy += ", or allow more iterations";
+                }
+                remedy
             }
             Self::Stopped => "compute it anew".to_owned(),
             Self::Invalid(_) => "check unit, time step and scale of the record".to_owned(),

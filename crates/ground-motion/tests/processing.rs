@@ -5,8 +5,8 @@ use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::measures::{GroundMotion, Husid};
 use pounding_ground_motion::processing::{
-    Baseline, Butterworth, OffsetCorrection, Phase, ProcessingStep, Scale, SegmentWindow, Trim,
-    process,
+    Baseline, Butterworth, Interpolation, OffsetCorrection, Phase, ProcessingStep, Scale,
+    SegmentWindow, Trim, process,
 };
 use pounding_ground_motion::spectra::{Evaluation, fourier_spectrum};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
@@ -151,6 +151,34 @@ fn filters_that_cannot_be() {
         },
     ] {
         refused(&ground, ProcessingStep::Filter(filter));
+    }
+}
+
+/// What filters and resampling take off by mistakes of a power of ten is said; what is customary
+/// is not.
+#[test]
+fn steps_that_leave_little_are_said() {
+    let ground = of(|t| 3.0 + t.min(20.0 - t) * (TAU * t).sin(), 2001, 0.01).of_memory("ground");
+    let warnings = |step: ProcessingStep| {
+        let processed = one(&ground, step);
+        processed.origin().unwrap().warnings.clone()
+    };
+    let filter = |high, low| ProcessingStep::Filter(Butterworth::zero_phase(Some(high), Some(low)));
+    let resample = |time_step| ProcessingStep::Resample {
+        time_step,
+        interpolation: Interpolation::BandLimited,
+    };
+    for customary in [filter(0.1, 25.0), filter(0.02, 25.0), resample(0.02)] {
+        assert!(warnings(customary.clone()).is_empty(), "{customary:?}");
+    }
+    for (mistaken, words) in [
+        (filter(1.0e-4, 25.0), "period of 10000.0000 s"),
+        (filter(0.01, 0.1), "% of that; check the corners"),
+        (resample(5.0), "the time step is 5 s"),
+        (resample(5.0), "% of that; check the time step"),
+    ] {
+        let said = warnings(mistaken);
+        assert!(said.iter().any(|w| w.contains(words)), "{said:?}");
     }
 }
 

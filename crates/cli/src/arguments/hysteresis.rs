@@ -39,8 +39,8 @@ pub struct HysteresisArguments {
         allow_hyphen_values = true
     )]
     pub rate: Option<String>,
-    /// Steps of half a cycle
-    #[arg(long, default_value = "500", value_parser = clap::value_parser!(u32).range(1..=100_000))]
+    /// Steps of half a cycle: speeds, energies and laws that are rates are worse with few
+    #[arg(long, default_value = "500", value_parser = clap::value_parser!(u32).range(20..=100_000))]
     pub steps: u32,
 
     /// Dissipation of cycles over amplitudes from the first to the second, such as

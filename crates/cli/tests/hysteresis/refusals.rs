@@ -125,7 +125,13 @@ fn motions_that_make_no_sense_are_refused() {
         "bilinear --cycles 1mm --period 0s",
         &["--period", "greater than zero"],
     );
-    refused("bilinear --cycles 1mm --steps 0", &["--steps"]);
+    // A viscous damper in one step of half a cycle does not move: no force.
+    for steps in ["0", "1", "19"] {
+        refused(
+            &format!("bilinear --cycles 1mm --steps {steps}"),
+            &["--steps"],
+        );
+    }
     refused("--cycles 1mm", &["LAW"]);
     refused(
         "bilinear --cycles 1mm --csv a.svg --svg a.svg",

@@ -163,7 +163,7 @@ fn iterate<A: Adjustment>(
     let mut current = at_rest.scaled_by(factor)?;
     let mut now = check(&current)?;
     let before = now.misfit;
-    let mut best = (current.clone(), before);
+    let mut best = (current.clone(), before, 0);
     let mut done = 0;
     while best.1.worst > options.tolerance && done < options.iterations {
         let next = adjustment.improve(&current, target, &periods, &now)?;
@@ -175,18 +175,19 @@ fn iterate<A: Adjustment>(
         current = next;
         now = check(&current)?;
         if now.misfit.worst < best.1.worst {
-            best = (current.clone(), now.misfit);
+            best = (current.clone(), now.misfit, done);
         } else {
             // What is furthest off lies between the periods, out of their reach.
             now.add_to(&mut periods, target.damping());
         }
     }
-    let (mut accelerogram, misfit) = best;
+    let (mut accelerogram, misfit, best_at) = best;
     if misfit.worst > options.tolerance {
         return Err(GroundMotionError::NotMatched {
             worst: misfit.worst,
             period: misfit.period,
             iterations: done,
+            best_at,
             tolerance: options.tolerance,
         });
     }

@@ -4,6 +4,7 @@
 mod baseline;
 mod butterworth;
 mod components;
+mod doubtful;
 mod resampling;
 mod scaling;
 mod window;
@@ -184,7 +185,11 @@ impl ProcessingStep {
             .number("end displacement", motion.end_displacement(), "m");
         match report.numbers.iter().find(|n| !n.value.is_finite()) {
             Some(number) => Err(not_finite(format!("{} is {}", number.name, number.value))),
-            None => Ok((next, report)),
+            None => {
+                let warnings = doubtful::doubtful(self, record, &next);
+                let warned = |record: Accelerogram, w: &String| record.warned(Some(w));
+                Ok((warnings.iter().fold(next, warned), report))
+            }
         }
     }
 

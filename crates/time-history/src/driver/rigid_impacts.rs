@@ -17,7 +17,6 @@ use crate::contact::Contact;
 use crate::dynamics::{Instant, Segment, coupling};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
-use crate::impacts::TOUCH_VELOCITY;
 use crate::outcome::Peak;
 
 /// Height (m) of a hop below which impacts that follow one another ever faster are
@@ -160,7 +159,7 @@ impl Driver<'_> {
             let level = &self.system.levels()[l];
             let approach = level.relative(&self.state[n..2 * n]);
             let held = self.contacts.contact(l).is_some();
-            if held || approach >= -TOUCH_VELOCITY {
+            if held || approach >= -work.round_off {
                 work.active.push(l);
                 work.before.push(if held { 0.0 } else { approach });
             }

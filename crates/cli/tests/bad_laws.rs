@@ -177,3 +177,43 @@ fn rigid_time_stepping_knows_linear_storeys_only() {
     assert_eq!(output.status.code(), Some(2), "{text}");
     assert!(text.contains("a storey 1"), "{text}");
 }
+
+/// What relaxes within nanoseconds takes steps as short: 1e13 of them are refused before the first.
+#[test]
+fn laws_that_relax_at_once() {
+    let maxwell = |damping: &str| {
+        format!(
+            "[[link]]\nbetween = [\"a\", \"b\"]\nmodel = \"maxwell\"\nstiffness = \"10 MN/m\"\ndamping = \"{damping}\"\n"
+        )
+    };
+    let damper = |transition: &str| {
+        format!(
+            "[[link]]\nbetween = [\"a\", \"b\"]\nmodel = \"viscous_damper\"\ndamping = \"1 MN*s^0.3/m^0.3\"\nexponent = 0.3\ntransition_velocity = \"{transition}\"\n"
+        )
+    };
+    for link in [maxwell("1e-6 N*s/m"), damper("1e-300 m/s")] {
+        let output = run(&case("", &link), &[]);
+        let text = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
+        assert_eq!(output.status.code(), Some(2), "{text}");
+        assert!(text.contains("stiffness and damping of the law"), "{text}");
+    }
+    for link in [maxwell("1 MN*s/m"), damper("1 mm/s")] {
+        let output = run(&case("", &link), &[]);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{text}");
+    }
+}
+
+/// A bumper opens without force: by its yield force over its stiffness its opening would be a ductility.
+#[test]
+fn a_bumper_has_no_ductility() {
+    let link = "[[link]]\nbetween = [\"a\", \"b\"]\nmodel = \"elastoplastic_gap\"\nstiffness = \"50 MN/m\"\nyield_force = \"1000 kN\"\n";
+    let output = run(&case("", link), &["--json"]);
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let levels = answer["links"][0]["levels"].as_array().unwrap();
+    assert_eq!(levels.len(), 2);
+    for level in levels {
+        assert!(level["force"]["peak"].as_f64().unwrap() > 0.0, "{level}");
+        assert!(level["ductility"].is_null(), "{level}");
+    }
+}

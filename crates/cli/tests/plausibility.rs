@@ -162,6 +162,27 @@ fn masses_that_no_storey_has() {
     }
 }
 
+/// 40 kN over 3.46 MN/m are 11.6 mm; in N they are 0.0116 mm, with which the run would take steps of
+/// microseconds.
+#[test]
+fn a_yield_force_in_the_wrong_unit() {
+    let yielding = |force: &str| {
+        let law = format!(
+            "law = {{ model = \"bilinear\", yield_force = {force}, hardening_ratio = 0.05 }}"
+        );
+        said(&CASE.replacen("height = \"3 m\"", &format!("height = \"3 m\"\n{law}"), 1))
+    };
+    one(
+        &yielding("40"),
+        &[
+            "a, storey 1: it yields at a drift of 0.0116 mm",
+            "kN, not N",
+        ],
+    );
+    let meant = yielding("\"40 kN\"");
+    assert!(meant.check.is_empty(), "{:?}", meant.check);
+}
+
 #[test]
 fn a_gap_wider_than_a_storey_is_high() {
     let said = said(&CASE.replace("20 mm", "20 m"));

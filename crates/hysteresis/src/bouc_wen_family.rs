@@ -112,9 +112,14 @@ impl BoucWen {
         let amount = -d.pinching * libm::expm1(-d.pinching_rate * work);
         let spread =
             (d.pinching_spread + d.pinching_spread_rate * work) * (d.pinching_coupling + amount);
-        let ultimate = libm::pow(weakening * (self.beta + self.gamma), -1.0 / self.exponent);
+        let ultimate = self.ultimate(weakening);
         let off = (zeta * direction - d.pinching_position * ultimate) / spread;
         1.0 - amount * libm::exp(-off * off)
+    }
+
+    /// Magnitude of `zeta` at which its slope is zero under loading.
+    fn ultimate(&self, weakening: f64) -> f64 {
+        libm::pow(weakening * (self.beta + self.gamma), -1.0 / self.exponent)
     }
 
     /// Follows a path in one direction; the committed variables are those of the
@@ -209,6 +214,9 @@ impl HysteresisLaw for BoucWen {
     }
     fn variable_sizes(&self) -> [f64; MAXIMUM_INTERNAL_VARIABLES] {
         [0.1, 1.0]
+    }
+    fn variable_bound(&self) -> f64 {
+        self.ultimate(1.0)
     }
     fn virgin(&self) -> History {
         let branch = Branch::line(LOADING, 1.0, Point::default(), 0.0).towards(1.0);

@@ -96,6 +96,11 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
         0.0
     }
 
+    /// Rate (1/s) at which an internal variable relaxes by itself, at most.
+    fn relaxation_rate(&self) -> f64 {
+        0.0
+    }
+
     /// Whether the element at rest keeps up a lasting load. A storey needs that: one whose
     /// force is due to the speed alone sinks away under it.
     fn holds_static_load(&self) -> bool {
@@ -113,6 +118,12 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
     /// only keeps account of energy.
     fn variable_sizes(&self) -> [f64; MAXIMUM_INTERNAL_VARIABLES] {
         [1.0; MAXIMUM_INTERNAL_VARIABLES]
+    }
+
+    /// Largest magnitude of the first internal variable that any motion leads to, where there is one: a
+    /// method that leads beyond takes steps that are too long for the law.
+    fn variable_bound(&self) -> f64 {
+        f64::INFINITY
     }
 
     /// The history of an element that was never deformed.

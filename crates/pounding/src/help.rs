@@ -147,6 +147,9 @@ pub(crate) fn of_run(error: &TimeHistoryError) -> Option<String> {
         TimeHistoryError::NotFinite { .. } => {
             "check stiffness, masses and gap widths; with a fixed-step method choose a smaller `step`, or take `MethodChoice::Adaptive`"
         }
+        TimeHistoryError::LawNotFollowed { .. } => {
+            "choose a smaller `step`, or take `MethodChoice::EventDriven`, `Adaptive` or `Newmark`"
+        }
         TimeHistoryError::Collapse { .. } => {
             "that is an answer, not a fault of the method: what the storeys can carry after yield falls with their drift, by gravity (`.p_delta()`) or by a law whose force falls; check yield force, hardening, heights and mass"
         }

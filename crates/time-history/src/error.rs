@@ -135,6 +135,23 @@ pub enum TimeHistoryError {
         /// Gap levels in contact, or "none".
         place: String,
     },
+    /// A fixed step too long for a law.
+    #[error(
+        "the steps are too long for {place} at t = {} s ({method}): an internal variable of its law is {} there, and no motion leads beyond {}",
+        seconds(*time), short(*value), short(*bound)
+    )]
+    LawNotFollowed {
+        /// Time (s).
+        time: f64,
+        /// Method.
+        method: &'static str,
+        /// Storey or link.
+        place: String,
+        /// Magnitude of the variable (-).
+        value: f64,
+        /// Its bound (-).
+        bound: f64,
+    },
     /// Contacts put more energy into the motion than all else, by orders of magnitude.
     #[error(
         "the motion runs away at t = {} s: impact model {model} has put {} J into it at {place}, and all that moves the buildings {} J at most",
@@ -251,6 +268,9 @@ impl TimeHistoryError {
             }
             Self::NotFinite { .. } => {
                 "check stiffness, masses and gap widths; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""
+            }
+            Self::LawNotFollowed { .. } => {
+                "choose a smaller `step`, or use method = \"event_driven\", \"adaptive\" or \"newmark\""
             }
             Self::ContactGivesEnergy { .. } => {
                 "a contact takes energy from the motion: a positive force pushes the floors apart, so that of a spring and a dashpot is k delta + c v; check the signs of that model"

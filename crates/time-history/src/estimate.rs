@@ -51,7 +51,7 @@ pub enum StepLimit {
         period: f64,
     },
     /// The shortest period (s) of a floor on a storey or link that follows a law, or the memory of a damper
-    /// times two pi.
+    /// or of its law times two pi.
     Element {
         /// The storey or link.
         place: String,
@@ -176,12 +176,11 @@ fn by_element(system: &System, longest: f64) -> Option<(f64, StepLimit)> {
     let rate = |element: &Element| {
         let added = (element.law.initial_stiffness() - element.carried).max(0.0);
         let yields = yielding(system, element);
-        // That of a damper whose force is a power of the velocity is steep at rest alone.
-        let damping = match element.law.is_linear() {
-            true => element.law.initial_damping(),
-            false => 0.0,
-        };
-        (added * yields).sqrt().max(damping * yields)
+        // A damper whose force is a power of the velocity is that steep at rest alone, where floors
+        // that it holds may stay.
+        let damping = element.law.initial_damping() * yields;
+        let own = damping.max(element.law.relaxation_rate());
+        (added * yields).sqrt().max(own)
     };
     let rates = system.elements().iter().map(rate).enumerate();
     let (index, rate) = rates.max_by(|a, b| a.1.total_cmp(&b.1))?;

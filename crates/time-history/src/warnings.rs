@@ -21,6 +21,9 @@ const PERIODS: (f64, f64) = (0.005, 20.0);
 /// a building and not of a model of one, and a period (s) that models and light buildings exceed:
 /// with all masses a thousand times as large a building of 6 s has it.
 const SMALL_MASS: (f64, f64, f64) = (1000.0, 2.0, 0.2);
+/// Drift ratio at yield that no storey is below: a thousandth of what storeys have at least, as with a
+/// yield force in N where kN are meant.
+const YIELD_DRIFT_RATIO: f64 = 5.0e-6;
 /// Peak ground acceleration (g) that strong records hardly exceed.
 const GROUND_ACCELERATION: f64 = 3.0;
 /// Drift ratio beyond which buildings are no longer what the case says.
@@ -61,6 +64,17 @@ pub enum Warning {
         mass: f64,
         /// Fundamental period (s).
         period: f64,
+    },
+    /// A storey that yields as soon as it moves.
+    SmallYieldDrift {
+        /// Name of the building.
+        building: String,
+        /// Storey, from 1.
+        storey: usize,
+        /// Drift at yield (m).
+        drift: f64,
+        /// Storey height (m).
+        height: f64,
     },
     /// Soil that is as good as a fixed base.
     StiffSoil {
@@ -215,6 +229,17 @@ impl fmt::Display for Warning {
                 short(*mass),
                 short(*period),
                 short(period * 1000.0_f64.sqrt())
+            ),
+            Self::SmallYieldDrift {
+                building,
+                storey,
+                drift,
+                height,
+            } => write!(
+                f,
+                "{building}, storey {storey}: it yields at a drift of {} mm, {} % of its height, where storeys yield at some 0.2 to 1 %: is the unit of its yield force right (kN, not N)?",
+                short(1e3 * drift),
+                short(100.0 * drift / height)
             ),
             Self::WideGap { gap, width, height } => write!(
                 f,
@@ -405,6 +430,24 @@ fn small_mass(building: &ShearBuilding, period: f64) -> Option<Warning> {
     })
 }
 
+/// The warning of a building by the storey that yields at the smallest part of its height.
+fn small_yield_drift(building: &ShearBuilding) -> Option<Warning> {
+    // Isolators and dampers slide from the start, and their height means nothing.
+    let first = usize::from(building.isolator().is_some());
+    let storeys = building.laws().iter().zip(building.height()).enumerate();
+    let drifts = storeys.skip(first).filter_map(|(i, (law, height))| {
+        let drift = law.as_ref()?.yield_drift?;
+        (drift > 0.0 && drift < YIELD_DRIFT_RATIO * height).then_some((i, drift, *height))
+    });
+    let smallest = drifts.min_by(|a, b| (a.1 / a.2).total_cmp(&(b.1 / b.2)));
+    smallest.map(|(storey, drift, height)| Warning::SmallYieldDrift {
+        building: building.name().to_owned(),
+        storey: storey + 1,
+        drift,
+        height,
+    })
+}
+
 /// One significant digit, not above the value.
 fn rounded_down(x: f64) -> f64 {
     let unit = libm::pow(10.0, libm::log10(x).floor());
@@ -436,6 +479,12 @@ impl Warning {
                 warnings.extend(small_mass(building, period));
             }
         }
+        warnings.extend(
+            system
+                .buildings()
+                .iter()
+                .filter_map(|b| small_yield_drift(b)),
+        );
         warnings.extend(system.buildings().iter().filter_map(|b| stiff_soil(b)));
         warnings.extend(system.buildings().iter().filter_map(|b| braked_isolator(b)));
         for gap in system.gaps() {

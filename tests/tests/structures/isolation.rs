@@ -8,7 +8,9 @@ use pounding_case::Case;
 use pounding_shear_building::{
     Damping, DampingMatrix, Isolator, IsolatorKind, PostYield, ShearBuilding, Strength,
 };
-use pounding_time_history::{Floor, MethodChoice, Outcome, RunOptions, System, run};
+use pounding_time_history::{
+    Floor, MethodChoice, Outcome, RunOptions, System, TimeHistoryError, run,
+};
 use serde_json::Value;
 
 use super::condensed_stiffness::model;
@@ -216,6 +218,81 @@ fn friction_pendulum_that_starts_displaced() {
         assert!((outcome.final_velocity[0] + 0.150_566_166_145).abs() < 1e-9);
         assert!(outcome.energy.residual_ratio < 1e-8);
     }
+}
+
+/// One mass on a pendulum alone under El Centro: no force is above `W d / R + mu_f W` at the maximum
+/// displacement `d`, and fixed steps agree with the adaptive pair as far as their displacements do.
+/// They took the friction of the speed at the end of a step, where the motion has turned, for that of
+/// the branch before, exp(a |v|) instead of exp(-a |v|): up to 1e77 N.
+#[test]
+fn friction_pendulum_by_fixed_steps() {
+    let weight = 8.0e5 * 9.806_65;
+    for rate in [30.0, 100.0, 300.0, 1.0e4] {
+        let rated = PENDULUM.replace("20 s/m", &format!("{rate} s/m"));
+        let system = system_of(&format!("{rated}{}", walls("5 m", "5 m")));
+        let peaks = |method: MethodChoice| {
+            let outcome = go(&system, method, 12.0);
+            let isolator = outcome.buildings[0].isolator.as_ref().unwrap();
+            let slab = &outcome.buildings[0].storeys[0];
+            let (force, way) = (isolator.force.value, slab.displacement.value);
+            let bound = weight * (way / 1.5 + 0.08);
+            assert!(
+                force <= bound * (1.0 + 1e-9),
+                "{rate}: {force} N, {bound} N"
+            );
+            let inertia = 8.0e5 * slab.acceleration_absolute.value;
+            assert!(inertia <= 1.001 * bound, "{rate}: {inertia} N, {bound} N");
+            (force, way)
+        };
+        let (force, way) = peaks(ADAPTIVE);
+        let newmark = |step| MethodChoice::Newmark {
+            step,
+            beta: 0.25,
+            gamma: 0.5,
+        };
+        let hht = |step| MethodChoice::HhtAlpha { step, alpha: -0.1 };
+        for (method, allowed) in [
+            (newmark(0.02), 0.03),
+            (hht(0.02), 0.03),
+            (newmark(0.002), 1.0e-3),
+            (hht(0.002), 1.0e-3),
+        ] {
+            let found = peaks(method);
+            near("force", found.0, force, allowed);
+            near("displacement", found.1, way, allowed);
+        }
+    }
+}
+
+/// Beyond `|z| = 1` no motion leads the variable of a pendulum: an explicit step of 20 ms, over which
+/// the slab goes many times the yield displacement, does.
+#[test]
+fn explicit_steps_too_long_for_a_pendulum() {
+    let system = system_of(&format!("{PENDULUM}{}", walls("5 m", "5 m")));
+    let go_by = |step| {
+        let options = RunOptions {
+            method: MethodChoice::RungeKutta4 { step },
+            duration: Some(12.0),
+            ..RunOptions::default()
+        };
+        run(&system, &options, &mut [], &mut |_| {})
+    };
+    let error = go_by(0.04).unwrap_err();
+    let TimeHistoryError::LawNotFollowed {
+        place,
+        value,
+        bound,
+        ..
+    } = &error
+    else {
+        panic!("{error}");
+    };
+    assert!(
+        place.contains("office") && *bound == 1.0 && *value > 1.1,
+        "{error}"
+    );
+    assert!(error.help().unwrap().contains("smaller `step`"));
+    assert!(go_by(0.001).is_ok());
 }
 
 fn isolated(kind: IsolatorKind, dashpot: f64, superstructure: Damping) -> System {

@@ -68,6 +68,9 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     build,
 };
 
+/// Exponent of the fading friction up to which a trial step behind the turn of the motion follows it.
+const FREE_EXPONENT: f64 = 2.0;
+
 /// Internal variables: `z` and the work of the friction over `W Y` (both without dimension).
 #[derive(Debug)]
 struct FrictionPendulum {
@@ -102,10 +105,19 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
 }
 
 impl FrictionPendulum {
-    /// Coefficient of friction at a speed, and its derivative by it.
+    /// Coefficient of friction at a speed, and its derivative by it. Behind the turn of the motion,
+    /// where the speed along the branch is negative, a trial step goes on smoothly along the branch;
+    /// only there, and far from the turn, is it held below what the exponential grows to.
     fn friction(&self, speed: f64) -> (f64, f64) {
-        let fading = (self.fast - self.slow) * libm::exp(-self.rate * speed);
-        (self.fast - fading, self.rate * fading)
+        let exponent = -self.rate * speed;
+        let (exponent, by_exponent) = if exponent > FREE_EXPONENT {
+            let tangent = libm::tanh(exponent - FREE_EXPONENT);
+            (FREE_EXPONENT + tangent, 1.0 - tangent * tangent)
+        } else {
+            (exponent, 1.0)
+        };
+        let fading = (self.fast - self.slow) * libm::exp(exponent);
+        (self.fast - fading, self.rate * fading * by_exponent)
     }
 
     /// `Y dz/dx` on a branch.
@@ -168,6 +180,9 @@ impl HysteresisLaw for FrictionPendulum {
     fn variable_sizes(&self) -> [f64; MAXIMUM_INTERNAL_VARIABLES] {
         [0.1, self.fast]
     }
+    fn variable_bound(&self) -> f64 {
+        1.0
+    }
     fn virgin(&self) -> History {
         let branch = Branch::line(LOADING, 1.0, Point::default(), 0.0).towards(1.0);
         let mut history = History::new(branch);
@@ -191,6 +206,12 @@ impl HysteresisLaw for FrictionPendulum {
         candidate.velocity = end.velocity;
         let [z, _] = candidate.variables;
         let slope = Self::slope(z, candidate.branch.kind) / self.yield_displacement;
+        // Within the step the motion may have turned: the friction is that of the speed at its end.
+        if end.velocity != 0.0 {
+            let branch = &mut candidate.branch;
+            branch.direction = end.velocity.signum();
+            branch.kind = kind(branch.direction, branch.side);
+        }
         Response {
             force: self.pendulum() * end.deformation + friction * self.weight * z,
             by_deformation: self.pendulum() + friction * self.weight * slope,

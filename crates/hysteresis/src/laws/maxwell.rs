@@ -63,6 +63,9 @@ impl HysteresisLaw for Maxwell {
     fn initial_stiffness(&self) -> f64 {
         self.stiffness
     }
+    fn relaxation_rate(&self) -> f64 {
+        self.stiffness / self.damping
+    }
     fn internal_variables(&self) -> usize {
         2
     }

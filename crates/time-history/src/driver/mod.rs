@@ -557,7 +557,11 @@ impl<'a> Driver<'a> {
             self.stalled = 0;
         }
         let n = self.dynamics.layout.dofs;
-        let implicit = self.method.information().implicit;
+        let information = self.method.information();
+        let implicit = information.implicit;
+        if !implicit && !information.adaptive {
+            self.laws_are_followed(segment.start + tau + step)?;
+        }
         self.contacts.elements.accept(
             (self.system, self.dynamics.layout),
             &mut self.spare,

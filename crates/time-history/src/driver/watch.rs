@@ -11,6 +11,8 @@ use crate::polynomial::{Polynomial, first_rise};
 
 /// Work of contacts on the buildings, over the largest input energy, that no contact does.
 const GIVEN: f64 = 1.0e6;
+/// How far beyond its bound the error of a fixed step may lead a variable of a law.
+const BEYOND: f64 = 1.1;
 /// Part of it up to which the balance counts as closed.
 const OPEN: f64 = 0.1;
 
@@ -69,6 +71,28 @@ impl Driver<'_> {
         let at = (motion, &state[element.range(layout)]);
         let response = element.response(history, &mut history.clone(), at, elapsed);
         response.by_deformation < 0.0
+    }
+
+    /// Ends the run where a fixed step leads a law to where no motion does: beyond what a stiff law
+    /// allows, an explicit method goes on with forces that are bounded no more, and the ledger closes.
+    pub(super) fn laws_are_followed(&self, time: f64) -> Result<(), TimeHistoryError> {
+        for (index, element) in self.system.elements().iter().enumerate() {
+            let bound = element.law.variable_bound();
+            let variables = &self.state[element.range(self.dynamics.layout)];
+            let Some(value) = variables.first().map(|z| z.abs()) else {
+                continue;
+            };
+            if value > BEYOND * bound {
+                return Err(TimeHistoryError::LawNotFollowed {
+                    time,
+                    method: self.method.information().title,
+                    place: self.system.place_of_element(index),
+                    value,
+                    bound,
+                });
+            }
+        }
+        Ok(())
     }
 
     /// Work (J) of contacts on the buildings beyond which a run is given up. That of honest contacts

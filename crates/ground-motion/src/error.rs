@@ -210,7 +210,7 @@ pub enum GroundMotionError {
     },
     /// A spectrum that was not reached.
     #[error(
-        "the spectrum is off by {worst:.4} of the target at {period:.4} s at best, after {best_at} of {iterations} iterations, more than {tolerance}"
+        "the spectrum is off by {worst:.4} of the target at {period:.4} s after {iterations} iterations, more than {tolerance}"
     )]
     NotMatched {
         /// Maximum deviation as a part of the target.

@@ -167,3 +167,32 @@ fn a_value_that_stands_twice_is_told() {
     assert!(of("[0.01, 0.02, \"10 mm\"]").contains(said));
     assert!(!of("[0.01, 0.02]").contains("more than once"));
 }
+
+/// So is a model under two of its names, and a record in two files that a variable names.
+#[test]
+fn a_choice_that_stands_twice_is_told() {
+    let of = |path: &str, values: &str| {
+        let text =
+            format!("case = \"case.toml\"\n[[variable]]\npath = \"{path}\"\nvalues = {values}\n");
+        let bench = Bench::new(&text);
+        let record = super::root().join("ground_motions/el_centro_1940_ns.csv");
+        std::fs::copy(record, bench.path("copy.csv")).unwrap();
+        bench.text("sweep study.toml -o out.h5")
+    };
+    let twice = of(
+        "gap.0.model",
+        "[\"jankowski_2005\", \"lankarani_nikravesh_1990\", \"jankowski_2006\"]",
+    );
+    let said = "variable \"gap_0_model\" has the model jankowski_2005 more than once, as \"jankowski_2005\" and \"jankowski_2006\"";
+    assert!(twice.contains(said), "{twice}");
+    let once = of(
+        "gap.0.model",
+        "[\"jankowski_2005\", \"lankarani_nikravesh_1990\"]",
+    );
+    assert!(!once.contains("more than once"), "{once}");
+    let same = of(
+        "ground_motion.file",
+        "[\"MOTIONS/el_centro_1940_ns.csv\", \"./copy.csv\"]",
+    );
+    assert!(same.contains("are the same motion"), "{same}");
+}

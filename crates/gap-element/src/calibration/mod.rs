@@ -267,6 +267,11 @@ impl CalibrationError {
                     .to_owned()
             }
             Self::NotPositive { .. } => "check the value and its unit; plain numbers are SI".to_owned(),
+            Self::NoRoot { achieved_low, achieved_high, .. }
+                if *achieved_low == 0.0 && *achieved_high == 0.0 =>
+            {
+                "the body does not leave the slab: its weight presses it in further than it rebounds; drop it faster, or take a lighter body or a stiffer contact; where a rebound is read from a record, read it shortly after the contact".to_owned()
+            }
             Self::FallsBack { .. } | Self::NoRoot { .. } => {
                 "read the rebound where the body leaves the slab, or at a time shortly after the contact".to_owned()
             }

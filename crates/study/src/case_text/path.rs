@@ -70,6 +70,16 @@ impl Path {
         self.table() == "gap" && !shapes.iter().any(|key| self.leads_through(key))
     }
 
+    /// Whether it leads to the name of a model or law.
+    pub(crate) fn of_model(&self) -> bool {
+        self.0.last() == Some(&Step::Key("model".to_owned()))
+    }
+
+    /// Whether it leads to the file of the motion.
+    pub(crate) fn of_motion_file(&self) -> bool {
+        self.to_string() == "ground_motion.file"
+    }
+
     /// Whether it leads to the scale of the motion.
     pub(crate) fn of_scale(&self) -> bool {
         self.table() == "ground_motion" && self.0.get(1) == Some(&Step::Key("scale".to_owned()))

@@ -143,9 +143,10 @@ impl<'s> Runner<'s> {
                 v.name, v.unit
             ))
         }));
+        warnings.extend(study.variables.iter().filter_map(model_named_twice));
         let known = |r: usize| Some(&motions.all[r].as_ref().ok()?.first);
         // One file that is read in several ways is no repetition.
-        let once = study.readings.is_empty();
+        let once = study.reads_one_way();
         let same = |a: usize, b: usize| once && known(a).is_some() && known(a) == known(b);
         let names: Vec<&str> = study.records.iter().map(|r| r.name.as_str()).collect();
         warnings.extend(Repeated::by(motions.all.len(), same).warnings(&names));
@@ -382,6 +383,30 @@ impl<'s> Runner<'s> {
         self.named_files.iter().for_each(|f| hash.update(f));
         hexadecimal(&hash.finalize())
     }
+}
+
+/// The warning of a variable that has a model or law under two of its names.
+fn model_named_twice(variable: &Variable) -> Option<String> {
+    let (Values::Choices(names), Target::Entry { path, .. }) = (&variable.values, &variable.target)
+    else {
+        return None;
+    };
+    if !path.of_model() {
+        return None;
+    }
+    let known = |name: &String| match pounding_gap_element::registry::find(name) {
+        Ok(model) if path.of_gap() => model.name,
+        _ => pounding_hysteresis::find(name).map_or("", |law| law.name),
+    };
+    names.iter().enumerate().find_map(|(i, name)| {
+        let own = known(name);
+        let before = &names[..i];
+        let first = before.iter().find(|other| !own.is_empty() && known(other) == own)?;
+        Some(format!(
+            "variable \"{}\" has the model {own} more than once, as \"{first}\" and \"{name}\": its runs are made, and count, as often",
+            variable.name
+        ))
+    })
 }
 
 /// What a study with rigid impacts must know of its accelerations.

@@ -27,6 +27,12 @@ impl Variable {
 }
 
 impl Study {
+    /// Whether its motions differ by their files alone.
+    pub(crate) fn reads_one_way(&self) -> bool {
+        let mut reading = self.variables.iter().filter(|v| v.of_reading());
+        reading.all(|v| matches!(&v.target, Target::Entry { path, .. } if path.of_motion_file()))
+    }
+
     /// Which motion a run of these values has.
     pub(crate) fn motion_of(&self, point: &[Value]) -> usize {
         if !self.readings.is_empty() {

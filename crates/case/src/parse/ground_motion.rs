@@ -4,6 +4,7 @@ use std::ops::Range;
 use std::path::PathBuf;
 
 use pounding_ground_motion::Offset;
+use schemars::transform::{RecursiveTransform, Transform};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
@@ -40,6 +41,7 @@ pub(super) struct MotionTable {
     rotate: Optional<Degrees>,
     /// The record across the row, for buildings that turn in plan: its file, or a table with the
     /// file and what else is to be said of it
+    #[schemars(transform = one_record)]
     across: Optional<TableOr<GroundTable, FilePath>>,
     /// acceleration, the only quantity that excites buildings
     quantity: Optional<String>,
@@ -263,6 +265,26 @@ impl MotionTable {
             }),
         }
     }
+}
+
+/// Takes out of the schema of `across` what only the ground under a building has.
+fn one_record(schema: &mut Schema) {
+    let of_table = |form: &mut Schema| {
+        let keys = form
+            .get_mut("properties")
+            .and_then(|keys| keys.as_object_mut());
+        // That of the table alone, and none of its steps and scales.
+        let Some(keys) = keys.filter(|keys| keys.contains_key("wave_speed")) else {
+            return;
+        };
+        keys.retain(|key, _| !["delay", "distance", "wave_speed"].contains(&key.as_str()));
+        form.insert(
+            "description".into(),
+            "A record, with what is to be said of it".into(),
+        );
+        form.insert("required".into(), ["file"].as_slice().into());
+    };
+    RecursiveTransform(of_table).transform(schema);
 }
 
 /// The record across the row.

@@ -461,3 +461,33 @@ fn names_that_are_no_text_are_refused() {
     }
     refused(bench.command("sweep study.toml").current_dir(&folder));
 }
+
+/// Storeys of both buildings 3.5 m high are level, where either alone is not: values of a list are
+/// tried in their rows.
+#[test]
+fn rows_of_a_list_hold_together() {
+    let study = |heavy: &str, kind: &str| {
+        Bench::new(&format!(
+            "case = \"case.toml\"\n[[variable]]\npath = \"building.light.height\"\nvalues = [\"3 m\", \"3.5 m\"]\n[[variable]]\npath = \"building.heavy.height\"\nvalues = {heavy}\n[design]\nkind = \"{kind}\"\n"
+        ))
+    };
+    let bench = study("[\"3 m\", \"3.5 m\"]", "list");
+    bench.text("sweep study.toml -o out.h5 --csv out.csv");
+    let table = String::from_utf8(bench.bytes("out.csv")).unwrap();
+    let rows: Vec<&str> = table.lines().filter(|l| l.contains("complete")).collect();
+    assert_eq!(rows.len(), 2, "{table}");
+    let said = study("[\"3 m\", \"3.6 m\"]", "list").complaint("sweep study.toml -o out.h5", 2);
+    for part in [
+        "study.toml:4:",
+        "the case refuses run 1 of the list (building_light_height = 3.5, building_heavy_height = 3.6)",
+        "equal elevation",
+    ] {
+        assert!(said.contains(part), "{part}: {said}");
+    }
+    // A grid has rows in which one of them is alone.
+    let said = study("[\"3 m\", \"3.5 m\"]", "grid").complaint("sweep study.toml -o out.h5", 2);
+    assert!(
+        said.contains("refuses this for `building.light.height`"),
+        "{said}"
+    );
+}

@@ -1,6 +1,7 @@
 //! What a study file is read against: its case, as far as that is sound.
 
 use std::cell::RefCell;
+use std::ops::Range;
 use std::path::PathBuf;
 
 use pounding_case::document::Reader;
@@ -31,6 +32,10 @@ pub(super) struct Context {
     pub wrong: Option<StudyError>,
     /// Folder of the study.
     pub folder: PathBuf,
+    /// Whether the values of variables go together, a row of a list each.
+    pub in_rows: bool,
+    /// Where values stand that the case refuses alone, which with others of their rows it may take.
+    pub refused_alone: RefCell<Vec<Range<usize>>>,
     /// Files of records that are not there, which is no error where a run may do without.
     pub missing: RefCell<Vec<CaseError>>,
 }

@@ -8,6 +8,7 @@ mod intensity;
 mod read;
 mod readings;
 mod records;
+mod rows;
 mod values;
 mod variables;
 
@@ -134,6 +135,17 @@ pub(crate) enum RecordKind {
 }
 
 impl Variable {
+    /// A value of it, in words.
+    fn said(&self, value: &Value) -> String {
+        match (&self.values, value) {
+            (Values::Choices(labels), Value::Choice(i)) => {
+                format!("{} = {}", self.name, labels[*i])
+            }
+            (_, Value::Choice(i)) => format!("{} = {i}", self.name),
+            (_, Value::Number(x)) => format!("{} = {x}", self.name),
+        }
+    }
+
     /// A number (SI) that it takes more than once, but for round-off as of a unit.
     pub(crate) fn repeated(&self) -> Option<f64> {
         let Values::Numbers(numbers) = &self.values else {

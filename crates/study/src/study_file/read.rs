@@ -24,7 +24,9 @@ use super::ida::IdaTable;
 use super::readings::readings;
 use super::values::{MOST_OF_CHUNK, MOST_RUNS, Whole, all, lacks};
 use super::variables::VariableTable;
-use super::{IntensityMeasure, Readings, RecordSource, Study, Target, Values, Variable, records};
+use super::{
+    IntensityMeasure, Readings, RecordSource, Study, Target, Values, Variable, records, rows,
+};
 use crate::design::Design;
 use crate::error::StudyError;
 
@@ -237,6 +239,7 @@ impl StudyFile {
         };
         // Without records of its own the study takes that of the case.
         read_case(reader, self.case, context, !names_records);
+        context.in_rows = list.as_ref().is_some_and(|list| list.len() > 1) && is_list(&self.design);
         let read = list.map(|list| variables(reader, list, context));
         let whole = read.as_ref().filter(|read| read.whole && all_known);
         let design_place = self.design.span();
@@ -246,6 +249,11 @@ impl StudyFile {
             whole.map(|read| &*read.variables),
             counts,
         );
+        let rows = match (whole, &design) {
+            (Some(read), Some(design)) => rows::taken(reader, context, (&read.variables, design)),
+            // What else is wrong comes first.
+            _ => Some(()),
+        };
         let measure = read
             .as_ref()
             .and_then(|read| read.variables.iter().find_map(intensity_of));
@@ -272,6 +280,7 @@ impl StudyFile {
             Some(Located { value, .. }) => value.read(reader, with_ida),
         };
         let (ida, output, read) = (ida?, output?, read?);
+        rows?;
         let base = context.base.take()?.case;
         let design = design?;
         let (records, readings) = match (read.records, read.reading) {
@@ -295,6 +304,15 @@ impl StudyFile {
             base,
         })
     }
+}
+
+/// Whether a design takes the values of its variables in rows.
+fn is_list(design: &Optional<DesignTable>) -> bool {
+    let kind = match design {
+        Some(Field::Given(table)) => &table.value.kind,
+        _ => return false,
+    };
+    matches!(kind, Some(Field::Given(kind)) if kind.value == Kind::List)
 }
 
 /// Where a variable says how many numbers its range has.

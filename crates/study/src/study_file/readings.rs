@@ -120,14 +120,7 @@ fn source(
     let edits: Vec<_> = values().flat_map(|(v, x)| v.target.edits(x)).collect();
     let case = Variant::new(tree, &edits).case();
     let file = &case.as_ref().unwrap_or(base).ground_motion.file.value;
-    let said = |(variable, value): (&Variable, &Value)| match (&variable.values, value) {
-        (super::Values::Choices(labels), Value::Choice(i)) => {
-            format!("{} = {}", variable.name, labels[*i])
-        }
-        (_, Value::Choice(i)) => format!("{} = {i}", variable.name),
-        (_, Value::Number(x)) => format!("{} = {x}", variable.name),
-    };
-    let said: Vec<String> = values().map(said).collect();
+    let said: Vec<String> = values().map(|(v, x)| v.said(x)).collect();
     RecordSource {
         name: format!("{} ({})", stem(file), said.join(", ")),
         kind: match case {

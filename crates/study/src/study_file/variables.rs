@@ -1,16 +1,16 @@
 //! Variables: what varies, and every value tried in the case.
 
+use std::cell::RefCell;
 use std::ops::Range;
 use std::sync::Arc;
 
-use pounding_assembly::{AssemblyError, assemble_with_record, parameter_dimension};
+use pounding_assembly::parameter_dimension;
 use pounding_case::document::{
     Amount, Entry, Field, FreeKeys, List, Number, OneOrEach, Optional, Positive, Reader, Scalar,
     TableOr, Time, Written,
 };
-use pounding_case::{Case, CaseError, CaseTree, Dimension, Located};
+use pounding_case::{Case, CaseTree, Dimension, Located};
 use pounding_catalogue::wording::one_line;
-use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
@@ -18,9 +18,10 @@ use serde::de::IgnoredAny;
 use super::context::{Base, Context};
 use super::intensity::{BelowOne, IntensityKeys, Measure};
 use super::records::{Record, SyntheticTable};
+use super::rows::{self, Refused};
 use super::values::{Numbers, Spacing, Values, Whole, all, table_with_range, unit_of};
 use super::{IntensityMeasure, RecordSource, Target, Variable, records};
-use crate::case_text::{Edit, Entry as CaseEntry, Lost, Path, Variant, entry, with_model};
+use crate::case_text::{Edit, Entry as CaseEntry, Lost, Path, entry, with_model};
 use crate::runs::written;
 use crate::table::DIAGNOSIS;
 
@@ -298,6 +299,7 @@ impl VariableTable {
                 path,
                 entry,
                 place: place.clone(),
+                refused_alone: context.in_rows.then_some(&context.refused_alone),
             })
         });
         let first = match &self.values {
@@ -517,6 +519,8 @@ struct Trial<'r> {
     entry: Arc<CaseEntry>,
     /// Where the study names the path.
     place: Range<usize>,
+    /// Takes values that the case refuses alone, where they go together with others.
+    refused_alone: Option<&'r RefCell<Vec<Range<usize>>>>,
 }
 
 impl Trial<'_> {
@@ -538,10 +542,13 @@ impl Trial<'_> {
             match texts.iter().find_map(refused) {
                 None => {}
                 Some(refusal) if refusal.of_key => return self.wrong(refusal, self.place.clone()),
-                Some(refusal) => {
-                    sound = false;
-                    self.wrong::<()>(refusal, place);
-                }
+                Some(refusal) => match self.refused_alone {
+                    Some(refused) => refused.borrow_mut().push(place),
+                    None => {
+                        sound = false;
+                        self.wrong::<()>(refusal, place);
+                    }
+                },
             }
         }
         sound.then_some(())
@@ -553,30 +560,19 @@ impl Trial<'_> {
         self.reader.refuse(place, message, help.unwrap_or_default())
     }
 
-    /// Reads and assembles the case with these edits, without its record.
+    /// Reads and assembles the case with these edits.
     fn refusal(&self, edits: &[Edit]) -> Result<(), Refusal> {
         // An entry that the case leaves out brings its key with it.
         let key = self.entry.span.start..self.entry.span.start + self.entry.before.len();
-        let of_text = |e: CaseError| Refusal {
-            of_key: key.contains(&e.span.start),
-            message: e.message,
-            help: e.help,
-        };
-        let variant = Variant::new(&self.tree, edits);
-        let case = variant.case().map_err(of_text)?;
-        let of_file = |message: String, help| Refusal {
-            of_key: false,
-            message,
-            help,
-        };
-        let unit = AccelerationUnit::MetrePerSecondSquared;
-        let at_rest = Accelerogram::new(vec![0.0; 2], unit, 1.0);
-        let at_rest = at_rest.map_err(|e| of_file(e.to_string(), e.help()))?;
-        match variant.make(&case, |case| assemble_with_record(case, &at_rest)) {
-            Ok(_) => Ok(()),
-            Err(AssemblyError::Case(e)) => Err(of_text(e)),
-            Err(e) => Err(of_file(e.to_string(), e.help())),
-        }
+        rows::tried(&self.tree, edits).map_err(|refused| {
+            let of_key = matches!(&refused, Refused::Text(e) if key.contains(&e.span.start));
+            let (message, help) = refused.said();
+            Refusal {
+                message,
+                help,
+                of_key,
+            }
+        })
     }
 }
 

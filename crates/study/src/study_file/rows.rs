@@ -1,0 +1,71 @@
+//! Rows of a list of which the case refuses a value alone, tried with all their values.
+
+use pounding_assembly::{AssemblyError, assemble_with_record};
+use pounding_case::document::Reader;
+use pounding_case::{CaseError, CaseTree};
+use pounding_ground_motion::{AccelerationUnit, Accelerogram};
+
+use super::Variable;
+use super::context::{Base, Context};
+use crate::case_text::{Edit, Variant};
+use crate::design::Design;
+
+/// Why a case cannot be read or assembled.
+pub(super) enum Refused {
+    /// Of its text, with the place in it.
+    Text(CaseError),
+    /// Of a file that it names, or of all of it.
+    Whole(AssemblyError),
+}
+
+impl Refused {
+    /// The message, and what helps.
+    pub(super) fn said(self) -> (String, Option<String>) {
+        match self {
+            Self::Text(error) => (error.message, error.help),
+            Self::Whole(error) => (error.to_string(), error.help()),
+        }
+    }
+}
+
+/// Reads and assembles a case with these edits, without its record.
+pub(super) fn tried(tree: &CaseTree<'_>, edits: &[Edit]) -> Result<(), Refused> {
+    let variant = Variant::new(tree, edits);
+    let case = variant.case().map_err(Refused::Text)?;
+    let unit = AccelerationUnit::MetrePerSecondSquared;
+    let at_rest = Accelerogram::new(vec![0.0; 2], unit, 1.0);
+    let at_rest = at_rest.map_err(|e| Refused::Whole(e.into()))?;
+    match variant.make(&case, |case| assemble_with_record(case, &at_rest)) {
+        Ok(_) => Ok(()),
+        Err(AssemblyError::Case(error)) => Err(Refused::Text(error)),
+        Err(error) => Err(Refused::Whole(error)),
+    }
+}
+
+/// Whether the case takes every row of a list, where it refuses a value of one alone.
+pub(super) fn taken(
+    reader: &Reader<'_>,
+    context: &Context,
+    (variables, design): (&[Variable], &Design),
+) -> Option<()> {
+    let Some(place) = context.refused_alone.borrow().first().cloned() else {
+        return Some(());
+    };
+    let Base { case, .. } = context.base.as_ref()?;
+    let tree = CaseTree::parse(&case.source, &case.file).ok()?;
+    for run in 0..design.runs() {
+        let point = design.point(run, variables);
+        let values = || variables.iter().zip(&point);
+        let edits: Vec<Edit> = values().flat_map(|(v, x)| v.target.edits(x)).collect();
+        if let Err(refused) = tried(&tree, &edits) {
+            let (message, help) = refused.said();
+            let row: Vec<String> = values().map(|(v, x)| v.said(x)).collect();
+            let message = format!(
+                "the case refuses run {run} of the list ({}): {message}",
+                row.join(", ")
+            );
+            return reader.refuse(place, message, help.unwrap_or_default());
+        }
+    }
+    Some(())
+}

@@ -288,6 +288,7 @@ const UNITS: &[Unit] = &[
     unit("ms", 1.0, 1e3, Dimension::TIME),
     unit("us", 1.0, 1e6, Dimension::TIME),
     unit("min", 60.0, 1.0, Dimension::TIME),
+    unit("h", 3600.0, 1.0, Dimension::TIME),
     unit("Hz", 1.0, 1.0, Dimension::FREQUENCY),
     unit("g", 980_665.0, 1e5, Dimension::ACCELERATION),
     unit("gal", 1.0, 100.0, Dimension::ACCELERATION),

@@ -17,6 +17,10 @@ const LAST_LINES: usize = 60;
 /// Values among which one in another form is damaged.
 const MANY: usize = 20;
 
+/// Values with exponents among which one with fewer decimals is damaged: of those that leave out zeros at
+/// the end a tenth has fewer.
+const MANY_DECIMALS: usize = 200;
+
 /// What a printed number has behind its decimal point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 struct Form {
@@ -54,6 +58,39 @@ pub(crate) struct Forms {
     /// Whether the values show no form: decimals differ, or points are missing.
     none: bool,
     exponents: Exponents,
+    decimals: Decimals,
+}
+
+/// Values with exponents by their decimals: one that alone has fewer lost a digit.
+#[derive(Debug, Default)]
+struct Decimals {
+    count: usize,
+    usual: usize,
+    /// Values with fewer, and the first of them: line, column, field.
+    fewer: usize,
+    first: Option<(usize, usize, String)>,
+    /// Whether some have more.
+    more: bool,
+}
+
+impl Decimals {
+    fn see(&mut self, decimals: usize, place: impl FnOnce() -> (usize, usize, String)) {
+        self.count += 1;
+        if self.count == 1 {
+            self.usual = decimals;
+        } else if decimals < self.usual {
+            self.fewer += 1;
+            self.first.get_or_insert_with(place);
+        } else if decimals > self.usual {
+            self.more = true;
+        }
+    }
+
+    /// The first value with fewer decimals than all others, of so many that no writer leaves out zeros.
+    fn lost(&self) -> Option<&(usize, usize, String)> {
+        let few = self.count > MANY_DECIMALS && self.fewer <= self.count / 1000 + 1;
+        self.first.as_ref().filter(|_| few && !self.more)
+    }
 }
 
 /// Which values of a series have exponents.
@@ -141,6 +178,10 @@ impl Forms {
     pub(crate) fn see(&mut self, line: usize, column: usize, field: &[u8]) {
         self.count += 1;
         self.exponents.see(line, column, field);
+        if let Some(form) = Form::of(field).filter(|form| form.exponent > 0) {
+            let place = || (line, column, number::shown(field));
+            self.decimals.see(form.decimals, place);
+        }
         let Some(form) = Form::of(field).filter(|_| !self.none) else {
             self.none = true;
             return;
@@ -182,6 +223,17 @@ impl Forms {
                 format!(
                     "\"{}\" has no exponent, which the other values have",
                     bare.field
+                ),
+                "the file is damaged: correct the value, or get the record again",
+            ));
+        }
+        if let Some((line, column, field)) = self.decimals.lost() {
+            return Err(source.error(
+                *line,
+                *column,
+                format!(
+                    "\"{field}\" lacks a digit: the other values have {} decimals",
+                    self.decimals.usual
                 ),
                 "the file is damaged: correct the value, or get the record again",
             ));

@@ -2,7 +2,7 @@
 
 use crate::accelerogram::{Origin, Processing};
 use crate::direction::Orientation;
-use crate::error::{GroundMotionError, bound};
+use crate::error::{GroundMotionError, bound, within};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::{HeaderPeak, Sampling, Series, unusual_step};
 use crate::source::{Source, Used};
@@ -400,6 +400,10 @@ impl Draft {
         source: &Source<'_>,
     ) -> Result<(f64, Quantity, &'static str, String), GroundMotionError> {
         let options = source.options;
+        if let Some(given) = options.gravity {
+            let (least, most) = GRAVITY;
+            within("reading", "gravity", given, least, most)?;
+        }
         let gravity = gravity(options.gravity);
         let of_gravity = |unit: SeriesUnit| {
             source.uses(Used {
@@ -616,6 +620,9 @@ impl Draft {
         Ok(())
     }
 }
+
+/// Gravity (m/s2) on Earth, with room for what agencies take it to be.
+const GRAVITY: (f64, f64) = (9.7, 9.9);
 
 /// The g (m/s2) to use.
 pub(crate) fn gravity(given: Option<f64>) -> f64 {

@@ -12,6 +12,7 @@
 
 pub mod distributions;
 pub mod generators;
+mod instrument;
 pub mod matching;
 pub mod measures;
 pub mod processing;

@@ -3,6 +3,7 @@
 use std::cell::{Cell, RefCell};
 use std::path::Path;
 
+use crate::cut_numbers::Forms;
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
 use crate::number::{self, Bare};
@@ -409,6 +410,7 @@ impl<'a> Source<'a> {
     ) -> Result<Vec<f64>, GroundMotionError> {
         let room = lines.remaining() / layout.width + 1;
         let mut values = Vec::with_capacity(room.min(expected.unwrap_or(0)));
+        let mut forms = Forms::default();
         while most.is_none_or(|n| values.len() < n)
             && let Some(line) = lines.peek()
         {
@@ -418,7 +420,15 @@ impl<'a> Source<'a> {
             }
             lines.next();
             self.row(line, layout, &mut values)?;
+            let (margin, fields) = line.bytes.split_at(layout.margin.min(line.bytes.len()));
+            for (i, field) in fields.chunks(layout.width).enumerate() {
+                let field = field.trim_ascii();
+                if !field.is_empty() {
+                    forms.see(line.number, margin.len() + i * layout.width, field);
+                }
+            }
         }
+        forms.are_whole(self)?;
         Ok(values)
     }
 

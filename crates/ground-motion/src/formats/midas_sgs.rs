@@ -1,6 +1,7 @@
 //! midas ground-motion files (`.sgs`): `*SGSw`, `*TITLE`, `*UNIT&TYPE`, `*DATA`,
 //! then rows of time and acceleration.
 
+use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
@@ -132,6 +133,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let data = lines.number();
     let mut times = TimeColumn::with_capacity(lines.remaining() / 4 + 1);
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
+    let mut forms = Forms::default();
     let mut ends = false;
     while let Some(line) = lines.next() {
         if line.is_blank() {
@@ -156,7 +158,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         };
         times.push(line, source.number(line, time.0, time.1)?, time.1);
         samples.push(source.number(line, value.0, value.1)?);
+        forms.see(line.number, value.0, value.1);
     }
+    forms.are_whole(source)?;
     let mut draft = Draft::new(samples, unit, (data, data + 1, lines.number()));
     if !ends {
         let message = "the file ends without *ENDDATA";

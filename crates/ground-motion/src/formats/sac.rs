@@ -6,6 +6,7 @@ use crate::direction::Orientation;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
+use crate::instrument::other_measure;
 use crate::quantity::Quantity;
 use crate::recording::Series;
 use crate::source::Source;
@@ -203,6 +204,17 @@ fn same_step(source: &Source<'_>, words: &Words<'_>, at: usize) -> Result<(), Gr
     Ok(())
 }
 
+/// What a channel measures beside motion, by its code: of letters that begin no name of a direction
+/// such as `RAD` and `VER`.
+fn of_other_instrument(code: &[u8]) -> Option<&'static str> {
+    let &[band, instrument, orientation] = code else {
+        return None;
+    };
+    let is_code = b"FGDCESHBMLVUQ".contains(&band) && b"DFIJKMQSTW".contains(&instrument);
+    let known = b"ZNE123FDHIOSABCTR".contains(&orientation);
+    other_measure(instrument).filter(|_| is_code && known)
+}
+
 /// Refuses what the header says to be no acceleration: by IDEP (word 87), or where that says
 /// nothing, by the code of the instrument in the component's name.
 fn acceleration(source: &Source<'_>, words: &Words<'_>) -> Result<(), GroundMotionError> {
@@ -232,7 +244,13 @@ fn acceleration(source: &Source<'_>, words: &Words<'_>) -> Result<(), GroundMoti
                     format!("channel {name} is that of a seismometer, which records velocity"),
                     "use the channel of an accelerograph, or set IDEP to IACC where the values are accelerations",
                 )),
-                _ => Ok(()),
+                code => match of_other_instrument(code) {
+                    Some(measured) => Err(unsupported(
+                        format!("channel {name} records {measured}, no acceleration"),
+                        "use the channel of an accelerograph, or set IDEP to IACC where the values are accelerations",
+                    )),
+                    None => Ok(()),
+                },
             }
         }
         50 => Err(unsupported(

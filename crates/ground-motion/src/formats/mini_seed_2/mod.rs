@@ -6,6 +6,7 @@ use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
+use crate::instrument::other_measure;
 use crate::recording::{Series, WithoutSensitivity};
 use crate::source::Source;
 use crate::station_xml::{ResponseFile, Responses, Sensitivity};
@@ -57,6 +58,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let channels: Vec<&[Record]> = records.chunk_by(|a, b| a.name == b.name).collect();
     let mut series = Vec::new();
     let mut velocity = None;
+    let mut other = None;
     let mut without = Vec::new();
     let mut number = 0;
     for channel in &channels {
@@ -73,6 +75,17 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
                 "channel {label} records velocity and was passed over"
             ));
             velocity = Some(label);
+            continue;
+        }
+        if !matches!(known, Some(Ok(_)))
+            && !is_given
+            && let Some(measured) = other_measure(first.instrument())
+        {
+            let label = first.label();
+            source.warn(&format!(
+                "channel {label} records {measured} and was passed over"
+            ));
+            other.get_or_insert((label, measured));
             continue;
         }
         number += 1;
@@ -112,6 +125,13 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             return Err(GroundMotionError::NotAcceleration {
                 file: source.file.to_owned(),
                 quantity: "velocity",
+            });
+        }
+        if let Some((label, measured)) = other {
+            return Err(GroundMotionError::Unsupported {
+                file: source.file.to_owned(),
+                what: format!("channel {label} records {measured}, no acceleration"),
+                remedy: "use the channels of an accelerograph, HN or EN; where the code is wrong, give the StationXML of the channel as `response`",
             });
         }
         return Ok(series);

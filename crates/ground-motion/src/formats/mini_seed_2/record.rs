@@ -209,9 +209,14 @@ impl Record {
         }
     }
 
+    /// Code of the instrument.
+    pub(super) fn instrument(&self) -> u8 {
+        self.name[8]
+    }
+
     /// Instrument codes H and L are seismometers (SEED manual, appendix A).
     pub(super) fn is_velocity(&self) -> bool {
-        matches!(self.name[8], b'H' | b'L')
+        matches!(self.instrument(), b'H' | b'L')
     }
 
     /// Appends the record's samples.

@@ -1,11 +1,14 @@
 //! Names and units of columns in the line before the rows: `time (s),acceleration (m/s2)`,
 //! `t [s];a [g]`, `time_s acceleration_g`.
 
+use super::OTHERS;
 use super::names::{
     ACCELERATION, COUNTER, FOREIGN, LONG, MOTION, PROSE, TIME, are_of_spectrum, is_channel,
     is_component, is_spectral, is_time, motion_unit, plain, time_unit, unquoted,
 };
+use crate::error::GroundMotionError;
 use crate::quantity::{Quantity, SeriesUnit};
+use crate::source::Source;
 use crate::text::Line;
 
 /// What a column holds.
@@ -402,6 +405,63 @@ pub(super) fn unit_beside(cell: &str) -> Option<SeriesUnit> {
         || behind.contains(|c: char| c.is_ascii_digit());
     let unit = motion_unit(unit).filter(|unit| unit.quantity == Quantity::Acceleration)?;
     (!counts).then_some(unit)
+}
+
+/// Refuses a layout that takes for an acceleration what the header says to be none, or that exchanges the
+/// names of its components.
+pub(super) fn layout_agrees(
+    source: &Source<'_>,
+    header: &Header,
+    names: &[String],
+) -> Result<(), GroundMotionError> {
+    let Some(cells) = source
+        .lines()
+        .find(|l| l.number == header.line)
+        .and_then(|l| cells(&l))
+    else {
+        return Ok(());
+    };
+    if cells.names.len() != names.len() {
+        return Ok(());
+    }
+    let name_of = |role: &Role| match role {
+        Role::Acceleration(name, _) => Some(name.to_ascii_lowercase()),
+        _ => None,
+    };
+    let called: Vec<Option<String>> = header.columns.iter().map(name_of).collect();
+    for (k, (name, cell)) in names.iter().zip(&cells.names).enumerate() {
+        let lower = name.to_ascii_lowercase();
+        if lower == "t" || OTHERS.contains(&&*lower) {
+            continue;
+        }
+        let no_acceleration = match quantity(cell) {
+            Some(quantity) => Some(format!("a {quantity}")),
+            None => matches!(kind(cell), Some(Kind::Foreign)).then(|| "no acceleration".to_owned()),
+        };
+        let passed = "pass it over in `layout` by \"-\"; if the header is wrong, correct it";
+        if let Some(what) = no_acceleration {
+            let message = format!(
+                "the layout takes column {} for an acceleration, and the header says that \"{}\" is {what}",
+                k + 1,
+                cell.trim()
+            );
+            return Err(source.error(header.line, 0, message, passed));
+        }
+        let mut others = called.iter().enumerate().filter(|(other, _)| *other != k);
+        let own = called.get(k).and_then(|own| own.as_deref());
+        if own.is_some_and(|own| own != lower)
+            && let Some((other, _)) = others.find(|(_, other)| other.as_deref() == Some(&*lower))
+        {
+            let message = format!(
+                "the layout calls column {} \"{name}\", which in the header is the name of column {}",
+                k + 1,
+                other + 1
+            );
+            let remedy = "give the names in the order of the columns, or leave `layout` out";
+            return Err(source.error(header.line, 0, message, remedy));
+        }
+    }
+    Ok(())
 }
 
 /// What stands in the brackets of a cell.

@@ -324,6 +324,9 @@ fn numbers(
             });
         }
         let names: Vec<String> = text.split(',').map(|n| n.trim().to_owned()).collect();
+        if let Some(header) = header {
+            header::layout_agrees(source, header, &names)?;
+        }
         let survey = Survey::new(source, true)?;
         if names == ["a"] {
             let head = survey.head(source, true)?;

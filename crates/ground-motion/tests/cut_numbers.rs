@@ -55,6 +55,62 @@ fn plain(x: f64) -> String {
     format!("{x:10.5}")
 }
 
+/// So it is in the rows of midas, and among many values with as many decimals one with fewer.
+#[test]
+fn digits_lost_within_a_file() {
+    let rows: String = (0..40)
+        .map(|i| {
+            let value = 0.2 * f64::sin(0.7 * f64::from(i) + 0.1);
+            format!("{:.4E}, {}\n", 0.01 * f64::from(i), of_c(value).trim())
+        })
+        .collect();
+    let text = format!("*SGSw\n*TITLE, quake\n*UNIT&TYPE, GRAV, ACCEL\n*DATA\n{rows}*ENDDATA\n");
+    assert_eq!(
+        read(&text, &ReadOptions::default())
+            .unwrap()
+            .samples()
+            .len(),
+        40
+    );
+    let line = text.lines().nth(12).unwrap();
+    let cut = &line[..line.len() - 4];
+    let said = read(&text.replace(line, cut), &ReadOptions::default()).unwrap_err();
+    assert!(
+        said.starts_with("f:13:") && said.contains("no exponent"),
+        "{said}"
+    );
+
+    let mut long = at2(HEADER, of_fortran).replace("NPTS= 40", "NPTS= 240");
+    let rows: String = long.lines().skip(4).map(|l| format!("{l}\n")).collect();
+    for _ in 0..5 {
+        long += &rows;
+    }
+    assert_eq!(
+        read(&long, &ReadOptions::default())
+            .unwrap()
+            .samples()
+            .len(),
+        240
+    );
+    let place = long.rfind("0.1").unwrap();
+    let damaged = format!("{}{}", &long[..place + 3], &long[place + 4..]);
+    let said = read(&damaged, &ReadOptions::default()).unwrap_err();
+    assert!(
+        said.contains("lacks a digit: the other values have 7 decimals"),
+        "{said}"
+    );
+    // Another writer leaves out zeros at the end.
+    let of_fewer = long.replace("00E", "E").replace("0E", "E");
+    assert!(of_fewer.len() < long.len());
+    assert_eq!(
+        read(&of_fewer, &ReadOptions::default())
+            .unwrap()
+            .samples()
+            .len(),
+        240
+    );
+}
+
 /// A value within the file that alone lacks its exponent, or a digit of it, is no value.
 #[test]
 fn exponents_lost_within_a_file() {

@@ -353,6 +353,10 @@ fn gaps_and_velocities_of_mini_seed() {
         read(&[seed(b"HHE", 0)]),
         Err(GroundMotionError::NotAcceleration { .. })
     ));
+    let barometer = read(&[seed(b"HDF", 0)]).unwrap_err().to_string();
+    assert!(barometer.contains("records pressure"), "{barometer}");
+    let beside = read(&[seed(b"HDF", 0), seed(b"HNE", 0)]).unwrap();
+    assert_eq!(beside.samples().len(), 3);
     assert!(matches!(
         read(&[seed(b"HNE", 0), seed(b"HNN", 0)]),
         Err(GroundMotionError::AmbiguousSeries { .. })

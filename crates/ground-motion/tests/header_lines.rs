@@ -71,6 +71,20 @@ fn channels_and_types_of_sac() {
     assert!(says(&in_g(&low_gain).unwrap(), "low gain"));
     let no_type = binary::sac_with(&[], &[(85, -12345)], "HNZ");
     assert!(says(&in_g(&no_type).unwrap(), "IFTYPE"));
+    for (code, measured) in [
+        ("HDF", "pressure"),
+        ("LKO", "temperature"),
+        ("HJZ", "rotation"),
+    ] {
+        let other = binary::sac_with(&[], &[(86, -12345)], code);
+        let said = in_g(&other).unwrap_err().to_string();
+        assert!(said.contains(measured), "{code}: {said}");
+    }
+    // Names of directions are no codes.
+    for name in ["RAD", "VER", "TRA", "LON", "EAS"] {
+        let named = binary::sac_with(&[], &[(86, -12345)], name);
+        assert!(in_g(&named).is_ok(), "{name}");
+    }
     let spectrum = binary::sac_with(&[], &[(85, 2)], "HNZ");
     assert!(in_g(&spectrum).is_err());
 }

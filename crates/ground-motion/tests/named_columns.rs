@@ -612,3 +612,42 @@ fn coarse_times_from_one_step() {
         Sampling::Even { time_step: 0.0025 }
     );
 }
+
+/// A layout names columns; what the header says that they hold, stands.
+#[test]
+fn a_layout_against_its_header() {
+    let rows = timed(2, ",");
+    let with = |header: &str, layout: &str, component: Option<&str>| {
+        let options = ReadOptions {
+            layout: Some(layout.to_owned()),
+            component: component.map(str::to_owned),
+            ..in_g()
+        };
+        read_bytes("f", format!("{header}\n{rows}").as_bytes(), &options)
+    };
+    let pair = "time (s),NS (g),EW (g)";
+    let own = with(pair, "t,ns,ew", Some("EW")).unwrap();
+    assert!((own.samples()[0] - G * value(1)).abs() < 1e-5);
+    // Names of one's own are no contradiction.
+    assert!(with(pair, "t,first,second", Some("second")).is_ok());
+    for (header, layout, component, word) in [
+        (pair, "t,ew,ns", Some("NS"), "the name of column 3"),
+        (
+            "time (s),acc (g),vel (cm/s)",
+            "t,-,a",
+            None,
+            "is a velocity",
+        ),
+        (
+            "time (s),acc (g),Force (kN)",
+            "t,-,a",
+            None,
+            "is no acceleration",
+        ),
+        ("time,acc,vel", "t,acc,vel", Some("vel"), "is a velocity"),
+    ] {
+        let said = with(header, layout, component).unwrap_err().to_string();
+        assert!(said.contains(word), "{header} {layout}: {said}");
+    }
+    assert!(with("time (s),acc (g),vel (cm/s)", "t,a,-", None).is_ok());
+}

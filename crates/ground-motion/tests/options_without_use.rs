@@ -66,6 +66,17 @@ fn options_of_other_formats() {
         &gravity,
         &["`gravity` is given", "no value of this record is in g"],
     );
+    // One in other units than m/s2.
+    for wrong in [981.0, 386.1, 32.174, 1.0, -9.81, f64::NAN] {
+        let options = ReadOptions {
+            gravity: Some(wrong),
+            ..ReadOptions::default()
+        };
+        let said = read_bytes("record", AT2.as_bytes(), &options)
+            .unwrap_err()
+            .to_string();
+        assert!(said.contains("outside [9.7, 9.9]"), "{said}");
+    }
     let used = read_bytes("record", AT2.as_bytes(), &gravity).unwrap();
     assert!((used.peak().value - 0.3 * 9.81).abs() < 1e-12);
 }

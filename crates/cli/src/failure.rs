@@ -218,6 +218,7 @@ impl From<TimeHistoryError> for Failure {
             | TimeHistoryError::ContactTooShort { .. }
             | TimeHistoryError::ClosureTooShort { .. }
             | TimeHistoryError::TooManySteps { .. }
+            | TimeHistoryError::UnstableStep { .. }
             | TimeHistoryError::Option { .. }) => Self::input(error.to_string(), help),
             error => Self::Computation(plain(error.to_string(), help)),
         }

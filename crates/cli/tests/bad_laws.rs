@@ -217,3 +217,44 @@ fn a_bumper_has_no_ductility() {
         assert!(level["ductility"].is_null(), "{level}");
     }
 }
+
+/// Steps with which the classical method is unstable are refused where laws keep the motion bounded: a
+/// friction of 40 kN had forces of 125 kN, with the ledger closed.
+#[test]
+fn explicit_steps_that_are_unstable() {
+    let link = |stiffness: &str| {
+        format!(
+            "[[link]]\nbetween = [\"a\", \"b\"]\nmodel = \"coulomb_friction\"\nfriction_force = \"20 kN\"\nsticking_stiffness = \"{stiffness}\"\n"
+        )
+    };
+    let by = |law: &str, link: &str, step: &str| {
+        let method = format!("method = \"runge_kutta_4\"\nstep = \"{step}\"\nduration");
+        run(&case(law, link).replace("duration", &method), &["--json"])
+    };
+    let stiff = LAW.replace("bilinear", "elastic_perfectly_plastic");
+    let stiff = stiff.replace(", hardening_ratio = 0.05", "");
+    // The floors of a have 25 t: 3.46 MN/m give them 22 rad/s, and 500 MN/m 270 rad/s.
+    let heavy = case(&stiff, "").replace("3.46 MN/m", "500 MN/m");
+    let heavy = heavy.replace(
+        "duration",
+        "method = \"runge_kutta_4\"\nstep = \"20 ms\"\nduration",
+    );
+    for (output, place) in [
+        (by("", &link("5 GN/m"), "20 ms"), "a-b level"),
+        (run(&heavy, &[]), "building a"),
+    ] {
+        let text = String::from_utf8_lossy(&output.stderr).replace(['│', '\n'], " ");
+        let text = text.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(output.status.code(), Some(2), "{text}");
+        for part in ["unstable with the classical", place, "smaller `step`"] {
+            assert!(text.contains(part), "{part}: {text}");
+        }
+    }
+    // Within the limit the force is that of the friction.
+    let output = by("", &link("50 MN/m"), "1 ms");
+    let answer: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let force = answer["links"][0]["levels"][0]["force"]["peak"]
+        .as_f64()
+        .unwrap();
+    assert!(force <= 20.0e3 * (1.0 + 1e-9), "{force}");
+}

@@ -141,6 +141,9 @@ fn without_options(text: &str) -> String {
 pub(crate) fn of_run(error: &TimeHistoryError) -> Option<String> {
     let text = match error {
         TimeHistoryError::TooManySteps { limit, .. } => of_limit(limit),
+        TimeHistoryError::UnstableStep { .. } => {
+            "choose a smaller `step`, or take `MethodChoice::EventDriven`, `Adaptive` or `Newmark`; check stiffness, damping and masses there for a wrong unit"
+        }
         TimeHistoryError::StepTooSmall { .. } => {
             "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or take `MethodChoice::Adaptive`; floors that hold together without any clearance between two walls have no unique contact forces: leave some"
         }

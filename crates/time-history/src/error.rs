@@ -99,6 +99,19 @@ pub enum TimeHistoryError {
         /// What makes them so many.
         limit: StepLimit,
     },
+    /// A step with which an explicit method is unstable.
+    #[error(
+        "steps of {} s are unstable with the classical Runge-Kutta method: {limit}, with which they may be {} s at most",
+        short(*step), short(*longest)
+    )]
+    UnstableStep {
+        /// Step (s), after the division of the time steps of ground motions.
+        step: f64,
+        /// Longest stable step (s).
+        longest: f64,
+        /// What makes it so short.
+        limit: StepLimit,
+    },
     /// The method treats rigid impacts only.
     #[error("method moreau_jean treats rigid impacts only, but gap {gap} has model {model}")]
     CompliantModel {
@@ -263,6 +276,9 @@ impl TimeHistoryError {
     pub fn help(&self) -> Option<String> {
         let text = match self {
             Self::TooManySteps { limit, .. } => limit.remedy(),
+            Self::UnstableStep { .. } => {
+                "choose a smaller `step`, or use method = \"event_driven\", \"adaptive\" or \"newmark\"; check stiffness, damping and masses there for a wrong unit"
+            }
             Self::StepTooSmall { .. } => {
                 "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\"; floors that hold together without any clearance between two walls have no unique contact forces: leave some"
             }

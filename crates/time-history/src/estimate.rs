@@ -2,8 +2,10 @@
 
 use std::f64::consts::TAU;
 use std::fmt;
+use std::sync::Arc;
 
 use pounding_gap_element::{Memory, Phase};
+use pounding_shear_building::ShearBuilding;
 
 use crate::elements::Element;
 use crate::error::TimeHistoryError;
@@ -20,6 +22,10 @@ pub(crate) const SERIES: f64 = 0.35;
 
 /// Product of rate and step up to which the pair of order 8 is stable, about.
 const STABLE: f64 = 6.0;
+
+/// Product of rate and step up to which the classical method of order 4 is stable on the imaginary axis, of
+/// what swings without damping; on the real one, of what only creeps, it is 2.79.
+const STABLE_CLASSICAL: f64 = 2.83;
 
 /// Duration (s) longer than that of any ground motion: eleven days.
 const LONGEST_DURATION: f64 = 1.0e6;
@@ -117,26 +123,11 @@ impl StepEstimate {
     pub fn new(system: &System, method: &MethodChoice, duration: f64) -> Self {
         let ground = system.ground().time_step;
         let exact = system.first_curved_element().is_none();
-        let by_rate = |longest: f64| {
-            let rates = system.buildings().iter();
-            let rates = rates.map(|b| (fastest_rate(std::slice::from_ref(b)), b.name()));
-            let fastest = rates.max_by(|a, b| a.0.total_cmp(&b.0));
-            let (rate, building) = fastest.unwrap_or((0.0, ""));
-            let limit = StepLimit::Period {
-                building: building.to_owned(),
-                period: TAU / rate,
-            };
-            (longest / rate, limit)
-        };
         let (step, limit) = match *method {
             MethodChoice::EventDriven { .. } | MethodChoice::Adaptive { .. } => {
                 let series = exact && matches!(method, MethodChoice::EventDriven { .. });
                 let longest = if series { SERIES } else { STABLE };
-                let (buildings, elements) = (by_rate(longest), by_element(system, longest));
-                match elements {
-                    Some(elements) if elements.0 < buildings.0 => elements,
-                    _ => buildings,
-                }
+                shortest(system, system.buildings().iter(), (longest, at_most))
             }
             MethodChoice::Newmark { step, .. }
             | MethodChoice::HhtAlpha { step, .. }
@@ -170,18 +161,57 @@ impl StepEstimate {
     }
 }
 
-/// Steps on the stiffest or most damped storey or link that follows a law, whose product with its rate is
-/// `longest`.
-fn by_element(system: &System, longest: f64) -> Option<(f64, StepLimit)> {
-    let rate = |element: &Element| {
-        let added = (element.law.initial_stiffness() - element.carried).max(0.0);
-        let yields = yielding(system, element);
-        // A damper whose force is a power of the velocity is that steep at rest alone, where floors
-        // that it holds may stay.
-        let damping = element.law.initial_damping() * yields;
-        let own = damping.max(element.law.relaxation_rate());
-        (added * yields).sqrt().max(own)
+/// Steps whose product with the fastest rate, of a building or of a storey or link that follows a law,
+/// is `longest`.
+fn shortest<'s>(
+    system: &System,
+    buildings: impl Iterator<Item = &'s Arc<ShearBuilding>>,
+    (longest, of_law): (f64, fn(&System, &Element) -> f64),
+) -> (f64, StepLimit) {
+    let rates = buildings.map(|b| (fastest_rate(std::slice::from_ref(b)), b.name()));
+    let fastest = rates.max_by(|a, b| a.0.total_cmp(&b.0));
+    let (rate, building) = fastest.unwrap_or((0.0, ""));
+    let limit = StepLimit::Period {
+        building: building.to_owned(),
+        period: TAU / rate,
     };
+    match by_element(system, longest, |element| of_law(system, element)) {
+        Some(elements) if elements.0 < longest / rate => elements,
+        _ => (longest / rate, limit),
+    }
+}
+
+/// Refuses steps (s) of the classical method of order 4 that are unstable: laws whose force is bounded
+/// keep their motion bounded then, and forces beyond what they can carry pass for an answer.
+pub(crate) fn is_stable(system: &System, step: f64) -> Result<(), TimeHistoryError> {
+    let further = system.ground_motions().iter();
+    let samples = further.map(|m| m.acceleration.time_step);
+    let samples = samples.chain([system.ground().time_step]);
+    // Steps divide the samples of all ground motions evenly.
+    let step = samples.fold(step, |step, sample| {
+        sample / (sample / step - 1.0e-9).ceil().max(1.0)
+    });
+    // Elastic motion grows beyond all bounds, and the run ends with an error by itself.
+    let bounded = |b: &&Arc<ShearBuilding>| b.laws().iter().any(Option::is_some);
+    let buildings = system.buildings().iter().filter(bounded);
+    let (longest, limit) = shortest(system, buildings, (STABLE_CLASSICAL, in_action));
+    if step <= longest {
+        return Ok(());
+    }
+    Err(TimeHistoryError::UnstableStep {
+        step,
+        longest,
+        limit,
+    })
+}
+
+/// Steps on the storey or link with a law that is the fastest by this rate (1/s), whose product with it is
+/// `longest`.
+fn by_element(
+    system: &System,
+    longest: f64,
+    rate: impl Fn(&Element) -> f64,
+) -> Option<(f64, StepLimit)> {
     let rates = system.elements().iter().map(rate).enumerate();
     let (index, rate) = rates.max_by(|a, b| a.1.total_cmp(&b.1))?;
     let limit = StepLimit::Element {
@@ -189,6 +219,29 @@ fn by_element(system: &System, longest: f64) -> Option<(f64, StepLimit)> {
         period: TAU / rate,
     };
     (rate > 0.0).then(|| (longest / rate, limit))
+}
+
+/// The most that a law may ask for. A damper whose force is a power of the velocity is as steep as at
+/// rest there alone, where floors that it holds may stay.
+fn at_most(system: &System, element: &Element) -> f64 {
+    let stiffness = element.law.initial_stiffness();
+    rate_with(system, element, stiffness, element.law.initial_damping())
+}
+
+/// What a law asks for while it acts: a bumper where it is closed, and no power of the velocity at rest.
+fn in_action(system: &System, element: &Element) -> f64 {
+    let damping = match element.law.is_linear() {
+        true => element.law.initial_damping(),
+        false => 0.0,
+    };
+    rate_with(system, element, element.law.steepest_stiffness(), damping)
+}
+
+fn rate_with(system: &System, element: &Element, stiffness: f64, damping: f64) -> f64 {
+    let added = (stiffness - element.carried).max(0.0);
+    let yields = yielding(system, element);
+    let own = (damping * yields).max(element.law.relaxation_rate());
+    (added * yields).sqrt().max(own)
 }
 
 /// Acceleration of the deformation of a storey or link by a unit of its force (1/kg).

@@ -2,7 +2,7 @@
 
 use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
-use crate::estimate::{StepEstimate, contacts_last};
+use crate::estimate::{StepEstimate, contacts_last, is_stable};
 use crate::methods::{Adaptive, EventDriven, Method, MoreauJean, Newmark, RungeKutta4};
 use crate::system::System;
 
@@ -173,6 +173,9 @@ impl RunOptions {
         let duration = self.duration.unwrap_or_else(|| system.record_duration());
         positive("duration", duration)?;
         StepEstimate::new(system, &self.method, duration).check(duration)?;
+        if let MethodChoice::RungeKutta4 { step } = self.method {
+            is_stable(system, step)?;
+        }
         Ok(duration)
     }
 

@@ -27,6 +27,10 @@ const LOWEST_HOP: f64 = 1.0e-12;
 /// Round-off of a velocity, as a part of the maximum one, or of the terms that it is the sum of.
 const ROUND_OFF: f64 = 1.0e-14;
 
+/// Relative velocity (m/s) up to which floors in touch move alike, and meet what hits one of them together:
+/// what steps gather of round-off.
+const ALIKE: f64 = 1.0e-12;
+
 /// Solutions of one instant, each of which may let other floors approach, before it is given up. A
 /// light body between heavy ones that lose much is thrown to and fro without end, ever more slowly,
 /// until round-off is left.
@@ -159,7 +163,7 @@ impl Driver<'_> {
             let level = &self.system.levels()[l];
             let approach = level.relative(&self.state[n..2 * n]);
             let held = self.contacts.contact(l).is_some();
-            if held || approach >= -work.round_off {
+            if held || approach >= -ALIKE {
                 work.active.push(l);
                 work.before.push(if held { 0.0 } else { approach });
             }

@@ -127,7 +127,7 @@ impl StepEstimate {
             MethodChoice::EventDriven { .. } | MethodChoice::Adaptive { .. } => {
                 let series = exact && matches!(method, MethodChoice::EventDriven { .. });
                 let longest = if series { SERIES } else { STABLE };
-                shortest(system, system.buildings().iter(), (longest, at_most))
+                shortest(system, system.buildings().iter(), (longest, rate_at_most))
             }
             MethodChoice::Newmark { step, .. }
             | MethodChoice::HhtAlpha { step, .. }
@@ -194,7 +194,7 @@ pub(crate) fn is_stable(system: &System, step: f64) -> Result<(), TimeHistoryErr
     // Elastic motion grows beyond all bounds, and the run ends with an error by itself.
     let bounded = |b: &&Arc<ShearBuilding>| b.laws().iter().any(Option::is_some);
     let buildings = system.buildings().iter().filter(bounded);
-    let (longest, limit) = shortest(system, buildings, (STABLE_CLASSICAL, in_action));
+    let (longest, limit) = shortest(system, buildings, (STABLE_CLASSICAL, rate_in_action));
     if step <= longest {
         return Ok(());
     }
@@ -223,13 +223,13 @@ fn by_element(
 
 /// The most that a law may ask for. A damper whose force is a power of the velocity is as steep as at
 /// rest there alone, where floors that it holds may stay.
-fn at_most(system: &System, element: &Element) -> f64 {
+fn rate_at_most(system: &System, element: &Element) -> f64 {
     let stiffness = element.law.initial_stiffness();
     rate_with(system, element, stiffness, element.law.initial_damping())
 }
 
 /// What a law asks for while it acts: a bumper where it is closed, and no power of the velocity at rest.
-fn in_action(system: &System, element: &Element) -> f64 {
+fn rate_in_action(system: &System, element: &Element) -> f64 {
     let damping = match element.law.is_linear() {
         true => element.law.initial_damping(),
         false => 0.0,

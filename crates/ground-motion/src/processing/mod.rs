@@ -4,7 +4,7 @@
 mod baseline;
 mod butterworth;
 mod components;
-mod doubtful;
+mod plausibility;
 mod resampling;
 mod scaling;
 mod window;
@@ -186,7 +186,7 @@ impl ProcessingStep {
         match report.numbers.iter().find(|n| !n.value.is_finite()) {
             Some(number) => Err(not_finite(format!("{} is {}", number.name, number.value))),
             None => {
-                let warnings = doubtful::doubtful(self, record, &next);
+                let warnings = plausibility::warnings(self, record, &next);
                 let warned = |record: Accelerogram, w: &String| record.warned(Some(w));
                 Ok((warnings.iter().fold(next, warned), report))
             }

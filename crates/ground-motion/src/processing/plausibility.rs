@@ -10,7 +10,7 @@ const LEAST_PART: f64 = 0.5;
 const LEAST_CYCLES: f64 = 0.1;
 
 /// Warnings of a step that made one record of another.
-pub(super) fn doubtful<T>(
+pub(super) fn warnings<T>(
     step: &ProcessingStep<T>,
     before: &Accelerogram,
     after: &Accelerogram,

@@ -26,6 +26,7 @@ mod draft;
 mod error;
 mod formats;
 mod fortran;
+mod integrals;
 mod number;
 mod options;
 mod quantity;

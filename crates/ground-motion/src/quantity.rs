@@ -36,6 +36,15 @@ impl Quantity {
         }
     }
 
+    /// What its integral over time is, if that is recorded.
+    pub(crate) fn integral(self) -> Option<Self> {
+        match self {
+            Self::Acceleration => Some(Self::Velocity),
+            Self::Velocity => Some(Self::Displacement),
+            Self::Displacement => None,
+        }
+    }
+
     /// The quantity that a text in lower case names, if it names one alone: `uncorrected
     /// accelerogram`, `raw veloc. counts`.
     pub(crate) fn in_words(lower: &str) -> Option<Self> {

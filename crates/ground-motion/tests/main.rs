@@ -21,6 +21,7 @@ mod header_lines;
 mod header_units;
 mod hostile;
 mod initial_motion;
+mod integrals;
 mod long_steps;
 mod matching;
 mod measures;

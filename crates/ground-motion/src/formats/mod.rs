@@ -9,6 +9,7 @@ use sha2::{Digest, Sha256};
 use crate::accelerogram::Accelerogram;
 use crate::direction::Direction;
 use crate::error::GroundMotionError;
+use crate::integrals;
 use crate::options::ReadOptions;
 use crate::quantity::Quantity;
 use crate::recording::{Recording, Series};
@@ -199,6 +200,7 @@ fn every_series(
             remedy: "leave `unit` out to see what is in the file; for an excitation use the accelerations of the same record, such as AT2 beside VT2 and DT2",
         });
     }
+    integrals::compare(&mut series);
     let own = Sha256::new().chain_update(bytes);
     for s in &mut series {
         s.origin.format = format.name.into();

@@ -238,16 +238,28 @@ pub fn caltech_2(written: i64) -> Vec<Fixture> {
 }
 
 pub fn csmip_2(written: i64) -> Vec<Fixture> {
+    csmip_2_of(written, |channel| {
+        [900.0, 90.0, 9.0].map(|size| signal(-size, f64::from(channel)))
+    })
+}
+
+/// Acceleration, velocity and displacement (cm, s) of each channel at steps of 0.01 s.
+pub fn csmip_2_of(written: i64, series: impl Fn(i32) -> [Vec<f64>; 3]) -> Vec<Fixture> {
     let mut text = String::new();
     let mut found = Vec::new();
     for (channel, name) in [(1, "180 Deg"), (2, "Up")] {
         let component = name.replace("Deg", "deg");
         let kinds = [
-            (ACC, 900.0, 5, "accel", "cm/sec2."),
-            (VEL, 90.0, 6, "veloc", "cm/sec."),
-            (DIS, 9.0, 7, "displ", "cm."),
+            (ACC, 5, "accel", "cm/sec2."),
+            (VEL, 6, "veloc", "cm/sec."),
+            (DIS, 7, "displ", "cm."),
         ];
-        let blocks = kinds.map(|(_, s, d, _, _)| block(&signal(-s, f64::from(channel)), 8, 10, d));
+        let [acceleration, velocity, displacement] = series(channel);
+        let blocks = [
+            block(&acceleration, 8, 10, 5),
+            block(&velocity, 8, 10, 6),
+            block(&displacement, 8, 10, 7),
+        ];
         let line = |k: usize, what: &str, unit: &str| {
             let most = peak(&blocks[k].1);
             format!(
@@ -264,7 +276,7 @@ pub fn csmip_2(written: i64) -> Vec<Fixture> {
             line(2, "displacement", "cm"),
         ));
         text.push_str(&volume_2_numbers(written, 0.01));
-        for ((quantity, _, decimals, word, unit), (data, printed)) in kinds.iter().zip(&blocks) {
+        for ((quantity, decimals, word, unit), (data, printed)) in kinds.iter().zip(&blocks) {
             text.push_str(&format!(
                 "{written:>6} points of {word} data equally spaced at 0.010 sec, in {unit} (8f10.{decimals})\n{data}"
             ));

@@ -124,6 +124,8 @@ pub(crate) struct Draft {
     pub other_counts: Vec<(usize, usize)>,
     /// Lengths of the record that the header states, in numbers or in words.
     pub header_durations: Vec<StatedDuration>,
+    /// Others that may be those of a part of the record: what differs is only said.
+    pub other_durations: Vec<StatedDuration>,
     /// Two steps that the header states: line, what is wrong, remedy. A duration that
     /// tells which of them is wrong is said first.
     pub step_conflict: Option<(usize, String, String)>,
@@ -149,6 +151,13 @@ pub(crate) struct Draft {
 /// Values that a last row may hold beyond the count of the header: agencies fill it.
 pub(crate) const ROW: usize = 10;
 
+/// What to say of a factor of the values that a header states.
+pub(crate) fn not_applied(line: usize, factor: f64) -> String {
+    format!(
+        "line {line}: a factor of {factor} is stated, which is not applied: the samples are used as they stand"
+    )
+}
+
 /// The values of a row, of rows that have more than one: one value a row has nothing to fill.
 pub(crate) fn several(values: usize) -> Option<usize> {
     Some(values).filter(|n| *n > 1)
@@ -169,6 +178,7 @@ impl Draft {
             counted: String::new(),
             other_counts: Vec::new(),
             header_durations: Vec::new(),
+            other_durations: Vec::new(),
             step_conflict: None,
             peak: None,
             other_peaks: Vec::new(),
@@ -580,7 +590,7 @@ impl Draft {
         source: &Source<'_>,
         sampling: &Sampling,
     ) -> Result<(), GroundMotionError> {
-        if self.header_durations.is_empty() {
+        if self.header_durations.is_empty() && self.other_durations.is_empty() {
             return Ok(());
         }
         let count = self.samples.len();
@@ -599,13 +609,19 @@ impl Draft {
                 (found, found / count as f64, how)
             }
         };
-        for StatedDuration { seconds, line } in std::mem::take(&mut self.header_durations) {
+        let must = std::mem::take(&mut self.header_durations);
+        let may = std::mem::take(&mut self.other_durations);
+        let must = must.into_iter().map(|stated| (stated, true));
+        for (StatedDuration { seconds, line }, must) in
+            must.chain(may.into_iter().map(|stated| (stated, false)))
+        {
             let difference = (found - seconds).abs();
             if difference <= 1.5 * step {
                 continue;
             }
             let message = format!("the header says a duration of {seconds} s, but {how}");
-            if !(difference <= DURATION_TOLERANCE * seconds || source.options.lenient) {
+            let near = difference <= DURATION_TOLERANCE * seconds;
+            if must && !(near || source.options.lenient) {
                 return Err(source.error(
                     line.unwrap_or(self.lines.0),
                     0,

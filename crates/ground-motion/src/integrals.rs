@@ -43,7 +43,11 @@ fn difference(of: &Series, integral: &Series) -> Option<String> {
         return None;
     }
     let each = each as usize;
-    let trapezoids = |w: &[f64]| w.windows(2).map(|a| 0.5 * step * (a[0] + a[1])).sum::<f64>();
+    let trapezoids = |w: &[f64]| {
+        w.windows(2)
+            .map(|a| 0.5 * step * (a[0] + a[1]))
+            .sum::<f64>()
+    };
     let changes: Vec<(f64, f64)> = integral
         .samples
         .windows(2)

@@ -26,6 +26,7 @@ mod draft;
 mod error;
 mod formats;
 mod fortran;
+mod header_keys;
 mod integrals;
 mod number;
 mod options;

@@ -5,6 +5,7 @@ use crate::error::bound;
 use crate::source::Source;
 
 /// A time step as a header states it, in seconds or as a rate.
+#[derive(Debug, Clone, Copy)]
 pub(crate) struct StatedStep {
     /// Its line, from 1.
     pub line: usize,

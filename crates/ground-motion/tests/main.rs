@@ -37,6 +37,7 @@ mod simultaneous_components;
 mod spectra;
 mod start_times;
 mod stated_durations;
+mod stated_keys;
 mod station_xml;
 mod time_columns;
 mod time_steps_and_scales;

@@ -5,10 +5,13 @@
 use crate::accelerogram::Processing;
 use crate::cut_numbers::Forms;
 use crate::direction::Direction;
-use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, several};
+use crate::draft::{
+    Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, not_applied, several,
+};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
+use crate::header_keys::{Meaning, keyed, meaning, split_number};
 use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
 use crate::recording::Series;
@@ -118,7 +121,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     are_no_pairs(source, &samples, (header.count, first))?;
     widths.are_even(source)?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
-    state_step(&mut draft, source, &header.steps);
+    let rates = rates(&header);
+    let steps: Vec<StatedStep> = header.steps.iter().copied().chain(rates).collect();
+    state_step(&mut draft, source, &steps);
     draft.header_count = Some(header.count);
     draft.row = several(last_row);
     draft.processing = match header.text.first() {
@@ -126,6 +131,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         Some(first) if first == RAW => Processing::Raw,
         _ => Processing::Corrected,
     };
+    keys(&mut draft, &header);
     draft.component = component(&header);
     draft.quantities = quantities(&header.text);
     let all = header.text.join(" ");
@@ -137,6 +143,52 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let shown = header.text.len().saturating_sub(1).min(2);
     draft.title = header.text[..shown].join("; ");
     Ok(vec![draft.finish(source)?])
+}
+
+/// The steps of the rates that the header states beside its time step, `SAMPLING RATE= 200 HZ`.
+fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
+    let of_line = |(i, line): (usize, &String)| {
+        let lower = line.to_ascii_lowercase();
+        let rates: Vec<StatedStep> = keyed(&lower)
+            .iter()
+            .filter(|entry| meaning(entry) == Some(Meaning::Rate))
+            .filter_map(|entry| {
+                let (digits, unit) = split_number(entry.value);
+                let rate = number::parse(digits.as_bytes()).ok()?;
+                let hertz = ["", "hz", "sps"].contains(&unit);
+                (rate > 0.0 && hertz).then_some(StatedStep {
+                    line: i + 1,
+                    step: 1.0 / rate,
+                })
+            })
+            .collect();
+        rates
+    };
+    header.text.iter().enumerate().flat_map(of_line)
+}
+
+/// States durations and factors of the header to a draft.
+fn keys(draft: &mut Draft, header: &Header) {
+    for (i, line) in header.text.iter().enumerate() {
+        for entry in keyed(&line.to_ascii_lowercase()) {
+            let (digits, unit) = split_number(entry.value);
+            let Ok(value) = number::parse(digits.as_bytes()) else {
+                continue;
+            };
+            match meaning(&entry) {
+                Some(Meaning::Duration) if value > 0.0 && ["", "s", "sec"].contains(&unit) => {
+                    draft.other_durations.push(StatedDuration {
+                        seconds: value,
+                        line: Some(i + 1),
+                    });
+                }
+                Some(Meaning::Factor) if value != 1.0 => {
+                    draft.warnings.push(not_applied(i + 1, value))
+                }
+                _ => {}
+            }
+        }
+    }
 }
 
 /// A value; numbers that touch can be read as plain columns alone.
@@ -384,8 +436,8 @@ fn unit_in(lower: &str) -> Option<UnitAndRest<'_>> {
         let word = after
             .strip_prefix("of")
             .or_else(|| after.strip_prefix("are"))
-            .or_else(|| after.strip_prefix(':'))?;
-        let word = word.trim_start_matches([' ', '(', ':', '\n']);
+            .or_else(|| after.strip_prefix([':', '=']))?;
+        let word = word.trim_start_matches([' ', '(', ':', '=', '\n']);
         let word = word.split('\n').next().unwrap_or(word);
         // Blanks may stand within it.
         let ends = [&[',', ')', ';', '\t'][..], &[' ', ',', ')', ';', '\t']];

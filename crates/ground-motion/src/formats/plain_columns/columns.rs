@@ -309,6 +309,10 @@ pub(super) fn columns(
         }
         let own = samples.len();
         let mut draft = said.draft(samples, columns.units[k], survey);
+        if others {
+            // That of one of them, or of all.
+            draft.other_peaks.clear();
+        }
         if own < longest {
             draft.header_count = None;
             draft.other_counts.clear();

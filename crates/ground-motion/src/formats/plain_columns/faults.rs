@@ -5,6 +5,7 @@ use super::names::{
     ACCELERATION, MOTION, TIME, are_of_spectrum, is_abscissa, is_channel, is_component,
     is_spectral, motion_unit, plain, time_unit, unquoted,
 };
+use crate::header_keys::{Entry, keyed};
 use crate::quantity::{NamedWithUnit, Quantity, named_with_unit, of_something_else};
 
 /// Why a line that names columns is not the header of an acceleration.
@@ -91,6 +92,13 @@ pub(super) fn fault_of(cells: &Cells) -> Option<(String, Fault)> {
 /// The columns of a spectrum, or of times beside what is no motion.
 fn of_spectrum(cells: &Cells) -> Option<Fault> {
     let names = &cells.names;
+    // `Frequency (Hz): 200` is a key with its value.
+    if keyed(&cells.text.to_lowercase())
+        .iter()
+        .any(Entry::has_number)
+    {
+        return None;
+    }
     if are_of_spectrum(names, cells.separator) {
         let named = names.iter().find(|n| is_spectral(n)).unwrap_or(&names[0]);
         return Some(Fault::Spectrum(unquoted(named).to_owned()));

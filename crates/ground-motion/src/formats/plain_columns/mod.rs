@@ -8,6 +8,7 @@ use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
+use crate::header_keys::{Entry, keyed};
 use crate::recording::Series;
 use crate::row_widths;
 use crate::source::Source;
@@ -75,8 +76,20 @@ fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
         .filter(|l| !l.is_blank() && l.fields().next().is_some() && !is_comment(l))
         .skip_while(|l| {
             let words = !l.fields().any(|(_, field)| starts_a_number(field));
-            words || l.is_text() || header::parse(l).is_some()
+            words || l.is_text() || is_key(l) || header::parse(l).is_some()
         })
+}
+
+/// Whether a line is a symbol with its value, `\u{394}t = 0.01 s`.
+fn is_key(line: &Line<'_>) -> bool {
+    let first = line.fields().next();
+    let named = first.is_some_and(|(_, field)| {
+        !starts_a_number(field)
+            && field
+                .first()
+                .is_some_and(|b| b.is_ascii_alphabetic() || !b.is_ascii())
+    });
+    named && line.bytes.iter().any(|b| b"=:".contains(b))
 }
 
 /// The lines before the first row, comments among them.
@@ -220,10 +233,10 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     if let Some(error) = faulty.as_ref().and_then(|f| f.refused(source)) {
         return Err(error);
     }
-    agrees_with_names(source, header.as_ref())?;
     let bytes = decimal::with_points(source, header.as_ref())?;
     let pointed = Source::new(source.file, &bytes, source.options, source.path);
     let said = Said::before(&pointed, header.as_ref())?;
+    agrees_with_names(source, header.as_ref(), &said.stated)?;
     let series = match (numbers(&pointed, header.as_ref(), &said), faulty) {
         // Unit and step may well be there: why they were not understood is the reason.
         (
@@ -252,26 +265,33 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     Ok(series)
 }
 
-/// Refuses another unit than one that the name of a column states, in a line that is not the header.
+/// Refuses another unit, given or stated, than one that the name of a column states in a line that
+/// is not the header.
 fn agrees_with_names(
     source: &Source<'_>,
     header: Option<&Header>,
+    stated: &Stated,
 ) -> Result<(), GroundMotionError> {
-    let Some(given) = source.options.unit else {
-        return Ok(());
-    };
     for cells in header::name_lines(before(source)) {
         if header.is_some_and(|h| h.line == cells.line) || cells.names.len() < 2 {
             continue;
         }
-        let mut units = cells.names.iter().filter_map(|n| header::unit_beside(n));
-        if let Some(unit) = units.find(|unit| !unit.is(given)) {
-            return Err(GroundMotionError::Contradiction {
-                file: source.file.to_owned(),
-                quantity: "unit",
-                stated: format!("{} (line {})", unit.symbol, cells.line),
-                given: SeriesUnit::from(given).symbol.to_owned(),
-            });
+        // `peak acceleration (m/s2): 2.9` is a key with its value.
+        let is_key = |text: &str| keyed(&text.to_lowercase()).iter().any(Entry::has_number);
+        if cells.separator.is_none() && is_key(&cells.text) {
+            continue;
+        }
+        let names = cells.names.iter().filter(|name| !is_key(name));
+        for unit in names.filter_map(|n| header::unit_beside(n)) {
+            stated.agrees(source, unit, &cells.text)?;
+            if let Some(given) = source.options.unit.filter(|given| !unit.is(*given)) {
+                return Err(GroundMotionError::Contradiction {
+                    file: source.file.to_owned(),
+                    quantity: "unit",
+                    stated: format!("{} (line {})", unit.symbol, cells.line),
+                    given: SeriesUnit::from(given).symbol.to_owned(),
+                });
+            }
         }
     }
     Ok(())
@@ -300,7 +320,7 @@ impl Said {
         let mut draft = Draft::new(samples, unit, (survey.first, survey.first, survey.last));
         draft.initial = self.keys.initial();
         draft.first_time = self.keys.first_time();
-        self.stated.count(&mut draft, survey.numbers);
+        self.stated.state(&mut draft, survey.numbers);
         draft
     }
 }
@@ -560,7 +580,7 @@ fn fixed(
     let mut draft = Draft::new(samples, unit, (first, first, last));
     draft.initial = said.keys.initial();
     draft.first_time = said.keys.first_time();
-    said.stated.count(&mut draft, 0);
+    said.stated.state(&mut draft, 0);
     draft.times = Times::Step(said.stated.step(source, None)?);
     Ok(vec![draft.finish(source)?])
 }

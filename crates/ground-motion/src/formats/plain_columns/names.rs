@@ -168,9 +168,23 @@ pub(super) fn is_time(known: &str) -> bool {
     )
 }
 
+/// A unit without the word before it: `cm/s2` of `in cm/s2`. An inch has none behind it.
+fn without_in(unit: &str) -> &str {
+    let unit = unit.trim();
+    let behind = unit
+        .get(..3)
+        .filter(|start| start.eq_ignore_ascii_case("in "))
+        .map(|_| &unit[3..]);
+    behind.map_or(unit, str::trim)
+}
+
 /// Units of time (s).
 pub(super) fn time_unit(text: &str) -> Option<f64> {
-    match text.trim().trim_end_matches('.').to_lowercase().as_str() {
+    match without_in(text)
+        .trim_end_matches('.')
+        .to_lowercase()
+        .as_str()
+    {
         "s" | "sec" | "secs" | "second" | "seconds" | "seg" | "segs" | "segundos" | "saniye"
         | "sn" => Some(1.0),
         "ms" | "msec" | "millisecond" | "milliseconds" => Some(1.0e-3),
@@ -180,8 +194,7 @@ pub(super) fn time_unit(text: &str) -> Option<f64> {
 
 /// A unit of motion in any of its spellings: `m/s²`, `m/s^2`, `m s-2`, `m_s2`, `m/s**2`.
 pub(in crate::formats) fn motion_unit(text: &str) -> Option<SeriesUnit> {
-    let plain = text
-        .trim()
+    let plain = without_in(text)
         .to_lowercase()
         .replace('²', "2")
         .replace(['−', '⁻'], "-");

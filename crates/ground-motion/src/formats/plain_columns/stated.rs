@@ -1,10 +1,11 @@
-//! What lines before the rows state of unit, step and count under a key: `# dt: 0.01 s`, `Units =
-//! cm/s2`, `Sampling rate (Hz): 100`, `NPTS: 400`. It is used where the user says nothing, and held
-//! against what the user and the rows say.
+//! What lines before the rows state of unit, step, count and peak under a key: `# dt: 0.01 s`,
+//! `Units = cm/s2`, `Sampling rate (Hz): 100`, `NPTS: 400`, `PGA: 0.3 g`. It is used where the user
+//! says nothing, and held against what the user and the rows say.
 
 use super::{faults, header, names};
-use crate::draft::Draft;
+use crate::draft::{Draft, DraftPeak, NamedQuantity, Printed, StatedDuration, not_applied};
 use crate::error::{GroundMotionError, bound};
+use crate::header_keys::{Meaning, keyed, meaning, split_number, unit_words};
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
 use crate::source::Source;
@@ -13,56 +14,14 @@ use crate::text::{Line, in_brackets};
 
 /// Keys of our CSV that tell how a record was made from another one.
 const HISTORY: [&str; 6] = ["source", "step", "read", "note", "event", "station"];
-/// Ends of keys of a time step.
-const STEPS: [&str; 14] = [
-    "dt",
-    "delta t",
-    "delta_t",
-    "deltat",
-    "time step",
-    "time_step",
-    "timestep",
-    "time interval",
-    "sampling interval",
-    "sample interval",
-    "sampling period",
-    "sampling step",
-    "sampling time",
-    "sample period",
-];
-/// Ends of keys of a rate.
-const RATES: [&str; 10] = [
-    "fs",
-    "sampling rate",
-    "sample rate",
-    "sampling_rate",
-    "sample_rate",
-    "sampling frequency",
-    "sampling freq",
-    "sample frequency",
-    "samples per second",
-    "sps",
-];
-/// Keys of a count.
-const COUNTS: [&str; 10] = [
-    "npts",
-    "ndata",
-    "nsamples",
-    "npoints",
-    "samples",
-    "points",
-    "values",
-    "data",
-    "data points",
-    "sample count",
-];
-/// Words between `number` and what is counted.
-const OF_ALL: [&str; 7] = ["of", "the", "data", "total", "acceleration", "acc", "accel"];
 /// Words behind a key of units that name none.
 const NO_UNIT: [&str; 12] = [
     "si", "metric", "english", "imperial", "cgs", "mks", "us", "none", "unknown", "n/a", "-",
     "standard",
 ];
+
+/// Rate (Hz) below which a frequency is none of sampling.
+const LEAST_RATE: f64 = 20.0;
 
 /// Something that a line states.
 struct At<T> {
@@ -82,6 +41,12 @@ pub(super) struct Stated {
     unit: Option<At<SeriesUnit>>,
     steps: Vec<At<Step>>,
     counts: Vec<At<usize>>,
+    peaks: Vec<At<(Printed, SeriesUnit)>>,
+    durations: Vec<At<f64>>,
+    /// What the values are, in words.
+    quantities: Vec<At<(Quantity, String)>>,
+    /// Factors that are not applied.
+    factors: Vec<At<f64>>,
 }
 
 impl Stated {
@@ -97,7 +62,7 @@ impl Stated {
             if line.bytes.len() > header::LONGEST {
                 continue;
             }
-            let lower = line.lower();
+            let lower = lower(&line);
             let bare = lower.trim_start_matches(|c: char| !c.is_ascii_alphanumeric());
             let key = bare.split([':', '=']).next().unwrap_or_default().trim();
             if HISTORY.contains(&key) {
@@ -160,51 +125,75 @@ impl Stated {
         Ok(())
     }
 
-    fn numbers(&mut self, line: usize, lower: &str) {
-        let mut step = |seconds: f64, is_rate| {
-            if seconds > 0.0 && seconds.is_finite() {
-                let value = Step { seconds, is_rate };
-                self.steps.push(At { line, value });
-            }
-        };
-        for (seconds, _) in number::rates(lower) {
-            step(seconds, true);
+    fn state_step(&mut self, line: usize, seconds: f64, is_rate: bool) {
+        if seconds > 0.0 && seconds.is_finite() {
+            let value = Step { seconds, is_rate };
+            self.steps.push(At { line, value });
         }
-        for (key, value) in keyed(lower) {
-            let (digits, behind) = split_number(value);
+    }
+
+    fn numbers(&mut self, line: usize, lower: &str) {
+        for (seconds, _) in number::rates(lower) {
+            self.state_step(line, seconds, true);
+        }
+        for entry in keyed(lower) {
+            let Some(meaning) = meaning(&entry) else {
+                continue;
+            };
+            if meaning == Meaning::Quantity {
+                let value = named_quantity(entry.value);
+                self.quantities
+                    .extend(value.map(|value| At { line, value }));
+                continue;
+            }
+            let (digits, behind) = split_number(entry.value);
             let Ok(found) = number::parse(digits.as_bytes()) else {
                 continue;
             };
-            let inside = in_brackets(key).map(str::trim);
-            let plain = key.split(['(', '[']).next().unwrap_or_default().trim_end();
-            let ends = |keys: &[&str]| keys.iter().any(|k| ends_in(plain, k));
+            let inside = in_brackets(entry.key).map(str::trim);
             let unit = match behind {
                 "" => inside.unwrap_or_default(),
                 unit => unit,
             };
-            let seconds = || match unit {
+            let seconds = match unit {
                 "" => Some(1.0),
                 unit => names::time_unit(unit),
             };
             let hertz = ["", "hz", "sps", "samples/s", "samples/sec", "1/s", "/s"].contains(&unit);
-            if ends(&STEPS) {
+            let mut step = |seconds, is_rate| self.state_step(line, seconds, is_rate);
+            match meaning {
                 // A rate under a key of a step says so.
-                match seconds() {
+                Meaning::Step => match seconds {
                     Some(one) => step(found * one, false),
                     None if hertz => step(1.0 / found, true),
                     None => {}
-                }
-            } else if ends(&RATES) {
-                if hertz && number::rates(lower).is_empty() {
+                },
+                Meaning::Rate if hertz && number::rates(lower).is_empty() => {
                     step(1.0 / found, true);
                 }
-            } else if is_count(plain)
-                && found >= 2.0
-                && found.fract() == 0.0
-                && ["", "points", "samples", "values", "pts"].contains(&unit)
-            {
-                let value = found as usize;
-                self.counts.push(At { line, value });
+                // Else that of a sine, a filter or a building.
+                Meaning::Frequency if hertz && found >= LEAST_RATE => step(1.0 / found, true),
+                Meaning::Count
+                    if found >= 2.0
+                        && found.fract() == 0.0
+                        && ["", "points", "samples", "values", "pts"].contains(&unit) =>
+                {
+                    let value = found as usize;
+                    self.counts.push(At { line, value });
+                }
+                Meaning::Duration if found > 0.0 => {
+                    let value = seconds.map(|one| found * one);
+                    self.durations.extend(value.map(|value| At { line, value }));
+                }
+                Meaning::Peak => {
+                    let unit = names::motion_unit(unit)
+                        .filter(|unit| unit.quantity == Quantity::Acceleration);
+                    let printed = (found, number::resolution(digits.as_bytes()));
+                    let value = unit.map(|unit| (printed, unit));
+                    self.peaks.extend(value.map(|value| At { line, value }));
+                }
+                Meaning::Factor if found != 1.0 => self.factors.push(At { line, value: found }),
+                _ => {}
             }
         }
     }
@@ -306,8 +295,41 @@ impl Stated {
         }
     }
 
-    /// States the counts to a draft; `numbers` are all that stand in the rows.
-    pub(super) fn count(&self, draft: &mut Draft, numbers: usize) {
+    /// States to a draft what it is held against; `numbers` are all that stand in the rows.
+    pub(super) fn state(&self, draft: &mut Draft, numbers: usize) {
+        for At { line, value } in &self.peaks {
+            let (value, unit) = *value;
+            draft.other_peaks.push(DraftPeak {
+                value,
+                time: None,
+                unit: Some(unit),
+                shift: 0.0,
+                line: Some(*line),
+                of_sign: false,
+            });
+        }
+        for At { line, value } in &self.durations {
+            draft.other_durations.push(StatedDuration {
+                seconds: *value,
+                line: Some(*line),
+            });
+        }
+        for At { line, value } in &self.quantities {
+            let (quantity, text) = value.clone();
+            let line = *line;
+            draft.quantities.push(NamedQuantity {
+                quantity,
+                text,
+                line,
+            });
+        }
+        for At { line, value } in &self.factors {
+            draft.warnings.push(not_applied(*line, *value));
+        }
+        self.count(draft, numbers);
+    }
+
+    fn count(&self, draft: &mut Draft, numbers: usize) {
         let own = self
             .counts
             .iter()
@@ -346,14 +368,27 @@ fn unit_of(lower: &str) -> Unit {
     if let Some(unit) = beside_seconds(bare) {
         return Unit::Known(unit);
     }
-    if let Some((key, value)) = bare.split_once([':', '=']) {
-        let mut words = key.split_whitespace();
-        let is_unit = |w: Option<&str>| w.is_some_and(|w| ["unit", "units"].contains(&w));
-        let first = words.next();
-        let of_values = first.is_some_and(|w| w.starts_with("accel") || w == "data");
-        let states = is_unit(first) || of_values && is_unit(words.next());
-        if states && words.next().is_none() {
-            return value_of(value);
+    let within = [
+        "in ",
+        "values in ",
+        "data in ",
+        "amplitudes in ",
+        "samples in ",
+    ];
+    if let Some(unit) = within.iter().find_map(|start| bare.strip_prefix(start)) {
+        if let Some(unit) = names::motion_unit(unit.trim_end_matches('.')) {
+            return Unit::Known(unit);
+        }
+    }
+    for entry in keyed(lower).iter().filter(|entry| unit_words(entry.key)) {
+        // Other keys may follow on the line.
+        let end = match entry.value.contains([':', '=']) {
+            true => entry.value.find([',', ';', '\t']),
+            false => None,
+        };
+        match value_of(&entry.value[..end.unwrap_or(entry.value.len())]) {
+            Unit::None => {}
+            stated => return stated,
         }
     }
     let by_name = named_with_unit(lower).filter(|found| {
@@ -411,67 +446,22 @@ fn value_of(value: &str) -> Unit {
     Unit::None
 }
 
-/// The keys of a line with what stands behind their colon or sign of equality.
-fn keyed(lower: &str) -> Vec<(&str, &str)> {
-    let mut found = Vec::new();
-    let mut from = 0;
-    for (at, _) in lower.match_indices([':', '=']) {
-        let key = lower[from..at].trim();
-        // The key is what follows the last separator or number.
-        let start = key.rfind([',', ';', '\t']).map_or(0, |n| n + 1);
-        let key = key[start..].trim_start_matches(|c: char| !c.is_alphanumeric());
-        found.push((key, lower[at + 1..].trim_start()));
-        from = at + 1;
-    }
-    found
+/// The quantity that a value names by its first letters, with the value.
+fn named_quantity(value: &str) -> Option<(Quantity, String)> {
+    let all = [
+        Quantity::Acceleration,
+        Quantity::Velocity,
+        Quantity::Displacement,
+    ];
+    let named = |q: &Quantity| value.starts_with(&q.name()[..3]);
+    let text = value.trim().chars().take(48).collect();
+    all.into_iter().find(named).map(|quantity| (quantity, text))
 }
 
-/// A number at the start of a text, and the word behind it.
-fn split_number(text: &str) -> (&str, &str) {
-    let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
-    let mut end = text.find(|c| !number(c)).unwrap_or(text.len());
-    // An exponent.
-    let rest = &text[end..];
-    if end > 0
-        && let Some(exponent) = rest.strip_prefix(['e', 'd'])
-        && exponent.starts_with(number)
-    {
-        end += 1 + exponent.find(|c| !number(c)).unwrap_or(exponent.len());
+/// A line in lower case, of whatever encoding; the sign of an increment is a delta.
+fn lower(line: &Line<'_>) -> String {
+    match std::str::from_utf8(line.bytes) {
+        Ok(text) => text.to_lowercase().replace('\u{2206}', "\u{3b4}"),
+        Err(_) => line.lower(),
     }
-    let behind = text[end..].trim_start().trim_start_matches(['(', '[']);
-    let word = behind
-        .split([' ', '\t', ',', ';', ')', ']'])
-        .next()
-        .unwrap_or_default();
-    (
-        text[..end].trim_end_matches('.'),
-        word.trim_end_matches('.'),
-    )
-}
-
-/// Whether a key is that of the count of all values: `npts`, `number of data points`.
-fn is_count(key: &str) -> bool {
-    if ends_in(key, "npts") {
-        return true;
-    }
-    let mut words: Vec<&str> = key
-        .split([' ', '.', '_'])
-        .filter(|w| !w.is_empty())
-        .collect();
-    if words
-        .first()
-        .is_some_and(|w| ["number", "no", "num", "nr"].contains(w))
-    {
-        words.remove(0);
-        let of = words.iter().take_while(|w| OF_ALL.contains(w)).count();
-        words.drain(..of.min(words.len().saturating_sub(1)));
-        return words.len() == 1 && COUNTS.contains(&words[0]);
-    }
-    COUNTS.contains(&words.join(" ").as_str()) && key != "data" && key != "values"
-}
-
-/// Whether a text ends in a key as a word of its own.
-fn ends_in(text: &str, key: &str) -> bool {
-    text.strip_suffix(key)
-        .is_some_and(|before| !before.ends_with(|c: char| c.is_alphanumeric()))
 }

@@ -1,0 +1,186 @@
+//! Keys before plain columns in the spellings of those who write them.
+#![allow(clippy::unwrap_used)]
+
+use pounding_ground_motion::{
+    AccelerationUnit, GroundMotionError, ReadOptions, Series, read_all_bytes,
+};
+
+fn read_with(text: &str, options: &ReadOptions) -> Result<Vec<Series>, GroundMotionError> {
+    read_all_bytes("file.txt", text.as_bytes(), options).map(|recording| recording.series)
+}
+
+/// A record of 40 values, of which the largest is 0.3, below a header.
+fn read(header: &str) -> Result<Vec<Series>, GroundMotionError> {
+    let values: String = (0..40)
+        .map(|i| {
+            format!(
+                "{:.4}\n",
+                0.3 * (0.5 * std::f64::consts::PI * f64::from(i) / 3.0).sin()
+            )
+        })
+        .collect();
+    read_with(&format!("{header}\n{values}"), &ReadOptions::default())
+}
+
+#[track_caller]
+fn is_read(header: &str, step: f64, unit: &str) -> Vec<String> {
+    let series = read(header).unwrap_or_else(|e| panic!("{header}: {e}"));
+    assert_eq!((series.len(), series[0].samples.len()), (1, 40), "{header}");
+    let found = series[0].sampling.median_step();
+    assert!((found - step).abs() < 1e-12, "{header}: {found}");
+    assert_eq!(series[0].unit, unit, "{header}");
+    series[0].origin.warnings.clone()
+}
+
+#[track_caller]
+fn refused(header: &str, expected: &str) {
+    let said = read(header).unwrap_err().to_string();
+    assert!(said.contains(expected), "{header}: {said}");
+}
+
+#[test]
+fn steps_rates_and_units() {
+    for (header, step, unit) in [
+        ("Frequency: 200 Hz\nUnits: gal", 0.005, "cm/s2"),
+        ("Frequency (Hz): 200\nunits: g", 0.005, "g"),
+        ("Time-step: 0.01 s\nUnidad: gal", 0.01, "cm/s2"),
+        ("# Sampling-rate = 100\n# Y unit: gal", 0.01, "cm/s2"),
+        ("dt 0.01\nin gal", 0.01, "cm/s2"),
+        ("dt 0.01 s\nvalues in g", 0.01, "g"),
+        ("\u{394}t = 0.01 s\nunidad de medida: cm/s2", 0.01, "cm/s2"),
+        (
+            "\u{2206}t = 10 ms\nunit of acceleration: m/s2",
+            0.01,
+            "m/s2",
+        ),
+        ("dt=0.01, units=g, npts=40", 0.01, "g"),
+        ("Units: g, dt: 0.01, samples: 40", 0.01, "g"),
+        ("sampling rate 100 Hz\nUnit\u{e9}: m/s\u{b2}", 0.01, "m/s2"),
+        ("Samples 40\nDT 0.02\nEinheit: g", 0.02, "g"),
+    ] {
+        let warnings = is_read(header, step, unit);
+        assert!(warnings.is_empty(), "{header}: {warnings:?}");
+    }
+    // Of a sine or a filter, not of sampling.
+    for header in [
+        "Frequency: 2 Hz\nunits: g",
+        "corner frequency: 25 Hz\nunits: g",
+    ] {
+        refused(header, "does not state its time step");
+    }
+    let table = "TIME ACCEL (in g)\n0.0 0.1\n0.1 0.2\n0.2 -0.3\n0.3 0.1\n";
+    let series = read_with(table, &ReadOptions::default()).unwrap();
+    assert_eq!((series[0].unit, series[0].samples.len()), ("g", 4));
+}
+
+#[test]
+fn counts() {
+    let of = |count: &str| format!("{count}\ndt: 0.01\nunits: g");
+    for count in [
+        "count: 41",
+        "Samples 41",
+        "sample-count: 41",
+        "No. of points 41",
+    ] {
+        refused(&of(count), "41");
+    }
+    is_read(&of("count: 40"), 0.01, "g");
+    // Neither is a count of values.
+    is_read(&of("channel count: 3"), 0.01, "g");
+    is_read(&of("Record 12"), 0.01, "g");
+}
+
+#[test]
+fn peaks() {
+    let of = |peak: &str| format!("{peak}\ndt: 0.01\nunits: g");
+    for peak in [
+        "PGA: 0.300 g",
+        "PGA = 294.2 gal",
+        "peak acceleration (m/s2): 2.942",
+        "PGA 0.3 g",
+    ] {
+        assert!(is_read(&of(peak), 0.01, "g").is_empty(), "{peak}");
+    }
+    refused(&of("PGA: 300 g"), "the header's peak is 300.00 g");
+    refused(&of("Kobe, PGA: 0.8 g"), "the header's peak is 0.80000 g");
+    // One of several columns.
+    let table = "PGA: 0.3 g\ntime (s),NS (g),EW (g)\n0,0.1,0.0\n1,0.3,0.1\n2,0.0,-0.2\n3,0.1,0.1\n";
+    let series = read_with(table, &ReadOptions::default()).unwrap();
+    assert_eq!(series.len(), 2);
+    // Without a unit of its own it says nothing.
+    is_read(&of("PGA: 2.94"), 0.01, "g");
+}
+
+#[test]
+fn durations_and_factors_are_told() {
+    let of = |line: &str| is_read(&format!("{line}\ndt: 0.01\nunits: g"), 0.01, "g");
+    assert!(of("Duration: 0.4 s").is_empty());
+    assert!(of("Duration = 12 s")[0].contains("says a duration of 12 s"));
+    assert!(of("Scale factor: 1.0").is_empty());
+    assert!(of("Scale factor: 9.81")[0].contains("a factor of 9.81 is stated"));
+}
+
+#[test]
+fn other_quantities() {
+    for line in [
+        "Type: VEL",
+        "data type = velocity",
+        "Quantity: displacement",
+    ] {
+        let header = format!("{line}\ndt: 0.01\nunits: g");
+        let said = read(&header).unwrap_err().to_string();
+        assert!(
+            said.contains("velocity") || said.contains("displacement"),
+            "{said}"
+        );
+    }
+    is_read("Type: ACC\ndt: 0.01\nunits: g", 0.01, "g");
+}
+
+/// The unit in the name of a column that is not understood against one of its own line.
+#[test]
+fn units_of_names_and_lines() {
+    let rows = "0,0.1,5\n1,0.3,6\n2,0.0,7\n3,0.1,9\n";
+    let header = "units: g\nTime (s),Acc. (cm/s2) filtered,Quality of it\n";
+    let said = read_with(&format!("{header}{rows}"), &ReadOptions::default());
+    let said = said.unwrap_err().to_string();
+    assert!(said.contains("contradicts the column header"), "{said}");
+    let options = ReadOptions {
+        unit: Some(AccelerationUnit::StandardGravity),
+        ..ReadOptions::default()
+    };
+    let (_, header) = header.split_once('\n').unwrap();
+    assert!(read_with(&format!("{header}{rows}"), &options).is_err());
+}
+
+/// What may stand beside count and step of an AT2 file.
+#[test]
+fn keys_of_at2() {
+    let read = |title: &str, counts: &str| {
+        let text = format!(
+            "PEER\nEVENT, STATION, 180\n{title}\nNPTS= 8, DT= .0050 SEC{counts}\n.1 .2 -.3 .1\n.1 .2 .1 .0\n"
+        );
+        read_with(&text, &ReadOptions::default())
+    };
+    let plain = "ACCELERATION TIME SERIES IN UNITS OF G";
+    let warnings = |counts: &str| read(plain, counts).unwrap()[0].origin.warnings.clone();
+    for counts in [
+        "",
+        ", SAMPLING RATE= 200 HZ",
+        " DURATION= .04 SEC",
+        ", SCALE FACTOR= 1.0",
+    ] {
+        assert!(warnings(counts).is_empty(), "{counts}");
+    }
+    let rate = read(plain, ", SAMPLING RATE= 100 HZ")
+        .unwrap_err()
+        .to_string();
+    assert!(
+        rate.contains("0.005 s (200 samples/s) here, but 0.01 s"),
+        "{rate}"
+    );
+    assert!(warnings(" DURATION= 40.0 SEC")[0].contains("a duration of 40 s"));
+    assert!(warnings(", SCALE FACTOR= 9.81")[0].contains("a factor of 9.81"));
+    let series = read("ACCELERATION TIME SERIES", ", UNITS=GAL").unwrap();
+    assert_eq!(series[0].unit, "cm/s2");
+}

@@ -14,6 +14,8 @@ use crate::polynomial::{
 };
 use crate::system::{SectionForce, SectionPlace, System};
 
+mod branches;
+
 /// Peaks of all storeys, and of the levels in contact.
 #[derive(Debug)]
 pub(crate) struct Peaks {
@@ -195,6 +197,9 @@ impl Peaks {
         for index in 0..self.elements.len() {
             self.element(context, method, index, place);
         }
+        if method.information().implicit && !self.elements.is_empty() {
+            self.accelerations_between_branches(context, method, place);
+        }
     }
 
     /// A response of a contact level, with the contact force at the nodes of a fit.
@@ -272,15 +277,21 @@ impl Peaks {
         let samples = fit_nodes().map(&mut force);
         let fitted = fit(&samples);
         let maximum = self.elements[index].force.value;
-        if bound(&fitted).max(bound(&fitted.map(|c| -c))) <= maximum * NEAR {
+        let most = bound(&fitted).max(bound(&fitted.map(|c| -c)));
+        if most <= maximum * if implicit { branches::FAR } else { NEAR } {
             return;
         }
         for (theta, sample) in fit_nodes().iter().zip(samples) {
             self.raise_force(element, index, sample.abs(), start + theta * step);
         }
         // What the law of a step holds is smooth only where its branches are located.
+        if implicit {
+            let (theta, top) = branches::largest(|theta| force(theta).abs());
+            self.raise_force(element, index, top, start + theta * step);
+            return;
+        }
         let near = self.elements[index].force.value * NEAR;
-        if let (false, Some((theta, _))) = (implicit, absolute_maximum(&fitted, near)) {
+        if let Some((theta, _)) = absolute_maximum(&fitted, near) {
             let exact = force(theta).abs();
             self.raise_force(element, index, exact, start + theta * step);
         }

@@ -6,6 +6,7 @@ mod all_laws;
 mod convergence;
 mod event_driven;
 mod exact_oscillator;
+mod fixed_step_peaks;
 mod from_rest;
 mod p_delta;
 mod properties;

@@ -253,6 +253,98 @@ fn floors_at_rest_are_in_contact_since_they_move() {
     }
 }
 
+/// Touching floors stand still until their own motion begins or something hits them, whatever else
+/// moves: a building that is let go far from them, or nearer than it swings.
+#[test]
+fn floors_at_rest_wait_for_what_moves_them() {
+    let law = law("linear_elastic", 1.0, None);
+    let ground = GroundAcceleration {
+        samples: vec![0.0; 2].into(),
+        time_step: 1.0,
+    };
+    let row = |width: f64, velocity: f64, push: Option<f64>| {
+        let buildings = vec![building(1, 2.0), building(1, 1.0), building(1, 3.0)];
+        let mut system = System::new(buildings, ground.clone());
+        for (left, width) in [(0, width), (1, 0.0)] {
+            let [a, b] = [left, left + 1].map(|k| Floor::Storey(k, 0));
+            let names = [left, left + 1].map(|k| system.buildings()[k].name().to_owned());
+            let pair = (a, b, width, Arc::clone(&law));
+            system
+                .add_gap(&format!("gap {left}"), names, vec![pair])
+                .unwrap();
+        }
+        let pushed = push.map(|begin| FloorForce {
+            building: 1,
+            storey: 0,
+            history: ForceHistory::new(&[(begin, 0.0), (begin + 0.1, 1e5)], true).unwrap(),
+            origin: String::new(),
+        });
+        let system = system.with_forces(pushed.into_iter().collect()).unwrap();
+        system
+            .with_initial_state(&[0.0; 3], &[velocity, 0.0, 0.0])
+            .unwrap()
+    };
+    for method in [FAST, TRUTH] {
+        let first = |system: &System| {
+            let outcome = go(system, method, 0.5);
+            [0, 1].map(|gap| outcome.gaps[gap].levels[0].first_contact)
+        };
+        // The first one is let go 5 m away, the second is pushed.
+        assert_eq!(first(&row(5.0, 0.05, Some(0.3))), [None, Some(0.3)]);
+        // The first one hits it: both gaps close at that instant.
+        for push in [None, Some(0.4)] {
+            let [hit, behind] = first(&row(0.01, 0.5, push)).map(Option::unwrap);
+            assert!(hit > 0.01 && hit < 0.1, "{hit}");
+            assert_eq!(hit, behind);
+        }
+    }
+}
+
+/// A floor that pulses of force press against a rigid wall, where it lies: an impact that goes on
+/// from one pulse to another has closed at its first, and the impulses are those of the pulses.
+#[test]
+fn pulses_against_a_rigid_wall() {
+    let law = law("stereomechanical", 0.5, None);
+    let ground = GroundAcceleration {
+        samples: vec![0.0; 2].into(),
+        time_step: 1.0,
+    };
+    let mut system = System::new(vec![building(1, 1.0)], ground);
+    let pair = (Floor::Storey(0, 0), Floor::Wall, 0.0, law);
+    let names = ["b".to_owned(), "wall".to_owned()];
+    system.add_gap("gap", names, vec![pair]).unwrap();
+    let begins = [0.25, 0.30, 0.42, 0.55, 0.70];
+    let pulse = |begin: f64| [(begin, 0.0), (begin + 0.005, 2e5), (begin + 0.01, 0.0)];
+    let pulses: Vec<(f64, f64)> = begins.into_iter().flat_map(pulse).collect();
+    let push = FloorForce {
+        building: 0,
+        storey: 0,
+        history: ForceHistory::new(&pulses, true).unwrap(),
+        origin: String::new(),
+    };
+    let system = system.with_forces(vec![push]).unwrap();
+    for method in [FAST, TRUTH] {
+        let outcome = go(&system, method, 0.9);
+        let level = &outcome.gaps[0].levels[0];
+        assert_eq!(level.first_contact, Some(0.25));
+        assert!(
+            (level.impulse / 5e3 - 1.0).abs() < 1e-9,
+            "{}",
+            level.impulse
+        );
+        let mut before = 0.0;
+        for impact in &outcome.impacts {
+            // As many pulses as it holds begin at its closure.
+            let at = begins
+                .iter()
+                .position(|begin| (begin - impact.time_closed).abs() < 1e-5);
+            let pulses = before / 1e3;
+            assert!((at.unwrap() as f64 - pulses).abs() < 1e-6, "{impact:?}");
+            before += impact.impulse;
+        }
+    }
+}
+
 /// Floors that touch in decimal numbers touch, though 0.1 + 0.2 is more than 0.3 in binary ones; what
 /// overlaps by more is refused.
 #[test]

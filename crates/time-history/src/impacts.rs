@@ -42,7 +42,10 @@ struct Track {
     episode: Option<Episode>,
     /// Whether the floors are apart by more than a touch from the start.
     apart_from_start: bool,
-    /// Since when they are apart (s), and how fast they parted (m/s).
+    /// Whether they have not met yet.
+    is_new: bool,
+    /// Since when they are apart (s), and how fast they parted (m/s). Before they have met, until
+    /// when they stand still, if no impact moves them before.
     apart_since: f64,
     separation_velocity: f64,
     /// Sums of squared approach and separation velocities of finished impacts.
@@ -58,11 +61,11 @@ struct Track {
 
 impl Track {
     /// Whether floors that close now have not parted since their last contact, or since the
-    /// start: whether they hopped no higher than a touch. The height is that of the
+    /// start: whether they hopped no higher than a touch since a time. The height is that of the
     /// parabola with these velocities at its ends.
-    fn stayed_in_touch(&self, time: f64, approach_velocity: f64) -> bool {
+    fn stayed_in_touch(&self, since: f64, time: f64, approach_velocity: f64) -> bool {
         let velocities = self.separation_velocity + approach_velocity;
-        !self.apart_from_start && 0.125 * velocities * (time - self.apart_since) <= TOUCH
+        !self.apart_from_start && 0.125 * velocities * (time - since.min(time)) <= TOUCH
     }
 }
 
@@ -79,6 +82,10 @@ pub(crate) struct ImpactLog {
     /// Impacts that turned out to be touches.
     touches: Vec<bool>,
     tracks: Vec<Track>,
+    /// Of every level, the groups of buildings at it that move together.
+    groups: Vec<Vec<usize>>,
+    /// First level of every gap.
+    first_levels: Vec<usize>,
     levels: Vec<LevelOutcome>,
     finished: Vec<usize>,
     handed_out: Vec<Impact>,
@@ -152,6 +159,7 @@ impl ImpactLog {
                 tracks.push(Track {
                     episode: None,
                     apart_from_start: contact.width - contact.relative(u) > TOUCH,
+                    is_new: true,
                     apart_since: begins[gap.first_level + level],
                     separation_velocity: (-contact.relative(v)).max(0.0),
                     squares: (0.0, 0.0),
@@ -182,6 +190,8 @@ impl ImpactLog {
             constants: Vec::with_capacity(IMPACTS),
             touches: Vec::with_capacity(IMPACTS),
             tracks,
+            groups: groups(system),
+            first_levels: system.gaps().iter().map(|gap| gap.first_level).collect(),
             levels: vec![empty; count],
             finished: Vec::with_capacity(IMPACTS),
             handed_out: Vec::new(),
@@ -198,9 +208,11 @@ impl ImpactLog {
         state: &[f64],
     ) {
         let approach_velocity = collision.approach_velocity;
+        let since = self.apart_since(l);
         let track = &mut self.tracks[l];
+        track.is_new = false;
         let closed_with = Some((state[layout.work(l)], state[layout.impulse(l)]));
-        let in_touch = track.stayed_in_touch(time, approach_velocity);
+        let in_touch = track.stayed_in_touch(since, time, approach_velocity);
         if let (true, Some(episode)) = (in_touch, &mut track.episode) {
             episode.closed_with = closed_with;
             episode.lasting = false;
@@ -208,7 +220,7 @@ impl ImpactLog {
         }
         // Floors that lie against one another at rest and are pressed together, however
         // slowly at first, are in contact since they began to move.
-        let time = if in_touch { track.apart_since } else { time };
+        let time = if in_touch { since.min(time) } else { time };
         let at_rest = in_touch && approach_velocity <= TOUCH_VELOCITY;
         let (gap, level) = track.place;
         self.settle(l);
@@ -238,6 +250,23 @@ impl ImpactLog {
         });
         self.constants.push(collision.constants);
         self.touches.push(false);
+    }
+
+    /// Since when the floors of a level are apart (s). Those that have not met and lie against one
+    /// another are in touch until their own motions or an impact on their buildings move them.
+    fn apart_since(&self, l: usize) -> f64 {
+        let track = &self.tracks[l];
+        if !track.is_new || track.apart_from_start {
+            return track.apart_since;
+        }
+        let own = &self.groups[l];
+        let moves = |impact: &&Impact| {
+            let level = self.first_levels[impact.gap] + impact.level;
+            let mut groups = self.groups[level].iter();
+            impact.gap != track.place.0 && groups.any(|group| own.contains(group))
+        };
+        let impacts = self.impacts.iter().filter(moves).map(|i| i.time_closed);
+        impacts.fold(track.apart_since, f64::min)
     }
 
     /// Whether the present contact of a level closed at this very instant: nothing has acted in it.
@@ -361,7 +390,7 @@ impl ImpactLog {
     /// Whether floors that close now have not parted by more than a touch since their last
     /// contact, or since the start.
     pub(crate) fn stays_in_touch(&self, l: usize, time: f64, approach_velocity: f64) -> bool {
-        self.tracks[l].stayed_in_touch(time, approach_velocity)
+        self.tracks[l].stayed_in_touch(self.apart_since(l), time, approach_velocity)
     }
 
     /// Whether a contact is in progress.
@@ -384,10 +413,13 @@ impl ImpactLog {
         }
     }
 
-    /// Moves the closure of the impact in progress.
+    /// Moves the closure of the impact in progress, unless it goes on from a contact before.
     pub(crate) fn closed_at(&mut self, l: usize, time: f64) {
         if let Some(episode) = &self.tracks[l].episode {
-            self.impacts[episode.index].time_closed = time;
+            let impact = &mut self.impacts[episode.index];
+            if !impact.time_opened.is_finite() {
+                impact.time_closed = time;
+            }
         }
     }
 
@@ -438,6 +470,14 @@ impl ImpactLog {
         impacts.shrink_to_fit();
         (self.levels, impacts)
     }
+}
+
+/// Of every level, the groups of buildings that meet there and that links and touching floors move
+/// together.
+fn groups(system: &System) -> Vec<Vec<usize>> {
+    let joined = system.joined_buildings();
+    let of_level = |level| system.buildings_at(level).map(|b| joined[b]).collect();
+    system.levels().iter().map(of_level).collect()
 }
 
 /// Raises the peak of an impact by that of one of its contacts; a velocity jump has none.

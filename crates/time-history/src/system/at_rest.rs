@@ -1,47 +1,82 @@
 //! Until when buildings stand still.
 
-use super::{GroundAcceleration, System};
+use super::{ContactLevel, GroundAcceleration, System};
+use crate::impacts::TOUCH;
 
 impl System {
-    /// Time (s) until which the buildings of each contact level stand still, with all that gaps and
-    /// links join to them: the time of the last sample before their ground moves, and none where
-    /// they move from the start. Zero where nothing ever moves them.
+    /// Time (s) until which the buildings of each contact level stand still, with all that links
+    /// and touching floors join to them: the time of the last sample before their ground moves, and
+    /// none where they move from the start. Infinite where nothing but an impact ever moves them.
     pub(crate) fn levels_at_rest_until(&self) -> Vec<f64> {
-        let mut until: Vec<f64> = (0..self.buildings.len())
-            .map(|b| self.at_rest_until(b))
-            .collect();
-        let place = |name: &String| self.buildings.iter().position(|b| b.name() == name);
-        let gaps = self.gaps.iter().map(|gap| &gap.between);
-        let joined = gaps.chain(self.links.iter().map(|link| &link.between));
-        let joined: Vec<[usize; 2]> = joined
-            .filter_map(|[left, right]| Some([place(left)?, place(right)?]))
-            .collect();
-        // What moves one building comes to those behind it, one after another.
-        for _ in 0..until.len() {
-            for [a, b] in &joined {
-                let earlier = until[*a].min(until[*b]);
-                (until[*a], until[*b]) = (earlier, earlier);
-            }
+        let group = self.joined_buildings();
+        let mut until = vec![f64::INFINITY; group.len()];
+        for (building, group) in group.iter().enumerate() {
+            until[*group] = until[*group].min(self.at_rest_until(building));
         }
-        let of_gap = |[left, right]: &[String; 2]| {
-            let sides = [place(left), place(right)].into_iter().flatten();
-            sides.map(|b| until[b]).fold(f64::INFINITY, f64::min)
-        };
-        let levels = self.gaps.iter().flat_map(|gap| {
-            let of_buildings = of_gap(&gap.between);
-            self.levels_of(gap).iter().map(move |l| (l, of_buildings))
-        });
-        let at_last = |(level, of_buildings): (&super::ContactLevel, f64)| {
-            let first = self.with_mass();
-            let motions = self.motions.as_ref();
+        let first = self.with_mass();
+        let motions = self.motions.as_ref();
+        let of_level = |level: &ContactLevel| {
+            let sides = self
+                .buildings_at(level)
+                .map(|building| until[group[building]]);
             let grounds = level.terms.ground.iter().filter_map(|(dof, _)| {
                 let motion = &motions?.motions[self.moving_ground[dof - first]];
                 begin(&motion.acceleration, motion.delay)
             });
-            let until = grounds.fold(of_buildings, f64::min);
-            if until.is_finite() { until } else { 0.0 }
+            sides.chain(grounds).fold(f64::INFINITY, f64::min)
         };
-        levels.map(at_last).collect()
+        self.levels.iter().map(of_level).collect()
+    }
+
+    /// For every building the first of those that links and touching floors join to it: what moves
+    /// one of them moves all. A gap that is open joins nothing before it closes.
+    pub(crate) fn joined_buildings(&self) -> Vec<usize> {
+        let mut group: Vec<usize> = (0..self.buildings.len()).collect();
+        let (u, _) = self.initial.split_at(self.initial.len() / 2);
+        let touches = |level: &&ContactLevel| level.width - level.relative(u) <= TOUCH;
+        let gaps = self.levels.iter().filter(touches);
+        let gaps = gaps.map(|level| self.buildings_at(level).collect::<Vec<usize>>());
+        let links = self.elements.iter().map(|element| {
+            let pushed = element.terms.pushed.iter().map(|(dof, _)| *dof);
+            let ends = [element.far, element.near].into_iter().flatten();
+            let buildings = ends.chain(pushed).filter_map(|dof| self.building_of(dof));
+            buildings.collect()
+        });
+        let joined: Vec<Vec<usize>> = gaps.chain(links).collect();
+        // One after another: a row of them needs as many rounds.
+        for _ in 0..group.len() {
+            for buildings in &joined {
+                let groups = buildings.iter().map(|building| group[*building]);
+                if let Some(first) = groups.min() {
+                    buildings
+                        .iter()
+                        .for_each(|building| group[*building] = first);
+                }
+            }
+        }
+        group
+    }
+
+    /// The buildings that meet at a level, each as often as its force acts on coordinates of it.
+    pub(crate) fn buildings_at<'s>(
+        &'s self,
+        level: &'s ContactLevel,
+    ) -> impl Iterator<Item = usize> + 's {
+        let sides = [level.left, level.right].into_iter().flatten();
+        let pushed = level.terms.pushed.iter().map(|(dof, _)| *dof);
+        sides.chain(pushed).filter_map(|dof| self.building_of(dof))
+    }
+
+    /// The building that a coordinate belongs to; `None` for that of moving ground.
+    fn building_of(&self, dof: usize) -> Option<usize> {
+        [&self.offsets, &self.further_offsets]
+            .into_iter()
+            .find_map(|offsets| {
+                let building = offsets
+                    .partition_point(|first| *first <= dof)
+                    .checked_sub(1)?;
+                (building + 1 < offsets.len()).then_some(building)
+            })
     }
 
     /// The same of one building by itself; infinite where nothing ever moves it.

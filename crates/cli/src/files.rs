@@ -478,6 +478,9 @@ impl Replaced<'_> {
                 refused(&format!("that of {here} does not take its place unasked"))
             }
             _ if goes_on => Ok(None),
+            Some(_) if other_text => Ok(Some(format!(
+                "{output} is replaced, the result of another study{of}"
+            ))),
             Some(_) => Ok(Some(format!(
                 "{output}, the result of {kind}{of}, is replaced"
             ))),

@@ -76,6 +76,14 @@ fn collide<'py>(
         velocity_left: quantity(velocity_left, "velocity_left", Dimension::VELOCITY)?,
         velocity_right: quantity(velocity_right, "velocity_right", Dimension::VELOCITY)?,
     };
+    if bodies.mass_right.is_none() && bodies.velocity_right != 0.0 {
+        let message = format!(
+            "velocity_right is {} m/s, but the right body is a rigid wall",
+            bodies.velocity_right
+        );
+        let help = "leave velocity_right out, or give the right body a mass with mass_right";
+        return Err(Problem::from(Failure::input(message, Some(help.to_owned()))).into());
+    }
     let values = values(descriptor, &parameters)?;
     let pairs: Vec<_> = values.iter().map(|(n, v)| (*n, *v)).collect();
     let mut given = ModelParameters::from_pairs(&pairs);

@@ -235,7 +235,7 @@ impl Motion {
         py: Python<'py>,
         periods: PyReadonlyArray1<'py, f64>,
         damping: &Bound<'py, PyAny>,
-    ) -> PyResult<Bound<'py, PyDict>> {
+    ) -> PyResult<(f64, Bound<'py, PyDict>)> {
         let damping = quantity(damping, "damping", Dimension::NUMBER)?;
         let periods = periods.as_array().to_vec();
         let how = (damping, Evaluation::default());
@@ -253,7 +253,7 @@ impl Motion {
         ] {
             arrays.set_item(name, values.into_pyarray(py))?;
         }
-        Ok(arrays)
+        Ok((damping, arrays))
     }
 
     /// Intensity measures, as JSON: what `pounding motion info --json` prints of them.

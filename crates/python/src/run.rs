@@ -12,7 +12,9 @@ use pounding_cli::Failure;
 use pounding_cli::answers::{Replaced, no_result_stands};
 use pounding_files::checksum::Checksum;
 use pounding_report::{RunResult, page};
-use pounding_results::{Kind, RunEnding, RunHead, check_size, image, run_in_memory, write_run};
+use pounding_results::{
+    Kind, RunEnding, RunHead, check_size, image, response_bytes, run_in_memory, write_run,
+};
 use pounding_time_history::{
     Energy, GridRecorder, History, Impact, IsolatedRun, Outcome, Recorder, Summary,
     TimeHistoryError, in_parallel, run as integrate, run_isolated,
@@ -61,6 +63,11 @@ impl Run {
         if wanted.histories {
             check_size(system, options.duration, assembly.output_step)
                 .map_err(|e| Problem::from(Failure::from(e)))?;
+            fit_in_memory(response_bytes(
+                system,
+                options.duration,
+                assembly.output_step,
+            ))?;
         }
         let started = Instant::now();
         let recorder = || GridRecorder::new(assembly.output_step).map_err(failed);
@@ -147,6 +154,33 @@ impl Run {
         let made = self.with_ending(|ending| run_in_memory(&head, history, ending));
         made.map_err(|e| Failure::computation(format!("no result in memory: {e}"), None).into())
     }
+}
+
+/// Refuses responses that memory does not hold: an allocation that fails ends the interpreter.
+/// While they grow, they are there twice.
+fn fit_in_memory(bytes: f64) -> Result<(), Problem> {
+    let most = 2.0 * bytes;
+    let mut probe: Vec<u8> = Vec::new();
+    let address_space = most < isize::MAX as f64 && probe.try_reserve_exact(most as usize).is_ok();
+    if address_space && available_memory().is_none_or(|available| bytes <= available) {
+        return Ok(());
+    }
+    let message = format!(
+        "the histories take {:.1} GB, which memory does not hold",
+        bytes / 1e9
+    );
+    let help = "raise `output_step` in [analysis], shorten `duration`, or run it with histories=False; the command `pounding run` writes them while the run goes on";
+    Err(Failure::computation(message, Some(help.to_owned())).into())
+}
+
+/// Bytes that are free for new work, where Linux says so.
+fn available_memory() -> Option<f64> {
+    let told = std::fs::read_to_string("/proc/meminfo").ok()?;
+    let line = told
+        .lines()
+        .find_map(|line| line.strip_prefix("MemAvailable:"))?;
+    let kibibytes: f64 = line.split_whitespace().next()?.parse().ok()?;
+    Some(1024.0 * kibibytes)
 }
 
 #[pymethods]
@@ -295,7 +329,8 @@ impl Run {
         };
         let note = replaced.judged(false).map_err(Problem::from)?;
         let (head, history) = (self.head(), self.history()?);
-        py.detach(|| self.with_ending(|ending| write_run(&path, &head, history, ending)))
+        let target = (path.as_path(), self.case.own_file());
+        py.detach(|| self.with_ending(|ending| write_run(target, &head, history, ending)))
             .map_err(|e| Problem::from(Failure::from(e)))?;
         note.map_or(Ok(()), |note| warn(py, &note))
     }

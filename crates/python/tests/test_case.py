@@ -511,3 +511,24 @@ def test_remedies_are_written_as_python_takes_them(tmp_path: Path, pair_dict: di
     with pytest.raises(pounding.CaseError, match=r"^building\[0\].storeys: an integer") as told:
         pounding.Case.from_dict(pair_dict)
     assert "float" not in told.value.help
+
+
+def test_tables_with_columns_are_no_lists(pair_dict: dict) -> None:
+    frame = pd.DataFrame([[25e3, 26e3, 27e3]], columns=[1, 2, 3])
+    pair_dict["building"][0]["mass"] = frame
+    with pytest.raises(pounding.CaseTypeError, match="names of columns"):
+        pounding.Case.from_dict(pair_dict)
+    # A column of it, and its values, are lists.
+    for values in (frame.iloc[0], frame.to_numpy()[0]):
+        pair_dict["building"][0]["mass"] = values
+        assert "25000" in pounding.Case.from_dict(pair_dict).source
+
+
+def test_a_case_under_two_motions_travels(pair_dict: dict) -> None:
+    first, second = (pounding.Motion([0.0, 1.0, 0.0], 0.1, name=name) for name in ("first", "second"))
+    pair_dict["ground_motion"] = {"process": None, "scale": None}
+    case = pounding.Case.from_dict(pair_dict, motion=first)
+    for made in (case, case.with_motion(second)):
+        copied = pickle.loads(pickle.dumps(made))
+        assert copied.source == made.source
+        assert pickle.loads(pickle.dumps(copied)).source == made.source

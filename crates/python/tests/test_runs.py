@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import _thread
 import gc
+import shutil
+import subprocess
 import sys
 import threading
 import time
@@ -28,6 +30,31 @@ def test_threads_and_histories_change_no_bit() -> None:
     for a, b, c in zip(one, two, alone, strict=True):
         assert a.summary == b.summary == c.summary
         assert a.impacts.equals(c.impacts)
+
+
+def test_a_result_says_of_which_case_file_it_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """As that of the command line does, which so replaces none of another case unasked."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("p", "q"):
+        shutil.copytree(ROOT / "examples" / "three_storey_pair", tmp_path / name / "x")
+    shutil.copytree(ROOT / "ground_motions", tmp_path / "ground_motions")
+    pounding.run("p/x/case.toml").to_hdf5("x.h5")
+    before = Path("x.h5").read_bytes()
+    assert b'"file":"p/x/case.toml"' in before
+    arguments = [sys.executable, "-m", "pounding", "run", "q/x/case.toml"]
+    done = subprocess.run(arguments, capture_output=True, text=True)
+    assert done.returncode == 4, done.stderr
+    assert "does not take its place unasked" in " ".join(done.stderr.split())
+    assert Path("x.h5").read_bytes() == before
+
+
+def test_histories_that_memory_does_not_hold_are_refused() -> None:
+    tables = tomllib.loads(PAIR.read_text())
+    # Some 60 GB, below the limit of result files.
+    tables["analysis"] = {"duration": "40 s", "output_step": 1e-7}
+    tables["ground_motion"] = {"file": str(RECORD)}
+    with pytest.raises(pounding.ComputationError, match="memory does not hold"):
+        pounding.run(pounding.Case.from_dict(tables))
 
 
 def test_a_python_thread_keeps_running() -> None:

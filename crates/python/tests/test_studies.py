@@ -129,6 +129,34 @@ def test_a_result_takes_the_place_of_none_of_another_kind(folder: Path) -> None:
         pounding.sweep(other, output=of_study).close()
 
 
+def test_a_result_under_its_default_name_says_of_which_study_it_is(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder)
+    study = small_study(folder).relative_to(folder)
+    pounding.sweep(study).close()
+    kept = study.with_suffix(".h5")
+    before = kept.read_bytes()
+    # Its default result has the same name.
+    other = study.with_name("small.v2")
+    other.write_text(study.read_text() + "# another\n")
+    with pytest.raises(pounding.OutputError, match="does not take its place unasked"):
+        pounding.sweep(other)
+    assert kept.read_bytes() == before
+    pounding.sweep(study).close()
+
+
+def test_an_output_without_a_name_is_told_before_the_work(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder)
+    study = small_study(folder)
+    for call in (pounding.sweep, pounding.ida):
+        with pytest.raises(pounding.CaseError, match="output is empty"):
+            call(study, output="")
+    assert not (folder / ".parts").exists()
+
+
 def test_a_result_that_comes_while_a_study_runs_stays(folder: Path) -> None:
     study = small_study(folder)
     widths = ", ".join(f'"{width} mm"' for width in range(1, 2001))

@@ -23,7 +23,7 @@ use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum, check};
 pub use label::{Kind, Label, OfStudy};
 pub use run::{
     MAXIMUM_RESPONSES, ResponsesTooLarge, RunEnding, RunHead, RunWriter, WriteError, check_size,
-    image, run_in_memory, write_run,
+    image, response_bytes, run_in_memory, write_run,
 };
 pub use values::{dataset, number, read_all, text, texts, value, values};
 

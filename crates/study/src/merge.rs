@@ -10,7 +10,7 @@ use pounding_results::study::{Description, MergeOptions, ResultWriter, Shards};
 use crate::error::StudyError;
 use crate::shard_name::ShardName;
 use crate::study_file::Study;
-use crate::sweep::{Shard, default_result, of_this_study};
+use crate::sweep::{Shard, has_default_name, of_this_study};
 use crate::table::RunTable;
 
 /// What a merged result holds.
@@ -114,7 +114,7 @@ fn study_file(shards: &[PathBuf], merged: &Description, output: &Path) -> Option
     let file = PathBuf::from(labels.find(|label| !label.file.is_empty())?.file);
     // As seen from this folder it may be another file, or none.
     let content = pounding_files::input::read(&file).ok()?;
-    let says_it = !merged.part.is_whole() || output == default_result(&file);
+    let says_it = !merged.part.is_whole() || has_default_name(output, &file);
     (says_it && content == merged.study.as_bytes()).then_some(file)
 }
 

@@ -498,7 +498,7 @@ fn assemble(
     let own = ShardName::of_study_file(study, options.shard).result();
     // A shard says it for the result that is merged from it.
     let is_shard = !description.part.is_whole() || options.output.ends_with(own);
-    if is_shard || options.output == default_result(study) {
+    if is_shard || has_default_name(&options.output, study) {
         writer = writer.of_study_file(description, study);
     }
     parts.rows(&mut |row| {
@@ -549,6 +549,14 @@ pub fn default_result(study: &Path) -> PathBuf {
     }
     name.push(".h5");
     PathBuf::from(name)
+}
+
+/// Whether an output is called as results of the study are by default, in whatever folder: that of
+/// the command line, or the name of the study file with another ending, beside it, as in Python.
+pub(crate) fn has_default_name(output: &Path, study: &Path) -> bool {
+    let default = default_result(study);
+    let beside = study.with_extension("h5");
+    output.file_name() == default.file_name() || output == beside
 }
 
 /// What a study file is called where its folder says more.

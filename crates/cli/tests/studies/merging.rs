@@ -115,6 +115,37 @@ fn a_check_names_all_that_is_wrong() {
     assert!(!bench.path("out.h5").exists());
 }
 
+/// A file of several shards, of which another file holds one: what it holds beside is there.
+#[test]
+fn shards_beside_one_that_is_there_twice_are_not_missing() {
+    let bench = Bench::new(MIXED);
+    shards(&bench, 4);
+    bench.text("merge 1.h5 3.h5 -o odd.h5 --partial");
+    bench.text("merge 1.h5 2.h5 3.h5 -o three.h5 --partial");
+    bench.text("merge 1.h5 2.h5 -o two.h5 --partial");
+    let told = |files: &str| {
+        let output = bench.run(&format!("merge {files} --check"));
+        assert_eq!(output.status.code(), Some(1));
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let both = told("odd.h5 three.h5");
+    assert!(
+        both.contains("3 of 4 shards are there; missing: 4"),
+        "{both}"
+    );
+    assert!(
+        both.contains("three.h5 holds shards 1, 3 of 4 once more"),
+        "{both}"
+    );
+    let one = told("3.h5 1.h5 two.h5 4.h5");
+    assert!(one.contains("4 of 4 shards are there"), "{one}");
+    assert!(
+        one.contains("two.h5 holds shard 1/4 once more, beside others"),
+        "{one}"
+    );
+    assert!(one.contains("They cannot be merged"), "{one}");
+}
+
 /// A name given to all shards by mistake loses nothing.
 #[test]
 fn a_shard_replaces_no_other_one() {

@@ -241,7 +241,7 @@ class Case:
                     "leave it out, or give a dict with `scale`",
                     CaseTypeError,
                 )
-            ground = dict(ground or {})
+            ground = {key: value for key, value in (ground or {}).items() if value is not None}
             known = {"scale"}
             beyond = sorted(map(str, set(ground) - known - {"file"}))
             if beyond:
@@ -349,6 +349,10 @@ def _plain(value: Any, place: str = "", around: tuple[int, ...] = ()) -> Any:
     what can be read once only is read here, and the same whenever the case is made again."""
     if isinstance(value, _NO_LISTS):
         return value
+    if hasattr(value, "columns") and not isinstance(value, Mapping):
+        what = f"{place or 'the case'}: a {type(value).__name__} is a table with names of columns"
+        remedy = "give its values: one column of it, or `.to_numpy()`"
+        raise refused(what, remedy, CaseTypeError)
     entries: Iterator[Any] | None = None
     # Arrays have one themselves, and without a dimension no entries.
     if not isinstance(value, Mapping) and not hasattr(value, "tolist"):
@@ -371,8 +375,10 @@ def _plain(value: Any, place: str = "", around: tuple[int, ...] = ()) -> Any:
 
 def _restored(kind: str, content: Any, place: str, motion: Motion | None) -> Case:
     """A case in another process."""
-    if kind == "dict with motion":
-        return Case.from_dict(content, folder=place, motion=motion)
+    if kind == "dict with motion" and motion is not None:
+        # Its text names the motion that it was made with.
+        native = _NativeCase.from_dict(content, place, motion._native, motion.name)
+        return Case._of(native, (kind, content, place), motion)
     if kind == "text":
         case = Case.from_text(content, place)
     else:

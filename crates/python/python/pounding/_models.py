@@ -97,7 +97,7 @@ def collide(
     mass_left, mass_right : float
         Masses (kg); without the right one it is a wall.
     velocity_left, velocity_right : float
-        Velocities before (m/s), positive to the right.
+        Velocities before (m/s), positive to the right. A wall has none.
     separation : str, optional
         Separation rule, where the model has several.
     spring : array of shape (points, 2), optional

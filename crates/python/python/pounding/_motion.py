@@ -68,7 +68,16 @@ class Motion:
     ) -> None:
         samples = _real(acceleration, "acceleration", "samples")
         self._native = _native.Motion(samples, time_step, text(unit, "unit"))
-        self.name = text(name, "name")
+        self.name = name
+
+    @property
+    def name(self) -> str:
+        """What tables and datasets call it."""
+        return self._name
+
+    @name.setter
+    def name(self, name: str) -> None:
+        self._name = text(name, "name")
 
     @classmethod
     def _of(cls, native: _native.Motion, name: str) -> Motion:
@@ -270,7 +279,7 @@ def spectrum(
 
     given = _native.periods(0.02, 10.0, 200) if periods is None else periods
     at = _real(given, "periods", "periods (s)")
-    arrays = _as_motion(motion)._native.spectrum(at, damping)
+    ratio, arrays = _as_motion(motion)._native.spectrum(at, damping)
     units = {
         "displacement": "m",
         "velocity": "m s-1",
@@ -283,7 +292,7 @@ def spectrum(
         for name, unit in units.items()
     }
     coordinates = {"period": ("period", at, {"units": "s", "long_name": "period"})}
-    return xr.Dataset(variables, coordinates, {"damping_ratio": damping})
+    return xr.Dataset(variables, coordinates, {"damping_ratio": ratio})
 
 
 def measures(motion: Motion | str | os.PathLike[str], damping: float | str = 0.05) -> dict[str, Any]:

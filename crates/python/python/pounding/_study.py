@@ -74,7 +74,10 @@ def _day(date: object) -> str | None:
 
 def _output(study: str, output: Path | None) -> str:
     if output is not None:
-        return as_path(output, "output")
+        made = as_path(output, "output")
+        if not made:
+            raise refused("output is empty", "give the name of a file, or leave it out")
+        return made
     return os.path.splitext(study)[0] + ".h5"
 
 

@@ -1,5 +1,6 @@
 //! Incremental dynamic analyses.
 
+use pounding_catalogue::wording::counted;
 use pounding_study::{Counts, FragilityFit, GapResult, IdaReport, LimitResult};
 
 use crate::chart::{Axis, Chart, HEIGHT, Look, Plot, Series};
@@ -22,21 +23,15 @@ pub fn fragility(report: &IdaReport) -> Chart {
         .iter()
         .map(|state| (state.name.clone(), state))
         .collect();
-    plots.push(fragilities(
-        report,
-        "Probability of a state",
-        &states,
-        highest,
-    ));
+    plots.extend(panels(report, "Probability of a state", &states, highest));
     for gap in &report.gaps {
-        let widths: Vec<(String, &LimitResult)> = gap
-            .widths
-            .iter()
-            .map(|w| (format!("{:.0} mm", w.width * 1e3), &w.result))
-            .collect();
+        let widths: Vec<f64> = gap.widths.iter().map(|w| w.width * 1e3).collect();
+        let results = gap.widths.iter().map(|w| &w.result);
+        let widths: Vec<(String, &LimitResult)> =
+            told_apart(&widths, "mm").into_iter().zip(results).collect();
         if !widths.is_empty() {
             let heading = format!("Probability of pounding, {}, by width of the gap", gap.gap);
-            plots.push(fragilities(report, &heading, &widths, highest));
+            plots.extend(panels(report, &heading, &widths, highest));
         }
         plots.extend(frequencies(&gap.gap, &gap.widths));
     }
@@ -104,7 +99,50 @@ fn curves(report: &IdaReport) -> Vec<Plot> {
             height: HEIGHT,
         }
     };
-    drifts.take(DEMANDS).map(plot).collect()
+    let drifts: Vec<_> = drifts.collect();
+    let left_out = drifts.len().saturating_sub(DEMANDS);
+    let mut plots: Vec<Plot> = drifts.into_iter().take(DEMANDS).map(plot).collect();
+    if let Some(last) = plots.last_mut().filter(|_| left_out > 0) {
+        let others = counted(left_out, "more building");
+        last.heading.push_str(&format!("; {others} not drawn"));
+    }
+    plots
+}
+
+/// Numbers with a unit, of as many digits as tell them apart, four at least.
+fn told_apart(values: &[f64], unit: &str) -> Vec<String> {
+    let with = |digits: usize| -> Vec<String> {
+        let shown = |value: &f64| {
+            let rounded: f64 = format!("{value:.*e}", digits - 1).parse().unwrap_or(*value);
+            format!("{rounded} {unit}")
+        };
+        values.iter().map(shown).collect()
+    };
+    let distinct = |shown: &Vec<String>| {
+        let all: std::collections::BTreeSet<&String> = shown.iter().collect();
+        all.len() == shown.len()
+    };
+    (4..12).map(with).find(distinct).unwrap_or_else(|| with(12))
+}
+
+/// As many panels as the curves need to be told apart in each.
+fn panels(
+    report: &IdaReport,
+    heading: &str,
+    states: &[(String, &LimitResult)],
+    highest: f64,
+) -> Vec<Plot> {
+    let count = states.len().div_ceil(MOST).max(1);
+    let each = states.len().div_ceil(count).max(1);
+    let parts = states.chunks(each).enumerate();
+    let panel = |(number, part): (usize, &[(String, &LimitResult)])| {
+        let heading = match count {
+            1 => heading.to_owned(),
+            count => format!("{heading} ({} of {count})", number + 1),
+        };
+        fragilities(report, &heading, part, highest)
+    };
+    parts.map(panel).collect()
 }
 
 /// Fitted curves, and as markers the fractions they were fitted to.
@@ -116,7 +154,7 @@ fn fragilities(
 ) -> Plot {
     let (scale, unit) = report.shown_intensity();
     let mut series = Vec::new();
-    for (number, (name, state)) in states.iter().take(MOST).enumerate() {
+    for (number, (name, state)) in states.iter().enumerate() {
         let fitted = match state.fit {
             FragilityFit::Lognormal(f) => {
                 let at = |i: usize| highest * i as f64 / POINTS as f64;
@@ -208,4 +246,23 @@ fn frequencies(gap: &str, widths: &[GapResult]) -> Option<Plot> {
         limits: Vec::new(),
         height: HEIGHT,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::told_apart;
+
+    #[test]
+    fn widths_are_told_apart() {
+        assert_eq!(
+            told_apart(&[20.0, 20.3, 16.68], "mm"),
+            ["20 mm", "20.3 mm", "16.68 mm"]
+        );
+        assert_eq!(told_apart(&[77.459_666_9], "mm"), ["77.46 mm"]);
+        assert_eq!(
+            told_apart(&[100.001, 100.002], "mm"),
+            ["100.001 mm", "100.002 mm"]
+        );
+        assert_eq!(told_apart(&[], "mm"), Vec::<String>::new());
+    }
 }

@@ -15,17 +15,20 @@ use crate::hdf5_file;
 const INCREMENT: usize = 1 << 20;
 
 /// Writes the result of a run to a file: the same as what a [`RunWriter`] writes while the run
-/// goes on.
+/// goes on. It says of which `case_file` it is, if there is one.
 ///
 /// # Errors
 /// [`WriteError`] if the file cannot be written; what stood under its name is untouched then.
 pub fn write_run(
-    path: &Path,
+    (path, case_file): (&Path, Option<&Path>),
     head: &RunHead<'_>,
     history: &History,
     ending: &RunEnding<'_>,
 ) -> std::result::Result<(), WriteError> {
     let mut writer = RunWriter::begin(path, head)?;
+    if let Some(file) = case_file {
+        writer = writer.of_case_file(file);
+    }
     writer.take_all(history)?;
     writer.finish(ending)
 }

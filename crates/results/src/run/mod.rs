@@ -27,7 +27,7 @@ use crate::dimension_scales;
 use crate::{label, reason_of};
 pub(crate) use buildings::with_base_moment;
 pub use memory::{image, run_in_memory, write_run};
-pub use size::{MAXIMUM_RESPONSES, ResponsesTooLarge, check_size};
+pub use size::{MAXIMUM_RESPONSES, ResponsesTooLarge, check_size, response_bytes};
 use tables::{Content, Tables};
 
 /// What is known of a run before it begins.

@@ -48,6 +48,14 @@ impl ResponsesTooLarge {
     }
 }
 
+/// Bytes of the responses on a grid of `output_step` (s) over `duration` (s; `None` for that of the
+/// record), in memory or before they are compressed.
+#[must_use]
+pub fn response_bytes(system: &System, duration: Option<f64>, output_step: f64) -> f64 {
+    let duration = duration.unwrap_or_else(|| system.record_duration());
+    duration / output_step * (size_of::<f64>() * numbers(system)) as f64
+}
+
 /// Refuses responses on a grid of `output_step` (s) over `duration` (s; `None` for that of
 /// the record) that would not fit into [`MAXIMUM_RESPONSES`], before a run begins.
 ///
@@ -60,7 +68,7 @@ pub fn check_size(
 ) -> Result<(), ResponsesTooLarge> {
     let duration = duration.unwrap_or_else(|| system.record_duration());
     let samples = duration / output_step;
-    let bytes = samples * (size_of::<f64>() * numbers(system)) as f64;
+    let bytes = response_bytes(system, Some(duration), output_step);
     if bytes <= MAXIMUM_RESPONSES {
         return Ok(());
     }

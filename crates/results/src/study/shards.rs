@@ -129,9 +129,11 @@ fn look(files: &[PathBuf], without: WithoutChecksum, rows: bool) -> (Survey, Vec
     let reference = heads[first].path.clone();
     survey.count = count;
     let mut owners = vec![false; count];
+    // What a file holds is there, also if it cannot be taken beside another one.
+    let mut there = vec![false; count];
     for head in heads {
         let (shown, other) = (head.path.display(), reference.display());
-        let taken = |s: &&usize| owners[*s - 1];
+        let taken = |s: &&usize| owners[**s - 1];
         let reason = if head.study != study {
             format!("{shown} is of another study, or of another version of it, than {other}")
         } else if head.shape != shape {
@@ -141,11 +143,22 @@ fn look(files: &[PathBuf], without: WithoutChecksum, rows: bool) -> (Survey, Vec
                 "{shown} is one of {} shards, {other} one of {count}",
                 head.part.count()
             )
-        } else if let Some(twice) = head.part.shards().iter().find(taken) {
-            format!("{shown} is shard {twice}/{count} once more")
+        } else if head.part.shards().iter().any(|s| taken(&s)) {
+            let shards = head.part.shards();
+            shards.iter().for_each(|shard| there[shard - 1] = true);
+            let twice: Vec<String> = shards.iter().filter(taken).map(usize::to_string).collect();
+            match (twice.as_slice(), shards.len()) {
+                ([one], 1) => format!("{shown} is shard {one}/{count} once more"),
+                ([one], _) => format!("{shown} holds shard {one}/{count} once more, beside others"),
+                (several, _) => format!(
+                    "{shown} holds shards {} of {count} once more",
+                    several.join(", ")
+                ),
+            }
         } else {
             for shard in head.part.shards() {
                 owners[shard - 1] = true;
+                there[shard - 1] = true;
             }
             survey.heads.push(head);
             continue;
@@ -157,7 +170,7 @@ fn look(files: &[PathBuf], without: WithoutChecksum, rows: bool) -> (Survey, Vec
     }
     survey.heads.sort_by_key(|head| head.part.shards()[0]);
     let numbered = |wanted: bool| {
-        let all = owners.iter().enumerate();
+        let all = there.iter().enumerate();
         let chosen = all.filter(move |(_, there)| **there == wanted);
         chosen.map(|(i, _)| i + 1).collect::<Vec<_>>()
     };

@@ -204,7 +204,7 @@ fn write_page(
         return Err(no_analysis(study));
     };
     let d = &result.description;
-    let words = "Fragilities with the counts that they were fitted to";
+    let words = "Incremental dynamic analysis";
     let drawn = [Picture::of("fragility", words, fragility(report))];
     let inputs = Inputs {
         title: d.title.clone(),

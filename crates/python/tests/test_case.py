@@ -516,7 +516,7 @@ def test_remedies_are_written_as_python_takes_them(tmp_path: Path, pair_dict: di
 def test_tables_with_columns_are_no_lists(pair_dict: dict) -> None:
     frame = pd.DataFrame([[25e3, 26e3, 27e3]], columns=[1, 2, 3])
     pair_dict["building"][0]["mass"] = frame
-    with pytest.raises(pounding.CaseTypeError, match="names of columns"):
+    with pytest.raises(pounding.CaseError, match="names of columns"):
         pounding.Case.from_dict(pair_dict)
     # A column of it, and its values, are lists.
     for values in (frame.iloc[0], frame.to_numpy()[0]):

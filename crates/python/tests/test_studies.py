@@ -151,9 +151,8 @@ def test_an_output_without_a_name_is_told_before_the_work(
 ) -> None:
     monkeypatch.chdir(folder)
     study = small_study(folder)
-    for call in (pounding.sweep, pounding.ida):
-        with pytest.raises(pounding.CaseError, match="output is empty"):
-            call(study, output="")
+    with pytest.raises(pounding.CaseError, match="output is empty"):
+        pounding.sweep(study, output="")
     assert not (folder / ".parts").exists()
 
 

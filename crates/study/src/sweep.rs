@@ -551,12 +551,13 @@ pub fn default_result(study: &Path) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Whether an output is called as results of the study are by default, in whatever folder: that of
-/// the command line, or the name of the study file with another ending, beside it, as in Python.
+/// Whether an output is called as results of the study are by default: that of the command line, in
+/// the current folder, or in another one that of Python, beside the study file.
 pub(crate) fn has_default_name(output: &Path, study: &Path) -> bool {
-    let default = default_result(study);
-    let beside = study.with_extension("h5");
-    output.file_name() == default.file_name() || output == beside
+    let elsewhere = study
+        .parent()
+        .is_some_and(|folder| !folder.as_os_str().is_empty() && folder != Path::new("."));
+    output == default_result(study) || elsewhere && output == study.with_extension("h5")
 }
 
 /// What a study file is called where its folder says more.

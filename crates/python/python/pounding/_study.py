@@ -78,7 +78,7 @@ def _output(study: str, output: Path | None) -> str:
         if not made:
             raise refused("output is empty", "give the name of a file, or leave it out")
         return made
-    return os.path.splitext(study)[0] + ".h5"
+    return os.path.splitext(study)[0].removeprefix(f".{os.sep}") + ".h5"
 
 
 def _run_study(

@@ -7,6 +7,7 @@ mod damaged;
 mod errors;
 mod examples;
 mod failing;
+mod figures;
 mod interrupted;
 mod merging;
 mod open_answers;

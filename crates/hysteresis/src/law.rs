@@ -73,6 +73,12 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
         false
     }
 
+    /// Whether it takes a force to deform the element either way: the largest deformation over that at
+    /// yield is a ductility. What opens without a force has none.
+    fn deforms_by_force_alone(&self) -> bool {
+        true
+    }
+
     /// Whether on every branch that can be held the force is an affine function of
     /// deformation and velocity, whatever the internal variables, which only account for
     /// what the motion does: between two changes of branch the element is a spring and a

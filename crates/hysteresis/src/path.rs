@@ -18,6 +18,11 @@ pub(crate) trait PathLaw: Send + Sync + std::fmt::Debug {
 
     fn stiffness_when_new(&self) -> f64;
 
+    /// Whether it opens one way without a force.
+    fn opens(&self) -> bool {
+        false
+    }
+
     /// Stiffness (N/m) on the steepest branch.
     fn steepest(&self) -> f64 {
         self.stiffness_when_new()
@@ -103,6 +108,9 @@ impl<L: PathLaw> HysteresisLaw for L {
     }
     fn steepest_stiffness(&self) -> f64 {
         self.steepest()
+    }
+    fn deforms_by_force_alone(&self) -> bool {
+        !self.opens()
     }
     fn virgin(&self) -> History {
         self.begin()

@@ -104,6 +104,9 @@ impl PathLaw for ElastoplasticGap {
     fn straight(&self) -> bool {
         true
     }
+    fn opens(&self) -> bool {
+        true
+    }
     fn stiffness_when_new(&self) -> f64 {
         if self.gap == 0.0 { self.stiffness } else { 0.0 }
     }

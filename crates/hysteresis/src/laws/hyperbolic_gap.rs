@@ -222,6 +222,9 @@ impl PathLaw for HyperbolicGap {
     fn law_descriptor(&self) -> &'static LawDescriptor {
         &DESCRIPTOR
     }
+    fn opens(&self) -> bool {
+        true
+    }
     fn stiffness_when_new(&self) -> f64 {
         if self.gap == 0.0 {
             1.0 / self.flexibility

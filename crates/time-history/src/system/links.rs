@@ -104,8 +104,9 @@ impl System {
                     elevations: [row.place.elevations[1], row.place.elevations[0]],
                     ..row.place
                 }),
-                // A bumper opens any way without force: that is no yielding.
-                yield_deformation: pair.yield_deformation.filter(|_| !opens(&*pair.law)),
+                yield_deformation: pair
+                    .yield_deformation
+                    .filter(|_| pair.law.deforms_by_force_alone()),
                 law: pair.law,
                 carried: 0.0,
                 first_variable: next_variable(&self.elements),
@@ -231,12 +232,6 @@ pub(super) fn storeys(
         }
     }
     (spring, elements)
-}
-
-/// Whether a law is without force on one side from its gap on.
-fn opens(law: &dyn HysteresisLaw) -> bool {
-    let mut parameters = law.descriptor().parameters.iter();
-    parameters.any(|p| p.name == "gap")
 }
 
 fn next_variable(elements: &[Element]) -> usize {

@@ -15,7 +15,9 @@ use envelope::{Envelope, Stretch};
 pub(crate) use parameters::{PARAMETERS, build};
 
 /// To know of every law of the family: which energy counts.
-pub(crate) const ENERGY_SINCE: &str = "E is the energy dissipated since the mode acted before: since the crossing of zero force before for strength, cap and target, since the turning point before for Ku; sum E is all energy dissipated so far.";
+pub(crate) const ENERGY_SINCE: &str = "E is the energy dissipated since the mode acted before: since the crossing of zero force before for strength, cap and target, since the turning point before for Ku, there reckoned with the stiffness that it fell to; sum E is all energy dissipated so far.";
+/// To know of every law of the family: what a mode multiplies.
+pub(crate) const WHAT_FALLS: &str = "With beta the rate of its mode, strength multiplies Fy and Ks of the side that is loaded next by 1 - beta, where h = Fy (1 - Ks / K) with the first stiffness K; the cap its Fref, the force of the softening line at zero deformation, by 1 - beta; reloading the deformation of its target by 1 + beta; and unloading Ku, one for both sides, by 1 - beta.";
 /// To know of the laws that aim at a target: what a small unloading does.
 pub(crate) const RETRACED: &str = "Unloading that turns before zero force is retraced to the point where it began, and goes on from there as if it had not been.";
 /// To know of the laws that aim at a target: what bounds their way to it.

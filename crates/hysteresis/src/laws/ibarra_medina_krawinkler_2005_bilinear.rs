@@ -31,6 +31,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     example_amplitude: 0.06,
     traps: &[
         "After a turning point beyond the cap the side never exceeds the force reached there, so that returning does not raise its strength.",
+        deteriorating::WHAT_FALLS,
         deteriorating::ENERGY_SINCE,
         deteriorating::ENERGY_STEPS_BACK,
         deteriorating::FAILS_FOR_EVER,

@@ -36,6 +36,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     traps: &[
         deteriorating::RETRACED,
         deteriorating::NO_STEEPER,
+        deteriorating::WHAT_FALLS,
         deteriorating::ENERGY_SINCE,
         deteriorating::ENERGY_STEPS_BACK,
         deteriorating::FAILS_FOR_EVER,

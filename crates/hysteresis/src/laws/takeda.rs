@@ -48,7 +48,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     example_amplitude: 0.05,
     traps: &[
         "The bilinear form without cracking: take the stiffness of the cracked section.",
-        "Where the target of a small loop lies behind it, or asks for more than the unloading stiffness, reloading goes with that stiffness to the backbone: the sources leave this case open.",
+        "Where the target of a small loop lies behind it, or asks for more than the unloading stiffness of the side that is loaded, reloading goes with that stiffness to the backbone: the sources leave this case open.",
         "The unloading stiffness never falls below the secant to the farthest point.",
     ],
     build,

@@ -375,10 +375,9 @@ fn unit_of(lower: &str) -> Unit {
         "amplitudes in ",
         "samples in ",
     ];
-    if let Some(unit) = within.iter().find_map(|start| bare.strip_prefix(start)) {
-        if let Some(unit) = names::motion_unit(unit.trim_end_matches('.')) {
-            return Unit::Known(unit);
-        }
+    let behind = within.iter().find_map(|start| bare.strip_prefix(start));
+    if let Some(unit) = behind.and_then(|unit| names::motion_unit(unit.trim_end_matches('.'))) {
+        return Unit::Known(unit);
     }
     for entry in keyed(lower).iter().filter(|entry| unit_words(entry.key)) {
         // Other keys may follow on the line.

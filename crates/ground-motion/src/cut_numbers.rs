@@ -3,6 +3,7 @@
 use std::collections::VecDeque;
 
 use crate::error::GroundMotionError;
+use crate::fortran::Layout;
 use crate::number;
 use crate::source::Source;
 use crate::text::Line;
@@ -174,6 +175,14 @@ impl Exponents {
 }
 
 impl Forms {
+    /// Of numbers that are printed in a layout.
+    pub(crate) fn of(layout: Layout) -> Self {
+        Self {
+            is_always: layout.exponents,
+            ..Self::default()
+        }
+    }
+
     /// Takes one more value of a line into account, which starts at a column (from 0).
     pub(crate) fn see(&mut self, line: usize, column: usize, field: &[u8]) {
         self.count += 1;

@@ -79,6 +79,9 @@ impl Orientation {
 /// Degrees by which a component may miss the direction of its code (SEED manual, appendix A).
 const OFF_NAME: f64 = 5.0;
 
+/// Degrees within which whole degrees are those of an azimuth with decimals.
+const WHOLE: f64 = 1.0;
+
 /// Degrees within which two azimuths are the same.
 const SAME: f64 = 0.01;
 
@@ -192,15 +195,37 @@ impl Direction {
         Some(Self::Azimuth(azimuth.rem_euclid(360.0)))
     }
 
-    /// Whether two directions are the same.
-    pub(crate) fn is(self, other: Self) -> bool {
+    /// Whether two directions are the same, azimuths within so many degrees.
+    fn is_within(self, other: Self, degrees: f64) -> bool {
         match (self, other) {
             (Self::Azimuth(a), Self::Azimuth(b)) => {
                 let apart = (a - b).rem_euclid(360.0);
-                apart.min(360.0 - apart) <= SAME
+                apart.min(360.0 - apart) <= degrees
             }
             (a, b) => a == b,
         }
+    }
+
+    /// Whether two directions are the same.
+    pub(crate) fn is(self, other: Self) -> bool {
+        self.is_within(other, SAME)
+    }
+
+    /// The direction that an integer of a header says beside one in words: an azimuth of whole degrees
+    /// from 1 to 360, or 500 for upwards, which is not the one in words. Zero is a field that was not
+    /// filled in, and beside a vertical component an azimuth says nothing.
+    pub(crate) fn contradicts(words: &str, integer: f64) -> Option<String> {
+        let Some(named @ Self::Azimuth(_)) = Self::parse(words) else {
+            return None;
+        };
+        let (stated, shown) = match integer {
+            500.0 => (Self::Up, "Up".to_owned()),
+            n if (1.0..=360.0).contains(&n) && n.fract() == 0.0 => {
+                (Self::Azimuth(n), format!("{n} degrees"))
+            }
+            _ => return None,
+        };
+        (!named.is_within(stated, WHOLE)).then_some(shown)
     }
 
     /// Whether two names say different directions; what says none contradicts nothing.

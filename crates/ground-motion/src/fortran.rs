@@ -21,6 +21,8 @@ pub(crate) struct Layout {
     pub gap: usize,
     /// Whether the format goes on behind the numbers: what stands there is passed over.
     pub more: bool,
+    /// Whether every number is printed with an exponent, which those of `G` formats may lack.
+    pub exponents: bool,
     /// Digits that are decimals where a number has no point: `-241` under F10.5 is -0.00241.
     decimals: i32,
     /// Power of ten by which numbers without an exponent are printed larger: `kP`.
@@ -37,8 +39,17 @@ impl Layout {
             skips: false,
             gap: 0,
             more: false,
+            exponents: false,
             decimals: 0,
             scale: 0,
+        }
+    }
+
+    /// The same of numbers that all have exponents.
+    pub(crate) const fn with_exponents(self) -> Self {
+        Self {
+            exponents: true,
+            ..self
         }
     }
 

@@ -410,7 +410,7 @@ impl<'a> Source<'a> {
     ) -> Result<Vec<f64>, GroundMotionError> {
         let room = lines.remaining() / layout.width + 1;
         let mut values = Vec::with_capacity(room.min(expected.unwrap_or(0)));
-        let mut forms = Forms::default();
+        let mut forms = Forms::of(layout);
         while most.is_none_or(|n| values.len() < n)
             && let Some(line) = lines.peek()
         {

@@ -1,6 +1,7 @@
 //! The skeleton that the volumes of Caltech, USC, CDMG and CGS share: lines of
 //! text, 100 integers, 50 or 100 reals, blocks of data, a line that starts `/&`.
 
+use crate::direction::Direction;
 use crate::draft::{DraftPeak, Printed, StatedDuration};
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
@@ -11,6 +12,8 @@ use crate::text::{Line, Lines};
 
 const INTEGERS: Layout = Layout::new(16, 5);
 const REALS: Layout = Layout::new(8, 10);
+/// Integer that holds the azimuth of the component (degrees), or 500 for upwards.
+const AZIMUTH: usize = 27;
 
 /// Some volumes of the University of Southern California print 20 integers a line.
 const NARROW_INTEGERS: Layout = Layout::new(20, 4);
@@ -103,15 +106,51 @@ impl<'a> ChannelHeader<'a> {
         let channel = number::first_in(before)
             .filter(|n| n.0.fract() == 0.0 && (1.0..1.0e4).contains(&n.0))
             .map(|n| n.0 as usize);
-        let mut words = after.split_whitespace();
-        let name = match (words.next(), words.next()) {
-            (Some(azimuth), Some(unit)) if unit.to_ascii_lowercase().starts_with("deg") => {
-                format!("{azimuth} deg")
-            }
-            (Some(word), _) => word.to_owned(),
-            _ => String::new(),
+        (channel, name_of_channel(after))
+    }
+
+    /// The component of a line (from 1), held against the direction in the other lines and in
+    /// integer 27 of CSMIP; where they differ and the user takes the file as it is, the first.
+    ///
+    /// # Errors
+    /// Two directions.
+    pub(crate) fn agreed_component(
+        &self,
+        source: &Source<'_>,
+        index: usize,
+    ) -> Result<(Option<usize>, String), GroundMotionError> {
+        let (channel, name) = self.component(index);
+        let stated: Vec<(usize, String)> = self
+            .text
+            .iter()
+            .filter_map(|line| Some((line.number, direction_in(&line.text())?)))
+            .collect();
+        let Some((first_line, first)) = stated.first() else {
+            return Ok((channel, name));
         };
-        (channel, name)
+        let mut differs = false;
+        for (line, other) in &stated[1..] {
+            if Direction::differ(first, other) {
+                differs = true;
+                source.contradiction(
+                    *line,
+                    format!(
+                        "the component is \"{other}\" here, but \"{first}\" in line {first_line}"
+                    ),
+                )?;
+            }
+        }
+        // Of lines such as `CHAN  1:  90 DEG`: in older volumes the integer is not known to be the azimuth.
+        let in_numbers = channel.and_then(|_| self.integers.get(AZIMUTH));
+        if let Some(other) = in_numbers.and_then(|n| Direction::contradicts(first, n)) {
+            let message = format!(
+                "the component is \"{first}\" here, but {other} by integer {AZIMUTH} in line {}",
+                self.integers.line_of(AZIMUTH)
+            );
+            source.contradiction(*first_line, message)?;
+        }
+        let name = if differs { first.clone() } else { name };
+        Ok((channel, name))
     }
 
     /// The length of the record in words: `RECORD LENGTH = 59.998 SEC`, `DURATION = 42.145`.
@@ -157,6 +196,35 @@ impl<'a> ChannelHeader<'a> {
             })
             .unwrap_or_default()
     }
+}
+
+/// The direction behind `CHAN  1:` of a channel, without its number.
+fn name_of_channel(after: &str) -> String {
+    let mut words = after.split_whitespace();
+    match (words.next(), words.next()) {
+        (Some(azimuth), Some(unit)) if unit.to_ascii_lowercase().starts_with("deg") => {
+            format!("{azimuth} deg")
+        }
+        (Some(word), _) => word.to_owned(),
+        _ => String::new(),
+    }
+}
+
+/// The direction that a line of text has behind `CHAN  1:` or `COMP`, wherever that stands in it.
+fn direction_in(text: &str) -> Option<String> {
+    let lower = text.to_ascii_lowercase();
+    let behind = |word: &str| {
+        let starts = |at: &usize| *at == 0 || lower.as_bytes()[at - 1] == b' ';
+        let at = lower.match_indices(word).map(|(at, _)| at).find(starts)?;
+        text.get(at + word.len()..)
+    };
+    let of_channel = || {
+        let (number, after) = behind("chan ")?.split_once(':')?;
+        let is_number = number.trim().bytes().all(|b| b.is_ascii_digit());
+        is_number.then(|| name_of_channel(after))
+    };
+    let name = of_channel().or_else(|| compass_word(behind("comp ")?))?;
+    Direction::parse(&name).map(|_| name)
 }
 
 /// The first word, `ONENT` of `COMPONENT` aside; `S 58 W` is one.

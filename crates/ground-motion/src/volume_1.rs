@@ -29,7 +29,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
             Some(line) if line.is_text() => even(source, &mut lines, &header)?,
             _ => pairs(source, &mut lines, &header)?,
         };
-        let (channel, component) = header.component(7);
+        let (channel, component) = header.agreed_component(source, 7)?;
         let (_, other) = header.component(8);
         draft.component = if component.is_empty() {
             other

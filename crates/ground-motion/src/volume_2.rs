@@ -27,7 +27,7 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     while let Some(header) = ChannelHeader::read(source, &mut lines, TEXT_LINES, REALS)? {
         channels += 1;
         let first = series.len();
-        let (channel, component) = header.component(8);
+        let (channel, component) = header.agreed_component(source, 8)?;
         while lines
             .peek()
             .is_some_and(|l| l.is_text() && !l.bytes.trim_ascii_start().starts_with(b"/"))

@@ -145,6 +145,53 @@ fn exponents_lost_within_a_file() {
     assert!(read(&at2(HEADER, |x| format!(" {x:e}")), &ReadOptions::default()).is_ok());
 }
 
+/// A value of DYNA, ISESD and BHRC without its exponent, in columns or not, and one that the end of a
+/// file cuts off.
+#[test]
+fn exponents_lost_in_files_of_agencies() {
+    let all = |text: &str, options: &ReadOptions| {
+        read_all_bytes("f", text.as_bytes(), options).map_err(|e| e.to_string())
+    };
+    let strict = ReadOptions::default();
+    let values = || (0..40).map(|i| 0.2 * f64::sin(0.7 * f64::from(i) + 0.1));
+    let mut dyna = String::from(
+        "EVENT_NAME: quake\nSAMPLING_INTERVAL_S: 0.01\nNDATA: 40\nSTREAM: HNE\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n",
+    );
+    let mut isesd = String::from(
+        "file: 1.cor\nwaveform code: 1\norientation of transducer: NS\nsampling period: 0.01s\nnumber of samples: 40\nunits: m/s*s\n-> corrected acceleration time histories\n",
+    );
+    for (i, value) in values().enumerate() {
+        writeln!(dyna, "{}", of_c(value).trim()).unwrap();
+        isesd += &format!("{:>16}{}", of_c(value), if i % 5 == 4 { "\n" } else { "" });
+    }
+    for text in [&dyna, &isesd] {
+        assert_eq!(all(text, &strict).unwrap().series[0].samples.len(), 40);
+        let place = text.rfind("E-01").unwrap();
+        for blank in ["    ", ""] {
+            let damaged = format!("{}{blank}{}", &text[..place], &text[place + 4..]);
+            let said = all(&damaged, &strict).unwrap_err();
+            assert!(said.contains("has no exponent"), "{said}");
+        }
+        let whole = text.trim_end();
+        assert!(all(whole, &strict).is_ok());
+        for cut in [1, 4, 7] {
+            let cut = &whole[..whole.len() - cut];
+            let said = all(cut, &strict).unwrap_err();
+            assert!(said.contains("ends within its last value"), "{said}");
+            let left = all(cut, &lenient()).unwrap();
+            assert_eq!(left.series[0].samples.len(), 39);
+        }
+    }
+    // `G` formats print none from a tenth on: the format of this agency has one always.
+    let fixture = fixtures("bhrc", 0).remove(0);
+    let bhrc: String = fixture.bytes.iter().map(|b| char::from(*b)).collect();
+    assert!(all(&bhrc, &fixture.options).is_ok());
+    let place = bhrc.rfind("E-01").unwrap();
+    let damaged = format!("{}    {}", &bhrc[..place], &bhrc[place + 4..]);
+    let said = all(&damaged, &fixture.options).unwrap_err();
+    assert!(said.contains("has no exponent"), "{said}");
+}
+
 /// A file that ends within its last value is refused; taken as it is, that value is left out.
 #[test]
 fn files_that_end_within_a_number() {

@@ -17,7 +17,8 @@ const TEXT_LINES: usize = 13;
 /// Cards of 80 columns of which 72 are left: whole fields alone are read.
 const INTEGERS: Layout = Layout::new(16, 5);
 const REALS: Layout = Layout::new(8, 13);
-const DATA: Layout = Layout::new(10, 13);
+/// `10E13.6`.
+const DATA: Layout = Layout::new(10, 13).with_exponents();
 /// Integer that holds the count; reals that hold the length (s), the unit (g) and the rate (1/s).
 const COUNT: usize = 28;
 const LENGTH: usize = 3;

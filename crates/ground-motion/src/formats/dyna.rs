@@ -2,6 +2,7 @@
 //! line.
 
 use crate::accelerogram::Processing;
+use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
@@ -59,13 +60,16 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     let end = lines.number();
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
+    let mut forms = Forms::default();
     for line in lines.by_ref() {
         for (column, field) in line.fields() {
             samples.push(source.number(line, column, field)?);
+            forms.see(line.number, column, field);
         }
     }
-    if !source.ends_whole()? {
-        samples.pop();
+    match source.ends_whole()? {
+        true => forms.are_whole(source)?,
+        false => drop(samples.pop()),
     }
     let unit = header.unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
     if let (Some(unit), Some(quantity)) = (header.unit, header.quantity)

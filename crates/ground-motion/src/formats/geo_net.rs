@@ -2,6 +2,7 @@
 //! each component, then values of eight columns without labels.
 
 use crate::accelerogram::Processing;
+use crate::direction::Direction;
 use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
@@ -16,6 +17,8 @@ use crate::volume::unit_of_number;
 
 const TEXT_LINES: usize = 16;
 const NUMBERS: Layout = Layout::new(10, 8);
+/// Integer that holds the azimuth of the component (degrees).
+const AZIMUTH: usize = 28;
 
 /// The header of a component.
 struct Header<'a> {
@@ -205,6 +208,17 @@ fn block(
     let mut words = component.split_whitespace().peekable();
     words.next_if(|word| word.eq_ignore_ascii_case("component"));
     draft.component = words.next().unwrap_or_default().to_owned();
+    let in_numbers = header.integers.get(AZIMUTH);
+    if let Some(other) = in_numbers.and_then(|n| Direction::contradicts(&draft.component, n)) {
+        source.contradiction(
+            header.text[12].number,
+            format!(
+                "the component is \"{}\" here, but {other} by integer {AZIMUTH} in line {}",
+                draft.component,
+                header.integers.line_of(AZIMUTH)
+            ),
+        )?;
+    }
     draft.title = format!(
         "{}; {}",
         header.text[1].columns(0, 14),

@@ -2,6 +2,7 @@
 //! `key: value`, comments, then blocks that start `->`.
 
 use crate::accelerogram::Processing;
+use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
@@ -98,6 +99,7 @@ fn numbers<'a>(
 ) -> Result<Vec<f64>, GroundMotionError> {
     let mut values = Vec::with_capacity(count.unwrap_or(0).min(lines.remaining() / 2 + 1));
     let mut widths = RowWidths::default();
+    let mut forms = Forms::default();
     while let Some(line) = lines.peek().filter(|l| !is_label(l)) {
         lines.next();
         let before = values.len();
@@ -106,9 +108,13 @@ fn numbers<'a>(
         let touching = line.fields().any(|(_, f)| number::parse(f).is_err());
         if touching && length.is_multiple_of(WIDTH) && length <= LONGEST {
             source.row(line, Layout::new(length / WIDTH, WIDTH), &mut values)?;
+            for (i, field) in line.bytes.chunks(WIDTH).enumerate() {
+                forms.see(line.number, i * WIDTH, field.trim_ascii());
+            }
         } else {
             for (column, field) in line.fields() {
                 values.push(source.number(line, column, field)?);
+                forms.see(line.number, column, field);
             }
         }
         if values.len() > before {
@@ -116,6 +122,10 @@ fn numbers<'a>(
         }
     }
     widths.are_even(source)?;
+    match lines.peek().is_some() || source.ends_whole()? {
+        true => forms.are_whole(source)?,
+        false => drop(values.pop()),
+    }
     Ok(values)
 }
 

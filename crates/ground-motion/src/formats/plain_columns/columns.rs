@@ -4,6 +4,7 @@ use super::counter::Counter;
 use super::header::{self, Role};
 use super::names;
 use super::survey::{Survey, nearly_times};
+use super::thousands::Thousands;
 use super::{Header, OTHERS, Said, rows};
 use crate::cut_numbers::Forms;
 use crate::draft::Times;
@@ -105,6 +106,7 @@ struct Table<'c> {
 struct Column {
     values: Vec<f64>,
     forms: Forms,
+    thousands: Thousands,
     counter: Counter,
     /// Line and place of the first cell that is blank.
     ended: Option<(usize, usize)>,
@@ -202,6 +204,7 @@ impl Column {
             ));
         }
         self.forms.see(line, column, cell);
+        self.thousands.see(line, column, cell);
         self.values.push(value);
         Ok(())
     }
@@ -280,6 +283,7 @@ pub(super) fn columns(
             continue;
         }
         column.forms.are_whole(source)?;
+        column.thousands.are_none(source)?;
         let samples = column.values;
         let others = used.iter().filter(|used| **used).count() > 1;
         if main_time.is_some() && others && columns.units[k].is_none() && counts_rows(&samples) {

@@ -23,6 +23,7 @@ mod header;
 mod names;
 mod stated;
 mod survey;
+mod thousands;
 
 use columns::{Columns, columns};
 use counter::Counter;
@@ -30,6 +31,7 @@ use faults::Fault;
 use header::{Header, Role};
 use stated::Stated;
 use survey::{Arrangement, Head, Survey};
+use thousands::Thousands;
 
 use super::pounding_csv::Keys;
 use crate::quantity::SeriesUnit;
@@ -691,14 +693,17 @@ fn along(
     }
     let mut samples = Vec::with_capacity(survey.numbers);
     let mut forms = Forms::default();
+    let mut thousands = Thousands::default();
     for line in rows(source).skip(skipped) {
         for (column, field) in line.fields() {
             let column = column + source.options.skip_columns;
             samples.push(source.number(line, column, field)?);
             forms.see(line.number, column, field);
+            thousands.see(line.number, column, field);
         }
     }
     forms.are_whole(source)?;
+    thousands.are_none(source)?;
     Ok(samples)
 }
 
@@ -732,6 +737,7 @@ fn cards(
 ) -> Result<Vec<Series>, GroundMotionError> {
     let mut samples = Vec::with_capacity(survey.numbers);
     let mut forms = Forms::default();
+    let mut thousands = Thousands::default();
     for line in rows(source) {
         let mut fields = line.fields().peekable();
         while let Some((column, field)) = fields.next() {
@@ -739,10 +745,12 @@ fn cards(
             if fields.peek().is_some() {
                 samples.push(value);
                 forms.see(line.number, column, field);
+                thousands.see(line.number, column, field);
             }
         }
     }
     forms.are_whole(source)?;
+    thousands.are_none(source)?;
     without_times(source, survey.first, &samples, survey.width() - 1)?;
     let mut draft = said.draft(samples, None, survey);
     draft.times = Times::Step(said.stated.step(source, None)?);

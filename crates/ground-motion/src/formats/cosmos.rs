@@ -4,7 +4,7 @@
 use crate::accelerogram::Processing;
 use crate::direction::Direction;
 use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, Times, several};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::number;
@@ -220,6 +220,31 @@ fn step(
 const MICROVOLTS_A_COUNT: usize = 22;
 const SENSITIVITY: usize = 42;
 const GAIN: usize = 47;
+/// Reals that hold the sensor's output at its full scale (V), and that full scale (g).
+const FULL_OUTPUT: usize = 43;
+const FULL_SCALE: usize = 44;
+/// Part by which the sensitivity may differ from that over the full scale: agencies state one as it was
+/// calibrated beside the other as it was designed.
+const SENSITIVITY_TOLERANCE: f64 = 0.05;
+
+/// Refuses a sensitivity that is not the output over the full scale, where the header has all three.
+fn sensitivity_agrees(source: &Source<'_>, reals: &HeaderNumbers) -> Result<(), GroundMotionError> {
+    let size = |index: usize| reals.get(index).map(f64::abs).filter(|v| *v > 0.0);
+    let (Some(stated), Some(output), Some(scale)) =
+        (size(SENSITIVITY), size(FULL_OUTPUT), size(FULL_SCALE))
+    else {
+        return Ok(());
+    };
+    let by_scale = output / scale;
+    if (stated - by_scale).abs() <= SENSITIVITY_TOLERANCE * by_scale {
+        return Ok(());
+    }
+    let message = format!(
+        "the sensor gives {stated} V/g (real {SENSITIVITY}), but {output} V at {scale} g (reals {FULL_OUTPUT} and {FULL_SCALE}), which are {} V/g",
+        bound(by_scale)
+    );
+    source.contradiction(reals.line_of(SENSITIVITY), message)
+}
 
 /// Raw counts or volts, by what the header says of recorder and sensor: the sensor's
 /// sensitivity is in volts per g, per cm/s or per cm, as the quantity is.
@@ -235,7 +260,11 @@ fn instrument(
         // The user knows better, of accelerations.
         return Ok(DraftUnit::Counts);
     }
+    if quantity == Quantity::Acceleration {
+        sensitivity_agrees(source, reals)?;
+    }
     let nonzero = |index: usize| reals.get(index).filter(|v| *v != 0.0 && v.is_finite());
+    let recorder = volts.is_none().then_some(MICROVOLTS_A_COUNT);
     let volts = volts.or_else(|| nonzero(MICROVOLTS_A_COUNT).map(|v| v * 1.0e-6));
     let (Some(volts), Some(sensitivity)) = (volts, nonzero(SENSITIVITY)) else {
         let missing = if volts.is_none() {
@@ -259,6 +288,19 @@ fn instrument(
         ));
     }
     let gain = nonzero(GAIN).unwrap_or(1.0);
+    let each = volts / sensitivity / gain;
+    let turned = match each < 0.0 {
+        true => format!(": the samples have the opposite sign of the {of}"),
+        false => String::new(),
+    };
+    for index in recorder.into_iter().chain([SENSITIVITY, GAIN]) {
+        if let Some(value) = nonzero(index).filter(|v| *v < 0.0) {
+            let line = reals.line_of(index);
+            source.warn(&format!(
+                "line {line}: real {index} is negative, {value}{turned}"
+            ));
+        }
+    }
     let unit = match quantity {
         Quantity::Acceleration => SeriesUnit::G,
         Quantity::Velocity => SeriesUnit::CM_S,
@@ -266,7 +308,7 @@ fn instrument(
     };
     Ok(DraftUnit::Scaled {
         unit,
-        each: volts / sensitivity / gain,
+        each,
         of,
         by: "by the recorder and the sensor in the header".to_owned(),
     })
@@ -439,15 +481,14 @@ fn unit(
         ));
     }
     if let (Some(word), Some(code)) = (unit_in_words(lower), printed.or(in_header))
-        && unit_of(code).is_some_and(|unit| unit != word)
+        && symbol_of(code).is_some_and(|symbol| symbol != word)
     {
         return Err(source.error(
             line.number,
             0,
             format!(
-                "the unit is {} in words here, but {} by its code {code}",
-                word.symbol,
-                unit_of(code).map_or("none", |unit| unit.symbol)
+                "the unit is {word} in words here, but {} by its code {code}",
+                symbol_of(code).unwrap_or("none")
             ),
             "the header contradicts itself: get the record again",
         ));
@@ -523,14 +564,32 @@ fn unit_of(code: f64) -> Option<SeriesUnit> {
     })
 }
 
-/// `units=cm/sec2(04)` in the line before the data, in lower case.
-fn unit_in_words(lower: &str) -> Option<SeriesUnit> {
+/// The symbol of what a code stands for: a unit of motion, or of what an instrument gives.
+fn symbol_of(code: f64) -> Option<&'static str> {
+    let of_instrument = INSTRUMENT_CODES
+        .into_iter()
+        .zip(INSTRUMENT_UNITS)
+        .find(|(known, _)| *known == code);
+    unit_of(code)
+        .map(|unit| unit.symbol)
+        .or(of_instrument.map(|(_, symbol)| symbol))
+}
+
+/// The symbol of `units=cm/sec2(04)` or `units= counts(50)` in the line before the data, in lower case.
+fn unit_in_words(lower: &str) -> Option<&'static str> {
     let (_, rest) = lower.split_once("units=")?;
-    SeriesUnit::parse(rest.split(['(', ',']).next()?.trim())
+    let word = rest.split(['(', ',']).next()?.trim();
+    match word {
+        "count" | "counts" => Some("counts"),
+        "v" | "volt" | "volts" => Some("V"),
+        "mv" | "millivolt" | "millivolts" => Some("mV"),
+        word => SeriesUnit::parse(word).map(|unit| unit.symbol),
+    }
 }
 
 /// Unit codes of values that an instrument gives: counts, volts, millivolts.
 const INSTRUMENT_CODES: [f64; 3] = [50.0, 51.0, 52.0];
+const INSTRUMENT_UNITS: [&str; 3] = ["counts", "V", "mV"];
 
 /// What a raw record is of, where integer 2 does not say: the words of the line before the data,
 /// else the kind of the sensor.
@@ -627,12 +686,24 @@ fn component(
         Some(401.0) => Some("Down".to_owned()),
         Some(402.0) => Some("Vertical".to_owned()),
         Some(azimuth) if (1.0..=360.0).contains(&azimuth) => Some(format!("{azimuth} deg")),
-        Some(azimuth) if (360.0..400.0).contains(&azimuth) => {
+        Some(azimuth) if azimuth < 0.0 || (360.0..400.0).contains(&azimuth) => {
             let message = format!("the azimuth (integer {AZIMUTH}) is {azimuth} degrees");
             source.contradiction(integers.line_of(AZIMUTH), message)?;
             None
         }
         _ => None,
+    };
+    // `900 Deg` is no direction, nor is `-90 Deg`.
+    let degrees = |name: &str| name.split(' ').next()?.parse::<f64>().ok();
+    let beyond = |name: &str| degrees(name).is_some_and(|a| !(0.0..=360.0).contains(&a));
+    let in_words = match in_words {
+        Some((line, name)) if beyond(&name) => {
+            let message =
+                format!("the component is \"{name}\", where an azimuth is from 0 to 360 degrees");
+            source.contradiction(line, message)?;
+            None
+        }
+        others => others,
     };
     let (Some((line, words)), Some(numbers)) = (&in_words, &in_numbers) else {
         let words = in_words.map(|(_, name)| name);

@@ -2,7 +2,7 @@
 
 use super::header::{Cells, Kind, Role, divided, kind, quantity, role};
 use super::names::{
-    ACCELERATION, MOTION, TIME, are_of_spectrum, is_abscissa, is_channel, is_component,
+    ACCELERATION, MOTION, TIME, are_of_spectrum, has_factor, is_abscissa, is_channel, is_component,
     is_spectral, motion_unit, plain, time_unit, unquoted,
 };
 use crate::header_keys::{Entry, keyed};
@@ -21,6 +21,8 @@ pub(super) enum Fault {
     TimeUnit(String, String),
     /// A column of motion in a unit that is not known: name of the column, unit.
     MotionUnit(String, String),
+    /// A column of accelerations whose name has a factor or a sign.
+    Factor(String),
     /// Two columns of times.
     TwoTimes,
     /// A column of which nothing is known: its number from 1, its name.
@@ -31,7 +33,8 @@ pub(super) enum Fault {
 /// names no column with a unit.
 pub(super) fn fault_of(cells: &Cells) -> Option<(String, Fault)> {
     let said = |fault| Some((cells.text.clone(), fault));
-    if let Some(fault) = of_values(cells).or_else(|| of_spectrum(cells)) {
+    let other = of_values(cells).or_else(|| of_spectrum(cells));
+    if let Some(fault) = other.or_else(|| of_factor(cells)) {
         return said(fault);
     }
     let names = &cells.names;
@@ -87,6 +90,24 @@ pub(super) fn fault_of(cells: &Cells) -> Option<(String, Fault)> {
         Fault::NoAcceleration(quantity, name)
     };
     said(fault)
+}
+
+/// An acceleration whose name has a factor or a sign: with its unit in brackets, or beside times.
+fn of_factor(cells: &Cells) -> Option<Fault> {
+    let is_time = |name: &String| matches!(role(name), Some(Role::Time(_)));
+    let beside_times = cells.separator.is_some() && cells.names.iter().any(is_time);
+    let accelerates = |name: &str| {
+        let unit = divided(name).and_then(|(_, unit)| motion_unit(&unit));
+        let in_brackets = unit.filter(|_| name.contains(['(', '[']));
+        match in_brackets {
+            Some(unit) => unit.quantity == Quantity::Acceleration,
+            None => beside_times && !name.contains(['(', '[']),
+        }
+    };
+    let mut found = cells.names.iter().map(|name| unquoted(name));
+    found
+        .find(|name| accelerates(name) && has_factor(name))
+        .map(|name| Fault::Factor(name.to_owned()))
 }
 
 /// The columns of a spectrum, or of times beside what is no motion.

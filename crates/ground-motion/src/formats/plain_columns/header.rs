@@ -3,8 +3,8 @@
 
 use super::OTHERS;
 use super::names::{
-    ACCELERATION, COUNTER, FOREIGN, LONG, MOTION, PROSE, TIME, are_of_spectrum, is_channel,
-    is_component, is_spectral, is_time, motion_unit, plain, time_unit, unquoted,
+    ACCELERATION, COUNTER, FOREIGN, LONG, MOTION, PROSE, TIME, are_of_spectrum, has_factor,
+    is_channel, is_component, is_spectral, is_time, motion_unit, plain, time_unit, unquoted,
 };
 use crate::error::GroundMotionError;
 use crate::quantity::{Quantity, SeriesUnit};
@@ -351,6 +351,10 @@ pub(super) fn kind(cell: &str) -> Option<Kind> {
     if let Some(role) = role(cell) {
         return Some(Kind::Known(role));
     }
+    // By how much the values would have to be divided is not known.
+    if has_factor(cell) {
+        return None;
+    }
     if is_channel(&whole) {
         return Some(Kind::Component);
     }
@@ -579,10 +583,11 @@ fn of_unit(known: &str, name: &str, unit: &str) -> Option<Role> {
         };
     }
     // A component or channel by its own name.
-    Some(match accelerates {
-        true => Role::Acceleration(name.to_owned(), Some(unit)),
-        false => Role::Other,
-    })
+    match accelerates {
+        true if has_factor(name) => None,
+        true => Some(Role::Acceleration(name.to_owned(), Some(unit))),
+        false => Some(Role::Other),
+    }
 }
 
 #[cfg(test)]

@@ -146,7 +146,7 @@ impl Faulty {
         let refused = match self.fault {
             Fault::NoAcceleration(..) | Fault::Spectrum(..) | Fault::Foreign(..) => true,
             Fault::MotionUnit(_, ref unit) => names::is_foreign_unit(unit),
-            Fault::TimeUnit(..) => source.options.layout.is_none(),
+            Fault::TimeUnit(..) | Fault::Factor(..) => source.options.layout.is_none(),
             _ => false,
         };
         refused.then(|| self.error(source))
@@ -182,6 +182,12 @@ impl Faulty {
             Fault::MotionUnit(name, unit) => (
                 format!("the unit \"{unit}\" of the column \"{name}\" is not known"),
                 "write g, m/s2, cm/s2, mm/s2, gal, in/s2 or ft/s2, as in `acceleration (m/s2)`; or give `layout`, e.g. \"t,a\", and `unit`",
+            ),
+            Fault::Factor(name) => (
+                format!(
+                    "the name of the column \"{name}\" has a factor or a sign: whether its values are to be divided by it is not known"
+                ),
+                "bring the values to the unit and name the column without the factor, as in `acceleration (m/s2)`; if they are in the unit that you give, give `layout`, e.g. \"t,a\", and `unit`",
             ),
             Fault::TwoTimes => (
                 format!("the header \"{text}\" names two columns of times"),

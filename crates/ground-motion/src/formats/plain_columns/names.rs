@@ -277,6 +277,56 @@ fn is_frequency(name: &str) -> bool {
     })
 }
 
+/// Whether the name of a column has a factor or a sign of its values: `1000*a`, `Acc x10^-2`, `a/9.81`,
+/// `-a`. What stands in brackets is a unit.
+pub(super) fn has_factor(cell: &str) -> bool {
+    let cell = unquoted(cell);
+    let name = cell.split(['(', '[']).next().unwrap_or(cell);
+    let name = name
+        .trim()
+        .to_lowercase()
+        .replace(['\u{2212}', '\u{2013}'], "-");
+    let is_superscript = |c: char| {
+        "\u{b9}\u{b2}\u{b3}\u{2070}\u{207b}".contains(c) || ('\u{2074}'..='\u{2079}').contains(&c)
+    };
+    let signed = name
+        .strip_prefix('-')
+        .is_some_and(|rest| rest.trim_start().starts_with(char::is_alphabetic));
+    let powers = name.match_indices("10").any(|(at, ten)| {
+        let behind = &name[at + ten.len()..];
+        behind.starts_with(['^', '*']) || behind.starts_with(is_superscript)
+    });
+    let times = name.char_indices().any(|(at, sign)| {
+        let before = name[..at].chars().next_back();
+        let behind = name[at + sign.len_utf8()..].trim_start();
+        let number = leading_number(behind);
+        match sign {
+            '*' | '\u{b7}' | '\u{d7}' => {
+                let factor_before = name[..at]
+                    .trim_end()
+                    .ends_with(|c: char| c.is_ascii_digit());
+                number.is_some() || factor_before && !behind.is_empty()
+            }
+            // `3/10` is a name.
+            '/' => number.is_some() && !before.is_some_and(|c| c.is_ascii_digit()),
+            // `acc x 1` may be the first of several in that direction.
+            'x' => {
+                let apart = before.is_none_or(|c| !c.is_alphanumeric() && c != '_');
+                apart && number.is_some_and(|n| n >= 10.0 || n.fract() != 0.0)
+            }
+            _ => false,
+        }
+    });
+    signed || powers || times
+}
+
+/// The number that a text starts with.
+fn leading_number(text: &str) -> Option<f64> {
+    let number = |c: char| c.is_ascii_digit() || ".-+".contains(c);
+    let end = text.find(|c| !number(c)).unwrap_or(text.len());
+    text[..end].trim_end_matches('.').parse().ok()
+}
+
 /// Whether names are those of a spectrum by the first of them, which a spectrum stands over: with
 /// its unit in brackets, or apart from the next one by more than a blank or a comma.
 pub(super) fn are_of_spectrum(names: &[String], separator: Option<char>) -> bool {

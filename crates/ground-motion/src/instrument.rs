@@ -1,5 +1,8 @@
 //! What the second letter of a channel's code says of its instrument (SEED manual, appendix A).
 
+use crate::error::GroundMotionError;
+use crate::source::Source;
+
 /// What an instrument with this code measures, where that is no acceleration of the ground; that of
 /// seismometers, `H` and `L`, is a velocity, and their callers have more to say of it.
 pub(crate) fn other_measure(code: u8) -> Option<&'static str> {
@@ -23,4 +26,47 @@ pub(crate) fn other_measure(code: u8) -> Option<&'static str> {
         b'W' => "wind",
         _ => return None,
     })
+}
+
+/// What a channel measures beside motion, by its code: of letters that begin no name of a direction
+/// such as `RAD` and `VER`.
+fn of_other_instrument(code: &[u8]) -> Option<&'static str> {
+    let &[band, instrument, orientation] = code else {
+        return None;
+    };
+    let is_code = b"FGDCESHBMLVUQ".contains(&band) && b"DFIJKMQSTW".contains(&instrument);
+    let known = b"ZNE123FDHIOSABCTR".contains(&orientation);
+    other_measure(instrument).filter(|_| is_code && known)
+}
+
+/// Refuses a channel whose code is that of an instrument that records no acceleration, where the file
+/// does not say what the values are: `unsaid` says so.
+pub(crate) fn may_accelerate(
+    source: &Source<'_>,
+    name: &str,
+    unsaid: &str,
+    remedy: &'static str,
+) -> Result<(), GroundMotionError> {
+    let unsupported = |what: String| GroundMotionError::Unsupported {
+        file: source.file.to_owned(),
+        what,
+        remedy,
+    };
+    match name.as_bytes() {
+        b"HLZ" | b"HLN" | b"HLE" | b"HL1" | b"HL2" | b"HL3" => {
+            source.warn(&format!(
+                "channel {name} is that of an instrument of low gain, which is an accelerograph in older codes and a seismometer in others; {unsaid}"
+            ));
+            Ok(())
+        }
+        [_, b'H' | b'L', _] => Err(unsupported(format!(
+            "channel {name} is that of a seismometer, which records velocity"
+        ))),
+        code => match of_other_instrument(code) {
+            Some(measured) => Err(unsupported(format!(
+                "channel {name} records {measured}, no acceleration"
+            ))),
+            None => Ok(()),
+        },
+    }
 }

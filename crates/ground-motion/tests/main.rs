@@ -24,6 +24,7 @@ mod header_units;
 mod hostile;
 mod initial_motion;
 mod integrals;
+mod iris_ascii;
 mod long_steps;
 mod matching;
 mod measures;

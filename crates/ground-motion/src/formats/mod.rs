@@ -26,6 +26,7 @@ mod csmip_v2;
 mod cwa;
 mod dyna;
 mod geo_net;
+mod iris_ascii;
 mod isesd;
 mod jma_csv;
 mod k_net;
@@ -61,6 +62,7 @@ static FORMATS: Registry<Format> = Registry::new(
         &isesd::FORMAT,
         &peer_at2::FORMAT,
         &midas_sgs::FORMAT,
+        &iris_ascii::FORMAT,
         &plain_columns::FORMAT,
     ],
     &[],

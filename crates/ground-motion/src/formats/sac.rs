@@ -6,7 +6,7 @@ use crate::direction::Orientation;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
-use crate::instrument::other_measure;
+use crate::instrument::may_accelerate;
 use crate::quantity::Quantity;
 use crate::recording::Series;
 use crate::source::Source;
@@ -204,17 +204,6 @@ fn same_step(source: &Source<'_>, words: &Words<'_>, at: usize) -> Result<(), Gr
     Ok(())
 }
 
-/// What a channel measures beside motion, by its code: of letters that begin no name of a direction
-/// such as `RAD` and `VER`.
-fn of_other_instrument(code: &[u8]) -> Option<&'static str> {
-    let &[band, instrument, orientation] = code else {
-        return None;
-    };
-    let is_code = b"FGDCESHBMLVUQ".contains(&band) && b"DFIJKMQSTW".contains(&instrument);
-    let known = b"ZNE123FDHIOSABCTR".contains(&orientation);
-    other_measure(instrument).filter(|_| is_code && known)
-}
-
 /// Refuses what the header says to be no acceleration: by IDEP (word 87), or where that says
 /// nothing, by the code of the instrument in the component's name.
 fn acceleration(source: &Source<'_>, words: &Words<'_>) -> Result<(), GroundMotionError> {
@@ -231,28 +220,12 @@ fn acceleration(source: &Source<'_>, words: &Words<'_>) -> Result<(), GroundMoti
         8 => Ok(()),
         6 => Err(of_other(Quantity::Displacement)),
         7 => Err(of_other(Quantity::Velocity)),
-        5 | -12345 => {
-            let name = words.text(COMPONENT);
-            match name.as_bytes() {
-                b"HLZ" | b"HLN" | b"HLE" | b"HL1" | b"HL2" | b"HL3" => {
-                    source.warn(&format!(
-                        "channel {name} is that of an instrument of low gain, which is an accelerograph in older codes and a seismometer in others; the header does not say what the values are (IDEP)"
-                    ));
-                    Ok(())
-                }
-                [_, b'H' | b'L', _] => Err(unsupported(
-                    format!("channel {name} is that of a seismometer, which records velocity"),
-                    "use the channel of an accelerograph, or set IDEP to IACC where the values are accelerations",
-                )),
-                code => match of_other_instrument(code) {
-                    Some(measured) => Err(unsupported(
-                        format!("channel {name} records {measured}, no acceleration"),
-                        "use the channel of an accelerograph, or set IDEP to IACC where the values are accelerations",
-                    )),
-                    None => Ok(()),
-                },
-            }
-        }
+        5 | -12345 => may_accelerate(
+            source,
+            &words.text(COMPONENT),
+            "the header does not say what the values are (IDEP)",
+            "use the channel of an accelerograph, or set IDEP to IACC where the values are accelerations",
+        ),
         50 => Err(unsupported(
             "the header says that the values are volts (IDEP is IVOLTS)".to_owned(),
             "use the file of the accelerations (IDEP IACC)",

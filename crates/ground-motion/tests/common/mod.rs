@@ -192,6 +192,7 @@ pub fn fixtures(format: &'static str, offset: i64) -> Vec<Fixture> {
         "isesd" => text::isesd(written),
         "peer_at2" => text::peer(written),
         "midas_sgs" => text::midas(),
+        "iris_ascii" => text::iris(written),
         "plain_columns" => text::plain(written),
         other => panic!("write a fixture for {other}"),
     }

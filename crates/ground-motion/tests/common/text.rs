@@ -83,6 +83,41 @@ pub fn peer(written: i64) -> Vec<Fixture> {
     all
 }
 
+/// Values in six columns between tabs, and rows of time and value.
+pub fn iris(written: i64) -> Vec<Fixture> {
+    let values = signal(2.5, 0.6);
+    let fields: Vec<String> = values
+        .iter()
+        .map(|value| {
+            let text = format!("{value:+.10e}");
+            let (mantissa, exponent) = text.split_once('e').unwrap();
+            let exponent: i32 = exponent.parse().unwrap();
+            format!("{mantissa}e{exponent:+03}")
+        })
+        .collect();
+    let printed: Vec<f64> = fields.iter().map(|f| f.parse().unwrap()).collect();
+    let header = |kind: &str, unit: &str| {
+        format!(
+            "TIMESERIES XX_ABCD_00_HNE_D, {written} samples, 100 sps, 2020-01-01T23:59:59.900000, {kind}, FLOAT, {unit}\n"
+        )
+    };
+    let rows = fields.chunks(6).map(|row| row.join("\t") + "\n");
+    let list = header("SLIST", "M/S**2") + &rows.collect::<String>();
+    // Midnight is passed over.
+    let time = |i: usize| match i {
+        0..10 => format!("2020-01-01T23:59:59.{:06}", 900_000 + 10_000 * i),
+        i => format!("2020-01-02T00:00:00.{:06}", 10_000 * (i - 10)),
+    };
+    let rows = fields.iter().enumerate();
+    let rows = rows.map(|(i, field)| format!("{}  {field}\n", time(i)));
+    let pairs = header("TSPAIR", "CM/S**2") + &rows.collect::<String>();
+    let of = |unit| vec![truth(ACC, "HNE", &printed, unit, 0.01)];
+    vec![
+        fixture("iris_slist", "iris_ascii", list, of(1.0), true),
+        fixture("iris_tspair", "iris_ascii", pairs, of(0.01), true),
+    ]
+}
+
 pub fn midas() -> Vec<Fixture> {
     let mut text = "*SGSw\n*TITLE, made up\n*TITLE,\n*X-AXIS, Time(sec)\n*Y-AXIS, Ground Accel. (g)\n*UNIT&TYPE, GRAV, ACCEL\n*FLAGS, 0, 0\n*DATA\n".to_owned();
     let mut printed = Vec::new();

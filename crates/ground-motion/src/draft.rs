@@ -6,6 +6,7 @@ use crate::error::{GroundMotionError, bound, within};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::{HeaderPeak, Sampling, Series, unusual_step};
 use crate::source::{Source, Used};
+use crate::start_times::is_impossible;
 use crate::time_column::not_after;
 use crate::unit::AccelerationUnit;
 
@@ -204,6 +205,7 @@ impl Draft {
         self.count(source)?;
         self.samples.shrink_to_fit();
         self.missing();
+        self.time_of_calendar();
         let name = &self.component;
         let other = self.orientation.and_then(|o| o.against_name(name));
         self.warnings.extend(other);
@@ -385,6 +387,17 @@ impl Draft {
             ),
             "header and unit contradict one another: get the record again",
         ))
+    }
+
+    /// Leaves out a start time that no calendar or clock has.
+    fn time_of_calendar(&mut self) {
+        if is_impossible(&self.start_time) {
+            let text: String = self.start_time.chars().take(48).collect();
+            self.start_time.clear();
+            self.warnings.push(format!(
+                "the start time \"{text}\" is none of a calendar and a clock, and is not used"
+            ));
+        }
     }
 
     /// Values that often stand for "missing" but can be true are only named.

@@ -4,6 +4,7 @@ use std::cell::{Cell, RefCell};
 use std::path::Path;
 
 use crate::cut_numbers::Forms;
+use crate::draft::Printed;
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
 use crate::number::{self, Bare};
@@ -481,6 +482,13 @@ impl HeaderNumbers {
         let value = self.values.get(index.checked_sub(1)?).copied().flatten()?;
         let unknown = [-999.0, -9999.0, -32768.0, -12345.0].contains(&value);
         (!unknown).then_some(value)
+    }
+
+    /// Number `index` with one unit of its last printed digit, unless it is zero, blank or unknown.
+    pub(crate) fn printed(&self, index: usize) -> Option<Printed> {
+        let value = self.get(index).filter(|value| *value != 0.0)?;
+        let text = self.texts.get(index.checked_sub(1)?)?;
+        Some((value, number::resolution(text.as_bytes())))
     }
 
     /// Line (from 1) of number `index` (from 1).

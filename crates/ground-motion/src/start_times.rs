@@ -56,7 +56,7 @@ impl Clock {
         let (from, to, [hours, minutes, seconds], separator) = with_colons(text)
             .map(|(from, to, numbers)| (from, to, numbers, ":"))
             .or_else(|| in_a_row(text).map(|(from, to, numbers)| (from, to, numbers, "")))?;
-        let inside = hours < 24.0 && minutes < 60.0 && seconds <= 60.0;
+        let inside = is_of_clock([hours, minutes, seconds]);
         let behind = text[from..to].split_once('.');
         inside.then_some(Self {
             from,
@@ -136,6 +136,70 @@ fn date_later(text: &str, days: i64) -> Option<String> {
     Some(format!(
         "{year:04}{between}{month:02}{between}{day:02}{rest}"
     ))
+}
+
+/// Whether a printed time has an hour, a day or a month that there is not. What stands in no known form
+/// says nothing.
+pub(crate) fn is_impossible(text: &str) -> bool {
+    let clock = with_colons(text).or_else(|| in_a_row(text));
+    let (date, of_clock) = match clock {
+        Some((from, _, numbers)) => (&text[..from], !is_of_clock(numbers)),
+        None => (text, false),
+    };
+    of_clock || is_no_date(date)
+}
+
+/// The same of a date in year, month and day, in a year and its day, or in day, month and year; beside
+/// slashes the month may stand before the day.
+fn is_no_date(text: &str) -> bool {
+    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
+    let number = |text: &str| text.parse::<i64>().ok();
+    let is_date = |(year, month, day): (i64, i64, i64)| {
+        let next = usize::try_from(month)
+            .ok()
+            .and_then(|index| BEFORE.get(index));
+        let before = usize::try_from(month - 1)
+            .ok()
+            .and_then(|index| BEFORE.get(index));
+        let leap = i64::from(month == 2 && is_leap(year));
+        before.is_some_and(|before| (1..=next.unwrap_or(&365) - before + leap).contains(&day))
+    };
+    if digits == 8 {
+        let part = |from: usize, to: usize| number(&text[from..to]);
+        let date = (part(0, 4).zip(part(4, 6))).zip(part(6, 8));
+        return date.is_some_and(|((year, month), day)| !is_date((year, month, day)));
+    }
+    if let Some(rest) = text[digits..].strip_prefix(" day ") {
+        let day = rest.split(' ').next().and_then(number);
+        let year = number(&text[..digits]);
+        return (year.zip(day)).is_some_and(|(y, day)| !(1..=length_of(y)).contains(&day));
+    }
+    let Some(sign) = text[digits..].chars().next().filter(|c| "/-.".contains(*c)) else {
+        return false;
+    };
+    let mut parts = text.splitn(3, sign);
+    let mut next = || {
+        let part = parts.next()?;
+        let end = part
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(part.len());
+        Some((end, number(&part[..end])?))
+    };
+    let (Some(first), Some(second), Some(third)) = (next(), next(), next()) else {
+        return false;
+    };
+    match (first.0, second.0, third.0) {
+        (4, 1..=2, 1..=2) => !is_date((first.1, second.1, third.1)),
+        (1..=2, 1..=2, 4) if sign == '/' => {
+            !is_date((third.1, second.1, first.1)) && !is_date((third.1, first.1, second.1))
+        }
+        (1..=2, 1..=2, 4) => !is_date((third.1, second.1, first.1)),
+        _ => false,
+    }
+}
+
+fn is_of_clock([hours, minutes, seconds]: [f64; 3]) -> bool {
+    hours < 24.0 && minutes < 60.0 && seconds <= 60.0
 }
 
 fn is_leap(year: i64) -> bool {
@@ -285,6 +349,47 @@ mod tests {
                 }
                 (found, seconds) => assert_eq!(found, seconds, "{a}"),
             }
+        }
+    }
+
+    #[test]
+    fn times_of_no_calendar() {
+        for text in [
+            "2020/13/01 01:02:15 JST",
+            "2020/12/41 01:02:15 JST",
+            "2021/02/29 01:02:15 JST",
+            "2020/12/31 25:02:15 JST",
+            "2020-12-31T23:61:15",
+            "20231301_011730",
+            "20230230_011730.005",
+            "20230228_241730",
+            "2020 day 367 01:02:03.456 UTC",
+            "2021 day 366 01:02:03 UTC",
+            "1999/09/20-27:46:37.0 GMT+8",
+            "31.13.1999 04:55:53.671UTC",
+            "31.11.1999 04:55:53",
+            "41/13/2000 00:00:00",
+        ] {
+            assert!(is_impossible(text), "{text}");
+        }
+        for text in [
+            "",
+            "2020/02/29 01:02:15 JST less 15 s",
+            "2020-12-31T23:59:60",
+            "20000101_000000.000",
+            "2020 day 366 01:02:03.456 UTC",
+            "1999/09/20-17:46:37.0 GMT+8",
+            "31.12.1999 04:55:53.671UTC",
+            "12/20/22, 10:34: 1.0 UTC (GPS)",
+            "06/28/92, 15:05:37.4 UTC",
+            "01/31/2000 00:00:00.000000 (GMT)",
+            "31/01/2000 00:00:00.000000 (GMT)",
+            "00:00:00",
+            "2018/11/30 17:29:06.332 UTC (Q=5) RcrdId: (see comment)",
+            "unknown",
+            "2020",
+        ] {
+            assert!(!is_impossible(text), "{text}");
         }
     }
 

@@ -33,6 +33,8 @@ pub(crate) struct ChannelName {
     pub channel: String,
     /// Time of the first sample (us after the year 1900).
     pub start: i64,
+    /// Time of the last sample (us after the year 1900).
+    pub end: i64,
     /// The same for messages.
     pub start_text: String,
     /// Samples per second.
@@ -339,12 +341,8 @@ impl StationFile {
                 );
                 self.refused(at, message, remedy)
             })?;
-        let unit_of = |element| {
-            let units = child(&whole, element)?;
-            child(&units, "Name")?.text().map(|t| t.trim().to_owned())
-        };
-        let input = unit_of("InputUnits").unwrap_or_default();
-        let output = unit_of("OutputUnits").unwrap_or_default();
+        let input = unit_name(&whole, "InputUnits").unwrap_or_default();
+        let output = unit_name(&whole, "OutputUnits").unwrap_or_default();
         let unit = SeriesUnit::parse(&input).ok_or_else(|| {
             let message = format!(
                 "channel {} records \"{input}\", which is no acceleration, velocity or displacement",
@@ -361,16 +359,45 @@ impl StationFile {
             return Err(self.refused(at, message, remedy));
         }
         let frequency = number(&whole, "Frequency").filter(|f| f.is_finite() && *f >= 0.0);
+        let mut warnings = self.doubts(channel, name, value, frequency);
+        // The epoch of the first sample counts.
+        let changes = epochs
+            .iter()
+            .filter(|epoch| **epoch != *channel && covers(epoch, name.end));
+        for epoch in changes {
+            let later = descendant(epoch, "InstrumentSensitivity");
+            let other = later
+                .and_then(|node| Some((number(&node, "Value")?, unit_name(&node, "InputUnits")?)));
+            let Some((other, other_input)) = other.filter(|other| *other != (value, input.clone()))
+            else {
+                continue;
+            };
+            warnings.push(format!(
+                "{}: line {}: another epoch of {} begins within the record, with a sensitivity of {other} per {other_input}, not {value} per {input}, which is used for all samples",
+                self.file,
+                line(epoch),
+                name.label()
+            ));
+        }
+        let angles = (number(channel, "Azimuth"), number(channel, "Dip"));
+        let orientation = angles.0.zip(angles.1);
+        if let Some((azimuth, dip)) = orientation
+            && Orientation::of(azimuth, dip).is_none()
+        {
+            warnings.push(format!(
+                "{}: azimuth {azimuth} and dip {dip} degrees of {} are no direction, and are not used",
+                self.file,
+                name.label()
+            ));
+        }
         Ok(Sensitivity {
             value,
             unit,
             frequency,
-            orientation: number(channel, "Azimuth")
-                .zip(number(channel, "Dip"))
-                .and_then(|(azimuth, dip)| Orientation::of(azimuth, dip)),
+            orientation: orientation.and_then(|(azimuth, dip)| Orientation::of(azimuth, dip)),
             file: self.file.clone(),
             sha256: self.sha256.clone(),
-            warnings: self.doubts(channel, name, value, frequency),
+            warnings,
         })
     }
 
@@ -496,6 +523,12 @@ fn descendant<'a, 'd>(channel: &Node<'a, 'd>, tag: &str) -> Option<Node<'a, 'd>>
 
 fn number(node: &Node<'_, '_>, tag: &str) -> Option<f64> {
     child(node, tag)?.text()?.trim().parse().ok()
+}
+
+/// The unit in an element of a sensitivity.
+fn unit_name(sensitivity: &Node<'_, '_>, element: &str) -> Option<String> {
+    let units = child(sensitivity, element)?;
+    child(&units, "Name")?.text().map(|t| t.trim().to_owned())
 }
 
 /// Whether the epoch of a channel covers a time: its end is the first moment that it does not.

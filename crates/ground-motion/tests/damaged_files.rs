@@ -155,6 +155,35 @@ fn counts_of_sac_are_raw() {
 }
 
 /// The extremes of a SAC header are in the unit of its samples, whichever that is: no unit that the
+/// The mean of a SAC header, in single precision and in the unit of the samples.
+#[test]
+fn means_of_sac() {
+    let options = ReadOptions {
+        unit: Some(AccelerationUnit::StandardGravity),
+        ..ReadOptions::default()
+    };
+    let of = |mean: f32| {
+        let bytes = sac_with(&[(56, mean)], &[], "HNE");
+        read_all_bytes("f", &bytes, &options)
+            .unwrap()
+            .series
+            .remove(0)
+    };
+    let plain = of(-12345.0);
+    let mean = plain.samples.iter().sum::<f64>() / plain.samples.len() as f64 / plain.unit_in_si;
+    let peak = plain.samples.iter().fold(0.0_f64, |m, a| m.max(a.abs())) / plain.unit_in_si;
+    // A zero may be a field that was not filled in.
+    for same in [mean, 0.0, mean + 5e-4 * peak] {
+        let warnings = of(same as f32).origin.warnings;
+        assert!(warnings.is_empty(), "{warnings:?}");
+    }
+    for other in [mean + 0.01 * peak, 3.0 * peak] {
+        let warnings = of(other as f32).origin.warnings;
+        let said = |w: &String| w.contains("(DEPMEN), that of the samples is");
+        assert!(warnings.iter().any(said), "{warnings:?}");
+    }
+}
+
 /// user states excuses them.
 #[test]
 fn extremes_of_sac_are_held_against_its_samples() {
@@ -476,4 +505,27 @@ fn two_steps_of_sac() {
     with(-12345.0).unwrap();
     let error = with(0.02).unwrap_err().to_string();
     assert!(error.contains("0.02 s here, but 0.01 s"), "{error}");
+}
+
+/// Files of miniSEED are filled up to whole blocks; between records nothing is passed over.
+#[test]
+fn blocks_behind_the_last_record_of_mini_seed() {
+    for fixture in fixtures("mini_seed_2", 0) {
+        let plain = read_all_bytes("f", &fixture.bytes, &fixture.options).unwrap();
+        for (filler, what) in [(0, "zeros"), (b' ', "blanks")] {
+            let mut bytes = fixture.bytes.clone();
+            bytes.extend([filler; 512]);
+            let found = read_all_bytes("f", &bytes, &fixture.options).unwrap();
+            assert_eq!(found.series[0].samples, plain.series[0].samples);
+            let said = format!("the last 512 bytes are all {what} and were passed over");
+            let warnings = &found.series[0].origin.warnings;
+            assert!(warnings.iter().any(|w| w.contains(&said)), "{warnings:?}");
+            bytes.extend(&fixture.bytes);
+            let said = read_all_bytes("f", &bytes, &fixture.options).unwrap_err();
+            assert!(
+                said.to_string().contains("no miniSEED record starts here"),
+                "{said}"
+            );
+        }
+    }
 }

@@ -265,6 +265,18 @@ fn units_of_midas() {
     }
 }
 
+/// Axes of a spectrum in a file of midas.
+#[test]
+fn spectra_of_midas() {
+    for (from, to, place) in [
+        ("Time(sec)", "Period (sec)", "f:4:1: "),
+        ("Time(sec)", "Frequency (Hz)", "f:4:1: "),
+        ("Ground Accel. (g)", "Spectral Data (g)", "f:5:1: "),
+    ] {
+        refused(read("midas_sgs", from, to), &[place, "axis of a spectrum"]);
+    }
+}
+
 /// The peaks of GeoNet have units of their own, and readings without one are of none.
 #[test]
 fn units_of_geo_net() {
@@ -375,5 +387,40 @@ fn second_records() {
         let told = format!("f:{}:1: text behind the series", lines + 1);
         assert!(error.to_string().starts_with(&told), "{error}");
         read_all_bytes("f", (text + "\n \n").as_bytes(), &fixture.options).unwrap();
+    }
+}
+
+/// The peak in the real numbers of GeoNet: unit and peak in the text may have been changed alone.
+#[test]
+fn peaks_of_geo_net_in_numbers() {
+    for (name, index) in [("geo_net_v1a", 31), ("geo_net_v2a", 36)] {
+        let fixture = fixtures("geo_net", 0)
+            .into_iter()
+            .find(|f| f.name == name)
+            .unwrap();
+        let text = String::from_utf8(fixture.bytes.clone()).unwrap();
+        let printed = text.split("Peak").nth(1).unwrap();
+        let peak: f64 = printed.split_whitespace().next().unwrap().parse().unwrap();
+        let with = |value: f64, lenient: bool| {
+            let mut lines: Vec<String> = text.lines().map(str::to_owned).collect();
+            let (row, column) = (20 + (index - 1) / 10, 8 * ((index - 1) % 10));
+            lines[row].replace_range(column..column + 8, &format!("{value:8.1}"));
+            let options = ReadOptions {
+                lenient,
+                ..ReadOptions::default()
+            };
+            let text = lines.join("\n") + "\n";
+            read_all_bytes("f", text.as_bytes(), &options).map_err(|e| e.to_string())
+        };
+        let found = with(peak, false).unwrap();
+        let differs = |w: &String| w.contains("the header's peak");
+        assert!(!found.series[0].origin.warnings.iter().any(differs));
+        let line = 21 + (index - 1) / 10;
+        refused(
+            with(0.1 * peak, false),
+            &[&format!("f:{line}:1: the header's peak is")],
+        );
+        let left = with(0.1 * peak, true).unwrap();
+        assert!(left.series[0].origin.warnings.iter().any(differs));
     }
 }

@@ -22,6 +22,7 @@ mod generators;
 mod header_lines;
 mod header_units;
 mod hostile;
+mod impossible_start_times;
 mod initial_motion;
 mod integrals;
 mod iris_ascii;

@@ -299,6 +299,72 @@ fn epochs() {
     assert!(other.contains("no channel XX.XXXXX..HNE"), "{other}");
 }
 
+/// A change of the sensitivity within the record is said; the epoch of the first sample counts.
+#[test]
+fn epochs_that_begin_within_the_record() {
+    let (first_seconds, record_seconds) = ("00:00:00.52", "2000-01-01T00:00:00.52");
+    let until = format!(r#"startDate="1990-01-01T00:00:00" endDate="{record_seconds}""#);
+    let from = format!(r#"startDate="2000-01-01T{first_seconds}""#);
+    let later = format!(r#"startDate="{}""#, record_seconds.replace(".52", ".56"));
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    for (attributes, value, input, is_said) in [
+        (&from, "4", "M/S**2", true),
+        (&from, "1", "CM/S**2", true),
+        (&from, "1", "M/S**2", false),
+        // Behind the last sample, at 0.54 s.
+        (&later, "4", "M/S**2", false),
+    ] {
+        let first = Epoch {
+            attributes: &until,
+            value: "1",
+            ..HNE
+        };
+        let second = Epoch {
+            attributes,
+            value,
+            input,
+            ..HNE
+        };
+        let file = write(folder.path(), "station.xml", station(&[first, second]));
+        let found = read_all(&record, &with(&file)).unwrap();
+        let one = &found.series[0];
+        assert_eq!(one.samples[0], 100.0);
+        let said = |w: &String| w.contains("begins within the record");
+        let warnings = &one.origin.warnings;
+        assert_eq!(warnings.iter().any(said), is_said, "{value}: {warnings:?}");
+    }
+}
+
+#[test]
+fn angles_that_are_no_direction() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    for (azimuth, dip, is_one) in [
+        ("90", "0", true),
+        ("400", "0", false),
+        ("90", "-120", false),
+    ] {
+        let more =
+            format!("<Azimuth>{azimuth}</Azimuth><Dip>{dip}</Dip><SampleRate>100</SampleRate>");
+        let epoch = Epoch {
+            more: (&more, ""),
+            ..HNE
+        };
+        let file = write(folder.path(), "station.xml", station(&[epoch]));
+        let found = read_all(&record, &with(&file)).unwrap();
+        let origin = &found.series[0].origin;
+        assert_eq!(origin.orientation.is_some(), is_one);
+        let said = |w: &String| w.contains("are no direction");
+        assert_eq!(
+            !origin.warnings.iter().any(said),
+            is_one,
+            "{:?}",
+            origin.warnings
+        );
+    }
+}
+
 /// Statements that contradict one another are named with both numbers.
 #[test]
 fn doubts() {

@@ -193,7 +193,7 @@ fn header(lines: &mut Lines<'_>) -> Header {
                 }
             }
             "stationcode" => header.station = value.to_owned(),
-            "starttime" => header.start = format!("{value} GMT+8"),
+            "starttime" if !value.is_empty() => header.start = format!("{value} GMT+8"),
             _ => {}
         }
     }

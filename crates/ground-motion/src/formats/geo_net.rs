@@ -27,6 +27,12 @@ struct Header<'a> {
     reals: HeaderNumbers,
 }
 
+impl Header<'_> {
+    fn is_corrected(&self) -> bool {
+        !self.text[0].lower().starts_with("uncorrected")
+    }
+}
+
 pub(super) static FORMAT: Format = Format {
     name: "geo_net",
     title: "GeoNet V1A and V2A",
@@ -52,7 +58,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         let header = header(source, &mut lines)?;
         channel += 1;
         let first = series.len();
-        let corrected = !header.text[0].lower().starts_with("uncorrected");
+        let corrected = header.is_corrected();
         for (quantity, unit, count) in blocks(source, &header, corrected)? {
             let mut draft = block(source, &mut lines, &header, quantity, count)?;
             draft.unit = unit;
@@ -169,6 +175,26 @@ fn start_of_buffer(integers: &HeaderNumbers) -> Option<String> {
     )
 }
 
+/// The peak of a block in the real numbers: of a Volume 1 real 31 and its time in the next one, of a
+/// Volume 2 reals 36, 41 and 46.
+fn peak_in_numbers(header: &Header<'_>, quantity: Quantity, pad: f64) -> Option<DraftPeak> {
+    let corrected = header.is_corrected();
+    let (index, unit) = match quantity {
+        Quantity::Acceleration if !corrected => (31, SeriesUnit::MM_S2),
+        Quantity::Acceleration => (36, SeriesUnit::MM_S2),
+        Quantity::Velocity => (41, SeriesUnit::MM_S),
+        Quantity::Displacement => (46, SeriesUnit::MM),
+    };
+    Some(DraftPeak {
+        value: header.reals.printed(index)?,
+        time: header.reals.printed(index + 1),
+        unit: Some(unit),
+        shift: pad,
+        line: Some(header.reals.line_of(index)),
+        of_sign: false,
+    })
+}
+
 fn block(
     source: &Source<'_>,
     lines: &mut Lines<'_>,
@@ -241,6 +267,7 @@ fn block(
             of_sign: false,
         })
     });
+    draft.other_peaks = peak_in_numbers(header, quantity, pad).into_iter().collect();
     let eleven = header.text[10].lower();
     let printed = number::after(&eleven, "intervals of").or_else(|| number::after(&eleven, " at "));
     if let (Some(step), Some((text, digit))) = (step, printed)

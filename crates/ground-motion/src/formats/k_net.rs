@@ -159,7 +159,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     });
     draft.processing = Processing::Raw;
     draft.title = format!("{}; earthquake of {}", header.station, header.origin_time);
-    draft.start_time = format!("{} JST less 15 s", header.record_time);
+    if !header.record_time.is_empty() {
+        draft.start_time = format!("{} JST less 15 s", header.record_time);
+    }
     Ok(vec![draft.finish(source)?])
 }
 

@@ -5,6 +5,7 @@ use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
+use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::Source;
@@ -30,6 +31,15 @@ fn matches(source: &Source<'_>) -> bool {
 fn in_brackets(label: &str) -> Option<&str> {
     let (_, rest) = label.rsplit_once('(')?;
     Some(rest.split(')').next().unwrap_or(rest).trim())
+}
+
+/// Whether a line in lower case labels an axis of a spectrum.
+fn is_of_spectrum(line: &str) -> bool {
+    let of = |axis: &str, words: &[&str]| {
+        let label = line.strip_prefix(axis);
+        label.is_some_and(|label| words.iter().any(|word| label.contains(word)))
+    };
+    of("*x-axis", &["period", "freq"]) || of("*y-axis", &["spectr"])
 }
 
 /// Refuses a label of the times that says another unit than seconds.
@@ -96,6 +106,16 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
                     REMEDY,
                 ));
             }
+        } else if is_of_spectrum(start) {
+            return Err(source.error(
+                line.number,
+                0,
+                format!(
+                    "\"{}\" is the axis of a spectrum: the file holds no record",
+                    number::shown(line.bytes.trim_ascii())
+                ),
+                "give the accelerations over the time; if the label alone is wrong, correct it",
+            ));
         } else if start.starts_with("*x-axis") {
             time_in_seconds(source, line, start)?;
         } else if start.starts_with("*y-axis") {

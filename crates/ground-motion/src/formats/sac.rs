@@ -4,7 +4,7 @@
 use crate::accelerogram::Processing;
 use crate::direction::Orientation;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
-use crate::error::GroundMotionError;
+use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
 use crate::instrument::may_accelerate;
 use crate::quantity::Quantity;
@@ -24,6 +24,10 @@ const AZIMUTH: usize = 57;
 const INCIDENCE: usize = 58;
 /// Time of the first sample after the reference time (s).
 const BEGIN: usize = 5;
+/// Mean of the samples, in their unit.
+const MEAN: usize = 56;
+/// Part of the largest sample by which a mean that was summed up in single precision may differ.
+const MEAN_TOLERANCE: f64 = 1.0e-3;
 const UNDEFINED: f32 = -12345.0;
 
 /// The bytes with their order.
@@ -173,6 +177,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             "header says {count} samples, {present} found; the surplus is not used"
         ));
     }
+    draft.warnings.extend(other_mean(&words, &draft.samples));
     fill(&words, &mut draft);
     // Counts are as the instrument gave them.
     if source.options.sensitivity.is_some() {
@@ -257,6 +262,21 @@ fn values(
         values.push(f64::from(value));
     }
     Ok(values)
+}
+
+/// What to say of a mean in the header that is not that of the samples; a zero is a field that may not
+/// have been filled in.
+fn other_mean(words: &Words<'_>, samples: &[f64]) -> Option<String> {
+    let stated = words.float(MEAN).filter(|mean| *mean != 0.0)?;
+    let found = samples.iter().sum::<f64>() / samples.len() as f64;
+    let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    ((stated - found).abs() > MEAN_TOLERANCE * largest).then(|| {
+        format!(
+            "the header says a mean of {} (DEPMEN), that of the samples is {}",
+            bound(stated),
+            bound(found)
+        )
+    })
 }
 
 /// Time of the first sample: the reference time and B (word 6) after it. Empty where the header

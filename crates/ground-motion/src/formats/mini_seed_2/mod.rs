@@ -6,7 +6,6 @@ use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
-use crate::instrument::other_measure;
 use crate::recording::{Series, WithoutSensitivity};
 use crate::source::Source;
 use crate::station_xml::{ResponseFile, Responses, Sensitivity};
@@ -32,7 +31,7 @@ fn matches(source: &Source<'_>) -> bool {
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let (mut records, mut emptied) = (Vec::new(), Vec::new());
     let mut at = 0;
-    while at < source.bytes.len() {
+    while at < source.bytes.len() && !is_filled_up(source, at) {
         let record = Record::read(source, at)?;
         at += record.length;
         if record.count > 0 {
@@ -64,7 +63,12 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     for channel in &channels {
         let first = &channel[0];
         let known = match &responses {
-            Some(responses) => Some(responses.of(source.file, &first.channel_name())?),
+            Some(responses) => {
+                let mut name = first.channel_name();
+                let ends = channel.iter().map(Record::end);
+                name.end = ends.max().unwrap_or(name.end);
+                Some(responses.of(source.file, &name)?)
+            }
             // The user gives the sensitivity.
             None => None,
         };
@@ -79,7 +83,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         }
         if !matches!(known, Some(Ok(_)))
             && !is_given
-            && let Some(measured) = other_measure(first.instrument())
+            && let Some(measured) = first.other_measure()
         {
             let label = first.label();
             source.warn(&format!(
@@ -144,6 +148,24 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         source.is_without(WithoutSensitivity { component, reason });
     }
     Ok(series)
+}
+
+/// Whether nothing but zeros, or nothing but blanks, stands from a byte on behind a record, which is said:
+/// files are filled up to whole blocks.
+fn is_filled_up(source: &Source<'_>, at: usize) -> bool {
+    let rest = &source.bytes[at..];
+    let of = |filler: u8| rest.iter().all(|b| *b == filler);
+    let what = match (of(0), of(b' ')) {
+        _ if at == 0 => return false,
+        (true, _) => "zeros",
+        (_, true) => "blanks",
+        _ => return false,
+    };
+    source.warn(&format!(
+        "the last {} bytes are all {what} and were passed over: if records stood there, the end is missing",
+        rest.len()
+    ));
+    true
 }
 
 /// Whether all samples of a channel are floats, which instruments do not count in.

@@ -4,6 +4,7 @@ use std::fmt;
 
 use super::steim;
 use crate::error::GroundMotionError;
+use crate::instrument::other_measure;
 use crate::source::Source;
 use crate::start_times::year_and_day;
 use crate::station_xml::ChannelName;
@@ -204,8 +205,23 @@ impl Record {
             location: part(5, 7),
             channel: part(7, 10),
             start: self.start,
+            end: self.end(),
             start_text: self.start_text.to_string(),
             rate: self.rate,
+        }
+    }
+
+    /// Time of the last sample (us after the year 1900).
+    pub(super) fn end(&self) -> i64 {
+        let length = self.count.saturating_sub(1) as f64 / self.rate;
+        self.start.saturating_add((1.0e6 * length).round() as i64)
+    }
+
+    /// What the channel records, where that is no motion.
+    pub(super) fn other_measure(&self) -> Option<&'static str> {
+        match &self.name[7..10] {
+            b"LOG" => Some("a log of the recorder"),
+            _ => other_measure(self.name[8]),
         }
     }
 

@@ -44,6 +44,13 @@ fn spelled(plain: &[u8]) -> Result<f64, String> {
     if plain.contains(&b',') {
         return Err(format!("\"{shown}\" has a decimal comma"));
     }
+    let minus = "\u{2212}".as_bytes();
+    if plain.windows(minus.len()).any(|bytes| bytes == minus) {
+        let text = String::from_utf8_lossy(plain);
+        return Err(format!(
+            "\"{text}\" is not a number: its sign is U+2212, not the hyphen"
+        ));
+    }
     let fortran =
         |b: &u8| b.is_ascii_digit() || matches!(b, b'+' | b'-' | b'.' | b'e' | b'E' | b'd' | b'D');
     if !plain.iter().all(fortran) {

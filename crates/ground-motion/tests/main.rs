@@ -14,6 +14,7 @@ mod cut_numbers;
 mod damaged_files;
 mod damaged_rows;
 mod design_spectra;
+mod encodings;
 mod ensemble;
 mod excitation;
 mod factors_in_names;

@@ -25,6 +25,7 @@ mod csmip_v1;
 mod csmip_v2;
 mod cwa;
 mod dyna;
+mod encodings;
 mod geo_net;
 mod iris_ascii;
 mod isesd;
@@ -326,32 +327,6 @@ fn is_binary(format: &Format) -> bool {
     [&mini_seed_2::FORMAT, &sac::FORMAT].contains(&format)
 }
 
-/// Refuses archives, and texts in an encoding that is not read.
-fn unpacked(file: &str, start: &[u8]) -> Result<(), GroundMotionError> {
-    let starts: [(&[u8], &str, &'static str); 4] = [
-        (
-            b"\x1f\x8b",
-            "the file is compressed by gzip",
-            "unpack it, `gunzip FILE`, and give what is in it",
-        ),
-        (
-            b"PK\x03\x04",
-            "the file is a zip archive",
-            "unpack it, and give the file of one record",
-        ),
-        (b"\xff\xfe", "the text is UTF-16", "save it as UTF-8"),
-        (b"\xfe\xff", "the text is UTF-16", "save it as UTF-8"),
-    ];
-    match starts.iter().find(|(first, ..)| start.starts_with(first)) {
-        Some((_, what, remedy)) => Err(GroundMotionError::Unsupported {
-            file: file.to_owned(),
-            what: (*what).to_owned(),
-            remedy,
-        }),
-        None => Ok(()),
-    }
-}
-
 /// The format that the options name, or that the start of the file shows.
 fn format_of(
     file: &str,
@@ -364,7 +339,10 @@ fn format_of(
     let detected = || Format::all().iter().copied().find(|f| (f.matches)(&source));
     let format = options.format.or_else(detected);
     if !format.is_some_and(is_binary) {
-        unpacked(file, start)?;
+        encodings::is_plain_text(file, start)?;
+    }
+    if format.is_none() {
+        encodings::has_hyphens(file, start)?;
     }
     format.ok_or_else(|| GroundMotionError::UnknownFormat {
         file: file.to_owned(),

@@ -308,16 +308,23 @@ pub(super) fn has_factor(cell: &str) -> bool {
                 number.is_some() || factor_before && !behind.is_empty()
             }
             // `3/10` is a name.
-            '/' => number.is_some() && !before.is_some_and(|c| c.is_ascii_digit()),
-            // `acc x 1` may be the first of several in that direction.
+            '/' => number.is_some_and(scales) && !before.is_some_and(|c| c.is_ascii_digit()),
+            // `acc x 12` may be one of several in that direction.
             'x' => {
                 let apart = before.is_none_or(|c| !c.is_alphanumeric() && c != '_');
-                apart && number.is_some_and(|n| n >= 10.0 || n.fract() != 0.0)
+                apart && number.is_some_and(scales)
             }
             _ => false,
         }
     });
     signed || powers || times
+}
+
+/// Whether a number is a factor between units rather than that of an instrument: a power of ten, one with
+/// decimals, or cm/s2 in g.
+fn scales(number: f64) -> bool {
+    let power = (1..=9).any(|n| number == 10.0_f64.powi(n));
+    power || number.fract() != 0.0 || number == 981.0
 }
 
 /// The number that a text starts with.

@@ -45,6 +45,15 @@ fn sensitivity_against_the_full_scale() {
         let found = read(&text, false).unwrap();
         assert!(found.series[0].origin.warnings.is_empty());
     }
+    // Both lines of the sensor, or one.
+    for output in [5.0, 1.25] {
+        let found = read(&text(&[(43, output), (44, 2.0)], WORDS), false).unwrap();
+        let warnings = &found.series[0].origin.warnings;
+        assert!(
+            warnings[0].contains("the sensor gives 1.25 V/g"),
+            "{warnings:?}"
+        );
+    }
     let text = text(&[(43, 25.0), (44, 2.0)], WORDS);
     let said = read(&text, false).unwrap_err();
     let expected = "the sensor gives 1.25 V/g (real 42), but 25 V at 2 g";

@@ -61,6 +61,8 @@ fn steps_rates_and_units() {
         let warnings = is_read(header, step, unit);
         assert!(warnings.is_empty(), "{header}: {warnings:?}");
     }
+    // Units of times and values, of which none is said to be that of the values.
+    refused("units: s, g; dt: 0.01", "does not state the unit");
     // Of a sine or a filter, not of sampling.
     for header in [
         "Frequency: 2 Hz\nunits: g",

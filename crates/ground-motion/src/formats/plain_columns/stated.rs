@@ -385,7 +385,12 @@ fn unit_of(lower: &str) -> Unit {
             true => entry.value.find([',', ';', '\t']),
             false => None,
         };
-        match value_of(&entry.value[..end.unwrap_or(entry.value.len())]) {
+        let value = &entry.value[..end.unwrap_or(entry.value.len())];
+        // `units: s, g; dt: 0.01` begins with that of the times.
+        if end.is_some() && names::time_unit(value).is_some() {
+            continue;
+        }
+        match value_of(value) {
             Unit::None => {}
             stated => return stated,
         }

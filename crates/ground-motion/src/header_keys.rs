@@ -1,5 +1,7 @@
 //! Keys of header lines in the spellings of those who write them, and what they are of: `Time-step: 0.01 s`, `Samples 300`.
 
+use crate::number;
+
 /// Ends of keys of a time step.
 const STEPS: [&str; 13] = [
     "dt",
@@ -122,6 +124,9 @@ const OF_VALUES: [&str; 14] = [
     "aceleraci\u{f3}n",
 ];
 
+/// Words of keys that speak of the record before it was processed.
+const OF_ANOTHER: [&str; 5] = ["original", "raw", "initial", "former", "native"];
+
 /// What stands under a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Meaning {
@@ -152,7 +157,26 @@ pub(crate) struct Entry<'t> {
     parted: bool,
 }
 
-impl Entry<'_> {
+impl<'t> Entry<'t> {
+    /// The number that the value starts with, with its digits and the word behind it. A comma within it is
+    /// a decimal one unless three digits follow, which may be a group of them.
+    pub(crate) fn number(&self) -> Option<(f64, &'t str, &'t str)> {
+        let (digits, unit) = split_number(self.value);
+        let digit = |text: &str| text.starts_with(|c: char| c.is_ascii_digit());
+        let behind = self.value[digits.len()..].strip_prefix(',');
+        let Some(decimals) = behind.filter(|rest| digit(rest)) else {
+            return Some((number::parse(digits.as_bytes()).ok()?, digits, unit));
+        };
+        let (fraction, unit) = split_number(decimals);
+        let whole = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
+        if fraction.len() == 3 || !whole(fraction) || digits.contains('.') {
+            return None;
+        }
+        let all = &self.value[..digits.len() + 1 + fraction.len()];
+        let value = number::parse(all.replace(',', ".").as_bytes()).ok()?;
+        Some((value, all, unit))
+    }
+
     /// Whether a number stands under the key.
     pub(crate) fn has_number(&self) -> bool {
         self.value
@@ -160,11 +184,31 @@ impl Entry<'_> {
     }
 }
 
+/// Whether the key of an entry is that of a rate of sampling, of this record or of the one before it was
+/// processed.
+pub(crate) fn is_of_rate(entry: &Entry<'_>) -> bool {
+    let plain = entry.key.split(['(', '[']).next().unwrap_or_default();
+    let plain = plain.trim_end().replace(['-', '_'], " ");
+    entry.parted && RATES.iter().any(|key| ends_in(&plain, key))
+}
+
+/// What follows the words of a rate of sampling in a line in lower case, `200, cutoff 80 hz`.
+pub(crate) fn behind_rate(lower: &str) -> Option<&str> {
+    let words = RATES.iter().filter(|key| key.contains(' '));
+    words
+        .filter_map(|key| Some(&lower[lower.find(key)? + key.len()..]))
+        .min_by_key(|rest| rest.len())
+}
+
 /// What stands under the key of an entry, if that is known.
 pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
     let plain = entry.key.split(['(', '[']).next().unwrap_or_default();
     let plain = plain.trim_end().replace(['-', '_'], " ");
     let plain = plain.as_str();
+    // `Original dt` is that of another record.
+    if plain.split(' ').any(|word| OF_ANOTHER.contains(&word)) {
+        return None;
+    }
     let is = |keys: &[&str]| keys.contains(&plain);
     // Behind a blank, a line of words may end in the key.
     let ends = |keys: &[&str]| match entry.parted {
@@ -268,7 +312,7 @@ fn before_a_number(lower: &str) -> Option<Entry<'_>> {
 }
 
 /// A number at the start of a text, and the word behind it.
-pub(crate) fn split_number(text: &str) -> (&str, &str) {
+fn split_number(text: &str) -> (&str, &str) {
     let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
     let mut end = text.find(|c| !number(c)).unwrap_or(text.len());
     // An exponent.

@@ -75,6 +75,82 @@ fn steps_rates_and_units() {
     assert_eq!((series[0].unit, series[0].samples.len()), ("g", 4));
 }
 
+/// Behind a key stands its own number: others on the line are of filters and recorders.
+#[test]
+fn one_of_several_numbers() {
+    for (line, step) in [
+        ("Sampling rate: 200 - anti-alias filter 80 Hz", None),
+        ("Sampling rate: 200 Hz, resampled to 200 Hz", Some(0.005)),
+        ("Sampling rate: 200; 50 Hz notch", Some(0.005)),
+        ("Sampling rate: 200, filter 0.1 to 30 Hz", Some(0.005)),
+        ("Sampling rate (Hz): 200, 50 Hz notch filter", Some(0.005)),
+        (
+            "Sampling rate: 200 Hz (decimated from 1000 Hz)",
+            Some(0.005),
+        ),
+        ("Sampling rate: 200 samples per second", Some(0.005)),
+        ("Sampling rate 200, cutoff 80 Hz", None),
+        ("Sampling rate 200 Hz, cutoff 80 Hz", Some(0.005)),
+        ("Sampling rate: 31,25 Hz", Some(0.032)),
+        ("Sampling rate: 62,5 Hz", Some(0.016)),
+        ("Sampling rate: 1.0E+02 Hz", Some(0.01)),
+        ("Sampling rate: 200 1/s", Some(0.005)),
+        // A thousand, or one.
+        ("Sampling rate: 1,000 Hz", None),
+        ("Sampling rate: 0.1 kHz", None),
+        ("dt [ms]: 5", Some(0.005)),
+        ("Time step: 2,5 ms", Some(0.0025)),
+        ("Original sampling rate: 200 Hz", None),
+        ("Frequency: 50 Hz notch", None),
+        ("Filter: Butterworth, order 4, frequency = 40 Hz", None),
+    ] {
+        let header = format!("{line}\nUnits: g");
+        match step {
+            Some(step) => drop(is_read(&header, step, "g")),
+            None => refused(&header, "does not state its time step"),
+        }
+    }
+    // What else is stated goes before a frequency, which may be that of a filter.
+    for line in [
+        "Frequency: 25 Hz",
+        "Original dt: 0.02 s",
+        "Type: Velocity pulse",
+    ] {
+        assert!(
+            is_read(&format!("{line}\ndt: 0.01 s\nunits: g"), 0.01, "g").is_empty(),
+            "{line}"
+        );
+    }
+    let given = ReadOptions {
+        time_step: Some(0.01),
+        ..ReadOptions::default()
+    };
+    let text = "Frequency: 25 Hz\nunits: g\n0.1\n0.2\n-0.3\n";
+    assert_eq!(
+        read_with(text, &given).unwrap()[0].sampling.median_step(),
+        0.01
+    );
+    assert!(is_read("Duration (D5-95): 0.2 s\ndt: 0.01\nunits: g", 0.01, "g").is_empty());
+}
+
+/// Keys in comments are those of plain columns, whatever names they have.
+#[test]
+fn keys_in_comments() {
+    for header in [
+        "# npts = 40\n# dt = 0.01\n# unit = g",
+        "% dt: 0.01\n% npts: 40\n% units: g",
+        "# NPTS=40, DT=0.01\n# Units: g",
+        "# NPTS: 40, DT: 0.01 s, unit: g\n# acc",
+        "// Units: g\n// NPTS: 40\n// DT: 0.01\n// values",
+    ] {
+        is_read(header, 0.01, "g");
+    }
+    let table =
+        "# NPTS: 4\n# DT: 0.01\n# Time (s) Acc (g)\n0.00 0.1\n0.01 0.2\n0.02 -0.3\n0.03 0.1\n";
+    let series = read_with(table, &ReadOptions::default()).unwrap();
+    assert_eq!((series[0].samples.len(), series[0].unit), (4, "g"));
+}
+
 #[test]
 fn counts() {
     let of = |count: &str| format!("{count}\ndt: 0.01\nunits: g");

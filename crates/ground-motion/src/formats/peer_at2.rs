@@ -11,7 +11,7 @@ use crate::draft::{
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
-use crate::header_keys::{Meaning, keyed, meaning, split_number};
+use crate::header_keys::{Meaning, keyed, meaning};
 use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
 use crate::recording::Series;
@@ -56,9 +56,15 @@ pub(super) static FORMAT: Format = Format {
     read,
 };
 
+/// Whether a line is a comment, which this format has not: other programs write the same keys in them.
+fn is_comment(line: &Line<'_>) -> bool {
+    let start = line.bytes.trim_ascii_start();
+    start.starts_with(b"#") || start.starts_with(b"%") || start.starts_with(b"//")
+}
+
 /// The line that states the count, and the one that states the step: mostly one line.
 fn line_of_counts<'a>(source: &Source<'a>) -> Option<(Line<'a>, usize)> {
-    let lines = || source.lines().take(HEADER_LINES);
+    let lines = || source.lines().take(HEADER_LINES).filter(|l| !is_comment(l));
     let in_one = lines().find(is_counts).map(|line| (line, line.number));
     in_one.or_else(|| {
         let states = |key: &'static str| {
@@ -153,8 +159,7 @@ fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
             .iter()
             .filter(|entry| meaning(entry) == Some(Meaning::Rate))
             .filter_map(|entry| {
-                let (digits, unit) = split_number(entry.value);
-                let rate = number::parse(digits.as_bytes()).ok()?;
+                let (rate, _, unit) = entry.number()?;
                 let hertz = ["", "hz", "sps"].contains(&unit);
                 (rate > 0.0 && hertz).then_some(StatedStep {
                     line: i + 1,
@@ -171,8 +176,7 @@ fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
 fn keys(draft: &mut Draft, header: &Header) {
     for (i, line) in header.text.iter().enumerate() {
         for entry in keyed(&line.to_ascii_lowercase()) {
-            let (digits, unit) = split_number(entry.value);
-            let Ok(value) = number::parse(digits.as_bytes()) else {
+            let Some((value, _, unit)) = entry.number() else {
                 continue;
             };
             match meaning(&entry) {

@@ -5,7 +5,7 @@
 use super::{faults, header, names};
 use crate::draft::{Draft, DraftPeak, NamedQuantity, Printed, StatedDuration, not_applied};
 use crate::error::{GroundMotionError, bound};
-use crate::header_keys::{Meaning, keyed, meaning, split_number, unit_words};
+use crate::header_keys::{self, Meaning, is_of_rate, keyed, meaning, unit_words};
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
 use crate::source::Source;
@@ -47,6 +47,8 @@ pub(super) struct Stated {
     quantities: Vec<At<(Quantity, String)>>,
     /// Factors that are not applied.
     factors: Vec<At<f64>>,
+    /// Step (s) of a frequency that may be the rate of sampling: it counts where nothing else does.
+    frequency: Option<At<f64>>,
 }
 
 impl Stated {
@@ -72,6 +74,12 @@ impl Stated {
                 stated.unit(source, line, &lower)?;
             }
             stated.numbers(line.number, &lower);
+        }
+        if let Some(At { line, value }) = stated.frequency.take()
+            && stated.steps.is_empty()
+            && source.options.time_step.is_none()
+        {
+            stated.state_step(line, value, true);
         }
         Ok(stated)
     }
@@ -133,10 +141,21 @@ impl Stated {
     }
 
     fn numbers(&mut self, line: usize, lower: &str) {
-        for (seconds, _) in number::rates(lower) {
-            self.state_step(line, seconds, true);
+        let entries = keyed(lower);
+        // Behind a key stands its own number first: others are of filters and recorders, unless the record
+        // was brought from one to the other.
+        let changed = lower.contains("decimated to") || lower.contains("resampled to");
+        if changed || !entries.iter().any(is_of_rate) {
+            let own = header_keys::behind_rate(lower).and_then(number::first_in);
+            for (seconds, _) in number::rates(lower) {
+                let is_own = own.is_none_or(|(rate, _)| (seconds * rate - 1.0).abs() < 1.0e-9);
+                if changed || is_own {
+                    self.state_step(line, seconds, true);
+                }
+            }
         }
-        for entry in keyed(lower) {
+        let alone = entries.len() == 1;
+        for entry in entries {
             let Some(meaning) = meaning(&entry) else {
                 continue;
             };
@@ -146,11 +165,11 @@ impl Stated {
                     .extend(value.map(|value| At { line, value }));
                 continue;
             }
-            let (digits, behind) = split_number(entry.value);
-            let Ok(found) = number::parse(digits.as_bytes()) else {
+            let Some((found, digits, behind)) = entry.number() else {
                 continue;
             };
-            let inside = in_brackets(entry.key).map(str::trim);
+            let bracket = entry.key.replace('[', "(").replace(']', ")");
+            let inside = in_brackets(&bracket).map(str::trim);
             let unit = match behind {
                 "" => inside.unwrap_or_default(),
                 unit => unit,
@@ -168,11 +187,22 @@ impl Stated {
                     None if hertz => step(1.0 / found, true),
                     None => {}
                 },
-                Meaning::Rate if hertz && number::rates(lower).is_empty() => {
-                    step(1.0 / found, true);
+                Meaning::Rate => {
+                    let worded = number::rates(&format!("sampling {}", entry.value));
+                    let same = |(seconds, _): &&(f64, f64)| (seconds * found - 1.0).abs() < 1.0e-9;
+                    if hertz || worded.first().filter(same).is_some() {
+                        step(1.0 / found, true);
+                    }
                 }
                 // Else that of a sine, a filter or a building.
-                Meaning::Frequency if hertz && found >= LEAST_RATE => step(1.0 / found, true),
+                Meaning::Frequency => {
+                    let rest = entry.value[digits.len()..].trim();
+                    let bare = rest.is_empty() || rest == behind;
+                    if hertz && alone && bare && found >= LEAST_RATE {
+                        let value = 1.0 / found;
+                        self.frequency = Some(At { line, value });
+                    }
+                }
                 Meaning::Count
                     if found >= 2.0
                         && found.fract() == 0.0
@@ -181,7 +211,10 @@ impl Stated {
                     let value = found as usize;
                     self.counts.push(At { line, value });
                 }
-                Meaning::Duration if found > 0.0 => {
+                // `Duration (5-95 %)` is that of a part.
+                Meaning::Duration
+                    if found > 0.0 && inside.is_none_or(|u| names::time_unit(u).is_some()) =>
+                {
                     let value = seconds.map(|one| found * one);
                     self.durations.extend(value.map(|value| At { line, value }));
                 }
@@ -457,8 +490,14 @@ fn named_quantity(value: &str) -> Option<(Quantity, String)> {
         Quantity::Velocity,
         Quantity::Displacement,
     ];
-    let named = |q: &Quantity| value.starts_with(&q.name()[..3]);
-    let text = value.trim().chars().take(48).collect();
+    // `velocity pulse` is a kind of acceleration.
+    let mut words = value.split_whitespace();
+    let (word, None) = (words.next()?, words.next()) else {
+        return None;
+    };
+    let is_word = word.chars().all(char::is_alphabetic);
+    let named = |q: &Quantity| is_word && word.starts_with(&q.name()[..3]);
+    let text = word.chars().take(48).collect();
     all.into_iter().find(named).map(|quantity| (quantity, text))
 }
 

@@ -177,6 +177,12 @@ impl<'t> Entry<'t> {
         Some((value, all, unit))
     }
 
+    /// The words of the key, without what stands in brackets behind them.
+    fn words(&self) -> String {
+        let before = self.key.split(['(', '[']).next().unwrap_or_default();
+        before.trim_end().replace(['-', '_'], " ")
+    }
+
     /// Whether a number stands under the key.
     pub(crate) fn has_number(&self) -> bool {
         self.value
@@ -187,8 +193,7 @@ impl<'t> Entry<'t> {
 /// Whether the key of an entry is that of a rate of sampling, of this record or of the one before it was
 /// processed.
 pub(crate) fn is_of_rate(entry: &Entry<'_>) -> bool {
-    let plain = entry.key.split(['(', '[']).next().unwrap_or_default();
-    let plain = plain.trim_end().replace(['-', '_'], " ");
+    let plain = entry.words();
     entry.parted && RATES.iter().any(|key| ends_in(&plain, key))
 }
 
@@ -202,8 +207,7 @@ pub(crate) fn behind_rate(lower: &str) -> Option<&str> {
 
 /// What stands under the key of an entry, if that is known.
 pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
-    let plain = entry.key.split(['(', '[']).next().unwrap_or_default();
-    let plain = plain.trim_end().replace(['-', '_'], " ");
+    let plain = entry.words();
     let plain = plain.as_str();
     // `Original dt` is that of another record.
     if plain.split(' ').any(|word| OF_ANOTHER.contains(&word)) {

@@ -40,6 +40,8 @@ pub(crate) struct Peaks {
     at: [f64; 3],
     /// Storey heights of all buildings (m).
     height: Vec<f64>,
+    /// Largest accelerations of a step, with their places, of floors and then of sums of them.
+    largest: Vec<(f64, f64)>,
 }
 
 /// Peaks of a storey with a law, or of a level of a link.
@@ -68,6 +70,7 @@ impl Peaks {
             acceleration: std::array::from_fn(|_| vec![0.0; layout.dofs]),
             at: [f64::NAN; 3],
             height: buildings.iter().flat_map(|b| b.height()).copied().collect(),
+            largest: Vec::new(),
         }
     }
 

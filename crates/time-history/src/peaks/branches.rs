@@ -67,18 +67,32 @@ impl Peaks {
     ) {
         let floors = self.storeys.len();
         let count = floors + context.dynamics.system.acceleration_rows().len();
-        let mut best = vec![(0.0, f64::NEG_INFINITY); count];
+        let mut best = std::mem::take(&mut self.largest);
+        best.clear();
+        best.resize(count, (0.0, f64::NEG_INFINITY));
+        self.look_between_branches(context, method, place, &mut best);
+        self.largest = best;
+    }
+
+    fn look_between_branches(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        place: (f64, f64),
+        best: &mut [(f64, f64)],
+    ) {
+        let floors = self.storeys.len();
         for theta in [0.0, 1.0, 0.5] {
-            self.raise_all(context, method, (theta, place), &mut best);
+            self.raise_all(context, method, (theta, place), best);
         }
-        if self.nearly(context, FAR, &best).is_empty() {
+        if self.nearly(context, FAR, best).is_empty() {
             return;
         }
         for k in 1..PARTS {
             let theta = k as f64 / PARTS as f64;
-            self.raise_all(context, method, (theta, place), &mut best);
+            self.raise_all(context, method, (theta, place), best);
         }
-        for index in self.nearly(context, NEARLY, &best) {
+        for index in self.nearly(context, NEARLY, best) {
             let (theta, top) = around(best[index], |theta| {
                 self.acceleration_at(context, method, (index, theta), place)
             });

@@ -1,137 +1,22 @@
 //! Keys of header lines in the spellings of those who write them, and what they are of: `Time-step: 0.01 s`, `Samples 300`.
 
 use crate::number;
+use crate::text::in_brackets;
 
-/// Ends of keys of a time step.
-const STEPS: [&str; 13] = [
-    "dt",
-    "delta t",
-    "deltat",
-    "\u{3b4}t",
-    "time step",
-    "timestep",
-    "time interval",
-    "sampling interval",
-    "sample interval",
-    "sampling period",
-    "sampling step",
-    "sampling time",
-    "sample period",
-];
-/// Ends of keys of a rate.
-const RATES: [&str; 8] = [
-    "fs",
-    "sampling rate",
-    "sample rate",
-    "sampling frequency",
-    "sampling freq",
-    "sample frequency",
-    "samples per second",
-    "sps",
-];
-/// Keys of a count.
-const COUNTS: [&str; 11] = [
-    "npts",
-    "count",
-    "ndata",
-    "nsamples",
-    "npoints",
-    "samples",
-    "points",
-    "values",
-    "data",
-    "data points",
-    "sample count",
-];
-/// Words between `number` and what is counted.
-const OF_ALL: [&str; 7] = ["of", "the", "data", "total", "acceleration", "acc", "accel"];
-/// Keys of a rate, unless it is of something slow.
-const FREQUENCIES: [&str; 3] = ["frequency", "freq", "frecuencia"];
-/// Keys of a length of the record.
-const DURATIONS: [&str; 6] = [
-    "duration",
-    "total duration",
-    "record duration",
-    "duration of record",
-    "record length",
-    "length of record",
-];
-/// Keys of a largest acceleration.
-const PEAKS: [&str; 10] = [
-    "pga",
-    "peak acceleration",
-    "peak acc",
-    "peak accel",
-    "peak ground acceleration",
-    "max acceleration",
-    "max acc",
-    "maximum acceleration",
-    "maximum acc",
-    "peak value",
-];
-/// Keys of what the values are.
-const QUANTITIES: [&str; 7] = [
-    "type",
-    "data type",
-    "quantity",
-    "record type",
-    "series type",
-    "signal type",
-    "kind",
-];
-/// Keys of a factor of the values.
-const FACTORS: [&str; 11] = [
-    "scale",
-    "scale factor",
-    "scaling",
-    "scaling factor",
-    "factor",
-    "multiplier",
-    "multiply by",
-    "conversion factor",
-    "calibration factor",
-    "amplitude factor",
-    "gain",
-];
-/// Keys of a unit.
-const UNITS: [&str; 10] = [
-    "unit",
-    "units",
-    "unidad",
-    "unidades",
-    "einheit",
-    "einheiten",
-    "unita",
-    "unit\u{e0}",
-    "unit\u{e9}",
-    "unit\u{e9}s",
-];
-/// Words beside a key of the unit of the values.
-const OF_VALUES: [&str; 14] = [
-    "data",
-    "value",
-    "values",
-    "y",
-    "axis",
-    "ordinate",
-    "amplitude",
-    "amplitudes",
-    "of",
-    "de",
-    "the",
-    "measure",
-    "medida",
-    "aceleraci\u{f3}n",
-];
+mod words;
 
-/// Words of keys that speak of the record before it was processed.
-const OF_ANOTHER: [&str; 5] = ["original", "raw", "initial", "former", "native"];
+use words::{
+    COUNTS, DURATIONS, FACTORS, FREQUENCIES, LAST_UNITS, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS,
+    QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS,
+};
 
 /// What stands under a key.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Meaning {
     /// A time step, or a rate by its unit.
     Step,
+    /// A time step where its unit is one of time.
+    StepByUnit,
     /// A rate of sampling.
     Rate,
     /// A rate of sampling, or of something else.
@@ -153,7 +38,7 @@ pub(crate) enum Meaning {
 pub(crate) struct Entry<'t> {
     pub key: &'t str,
     pub value: &'t str,
-    /// Whether a colon or a sign of equality parts them; else a blank does.
+    /// Whether a colon, a sign of equality or a separator of columns parts them; else a blank does.
     parted: bool,
 }
 
@@ -163,8 +48,17 @@ impl<'t> Entry<'t> {
     pub(crate) fn number(&self) -> Option<(f64, &'t str, &'t str)> {
         let (digits, unit) = split_number(self.value);
         let digit = |text: &str| text.starts_with(|c: char| c.is_ascii_digit());
-        let behind = self.value[digits.len()..].strip_prefix(',');
-        let Some(decimals) = behind.filter(|rest| digit(rest)) else {
+        let behind = &self.value[digits.len()..];
+        if let Some(rest) = behind.strip_prefix('/').filter(|rest| digit(rest)) {
+            // `1/100 s`; two strokes are those of a date.
+            let (divisor, unit) = split_number(rest);
+            let all = &self.value[..digits.len() + 1 + divisor.len()];
+            let quotient =
+                number::parse(digits.as_bytes()).ok()? / number::parse(divisor.as_bytes()).ok()?;
+            let is_date = self.value[all.len()..].starts_with('/');
+            return (!is_date).then_some((quotient, all, unit));
+        }
+        let Some(decimals) = behind.strip_prefix(',').filter(|rest| digit(rest)) else {
             return Some((number::parse(digits.as_bytes()).ok()?, digits, unit));
         };
         let (fraction, unit) = split_number(decimals);
@@ -177,10 +71,27 @@ impl<'t> Entry<'t> {
         Some((value, all, unit))
     }
 
-    /// The words of the key, without what stands in brackets behind them.
+    /// The words of the key, without the unit of its value.
     fn words(&self) -> String {
         let before = self.key.split(['(', '[']).next().unwrap_or_default();
-        before.trim_end().replace(['-', '_'], " ")
+        let before = before.trim_matches(['"', '\'', ' ']);
+        let plain = before.replace(['-', '_'], " ").replace('\u{2019}', "'");
+        match last_unit(&plain) {
+            Some(unit) => plain[..plain.len() - unit.len()]
+                .trim_end_matches([' ', ',', '/'])
+                .to_owned(),
+            None => plain,
+        }
+    }
+
+    /// The unit of the value that the key has in brackets or as its last word: `dt (s)`, `timestep_s`.
+    pub(crate) fn unit_of_key(&self) -> Option<String> {
+        let bracket = self.key.replace('[', "(").replace(']', ")");
+        if let Some(inside) = in_brackets(&bracket) {
+            return Some(inside.trim().to_owned());
+        }
+        let plain = self.key.replace(['-', '_'], " ");
+        last_unit(&plain).map(str::to_owned)
     }
 
     /// Whether a number stands under the key.
@@ -221,6 +132,8 @@ pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
     };
     Some(if ends(&STEPS) {
         Meaning::Step
+    } else if entry.parted && is(&STEPS_BY_UNIT) {
+        Meaning::StepByUnit
     } else if ends(&RATES) {
         Meaning::Rate
     } else if is(&FREQUENCIES) {
@@ -257,19 +170,21 @@ pub(crate) fn unit_words(key: &str) -> bool {
 }
 
 /// The keys of a line in lower case with what stands behind their colon or sign of equality; where
-/// it has none, the words before a number at its end.
+/// it has none, the words before its numbers, or the first of two cells.
 pub(crate) fn keyed(lower: &str) -> Vec<Entry<'_>> {
     let mut found = Vec::new();
     if !lower.contains([':', '=']) {
-        found.extend(before_a_number(lower));
+        found.extend(cell_pair(lower));
+        if found.is_empty() {
+            found = before_numbers(lower);
+        }
         return found;
     }
     let mut from = 0;
     for (at, _) in lower.match_indices([':', '=']) {
         let key = lower[from..at].trim();
         // The key is what follows the last separator or number.
-        let start = key.rfind([',', ';', '\t']).map_or(0, |n| n + 1);
-        let key = behind_value(&key[start..]);
+        let key = behind_value(&key[start_of_key(key)..]);
         let key = key.trim_start_matches(|c: char| !c.is_alphanumeric());
         found.push(Entry {
             key,
@@ -279,6 +194,33 @@ pub(crate) fn keyed(lower: &str) -> Vec<Entry<'_>> {
         from = at + 1;
     }
     found
+}
+
+/// Where the key starts that ends a text: behind the last separator, unless its unit alone follows that, as
+/// in `time step, s`.
+fn start_of_key(text: &str) -> usize {
+    let last = text.rfind(SEPARATORS);
+    let unit = last.filter(|at| LAST_UNITS.contains(&text[at + 1..].trim()));
+    let last = unit.map_or(last, |at| text[..at].rfind(SEPARATORS));
+    last.map_or(0, |at| at + 1)
+}
+
+/// What stands between keys on a line, and between cells.
+const SEPARATORS: [char; 4] = [',', ';', '\t', '|'];
+
+/// A key with its value as two cells of a table: `dt,0.01`, `units;g`.
+fn cell_pair(lower: &str) -> Option<Entry<'_>> {
+    let bare = lower.trim_start_matches(|c: char| !c.is_alphanumeric());
+    let separator = SEPARATORS.into_iter().find(|s| bare.contains(*s))?;
+    let mut cells = bare.split(separator).map(str::trim);
+    let entry = Entry {
+        key: cells.next()?,
+        value: cells.next()?.trim_matches(['"', '\'']),
+        parted: true,
+    };
+    // Cells that are blank may close the line.
+    let alone = cells.all(str::is_empty);
+    (alone && !entry.key.is_empty() && !entry.value.is_empty()).then_some(entry)
 }
 
 /// The key behind the value of the one before it, where blanks alone part them: `duration` of `.005
@@ -297,22 +239,35 @@ fn behind_value(text: &str) -> &str {
     }
 }
 
-/// Words with the number, and at most its unit, that end a line: `samples 300`, `dt 0.01 s`.
-fn before_a_number(lower: &str) -> Option<Entry<'_>> {
+/// Words with the number, and at most its unit, that end a line: `samples 300`, `dt 0.01 s`; or several
+/// words with their numbers, `dt 0.01 npts 500`.
+fn before_numbers(lower: &str) -> Vec<Entry<'_>> {
     let bare = lower
         .trim_start_matches(|c: char| !c.is_alphanumeric())
         .trim();
     let starts =
         |rest: &str| rest.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'));
-    let mut blanks = bare.match_indices([' ', '\t']);
-    let (at, _) = blanks.find(|(at, _)| starts(&bare[at + 1..]))?;
-    let (key, value) = (bare[..at].trim_end(), bare[at..].trim_start());
-    let words = |c: char| c.is_alphabetic() || " _-()[]./".contains(c);
-    (key.chars().all(words) && value.split_whitespace().count() <= 2).then_some(Entry {
+    let entry = |key, value| Entry {
         key,
         value,
         parted: false,
-    })
+    };
+    let words: Vec<&str> = bare.split_whitespace().collect();
+    let pair = |two: &[&str]| starts(two[1]) && two[0].starts_with(char::is_alphabetic);
+    if words.len() >= 4 && words.len() % 2 == 0 && words.chunks_exact(2).all(pair) {
+        return words
+            .chunks_exact(2)
+            .map(|two| entry(two[0], two[1]))
+            .collect();
+    }
+    let mut blanks = bare.match_indices([' ', '\t']);
+    let Some((at, _)) = blanks.find(|(at, _)| starts(&bare[at + 1..])) else {
+        return Vec::new();
+    };
+    let (key, value) = (bare[..at].trim_end(), bare[at..].trim_start());
+    let in_key = |c: char| c.is_alphabetic() || " _-()[]./".contains(c);
+    let is_one = key.chars().all(in_key) && value.split_whitespace().count() <= 2;
+    is_one.then(|| entry(key, value)).into_iter().collect()
 }
 
 /// A number at the start of a text, and the word behind it.
@@ -332,10 +287,20 @@ fn split_number(text: &str) -> (&str, &str) {
         .split([' ', '\t', ',', ';', ')', ']'])
         .next()
         .unwrap_or_default();
-    (
-        text[..end].trim_end_matches('.'),
-        word.trim_end_matches('.'),
-    )
+    // The key that follows is no unit.
+    let word = match word.contains([':', '='])
+        || behind[word.len()..].trim_start().starts_with(['=', ':'])
+    {
+        true => "",
+        false => word.trim_end_matches('.'),
+    };
+    (text[..end].trim_end_matches('.'), word)
+}
+
+/// The last word of a key, if that is the unit of its value and not the key itself.
+fn last_unit(plain: &str) -> Option<&str> {
+    let (_, last) = plain.rsplit_once([' ', ','])?;
+    LAST_UNITS.contains(&last).then_some(last)
 }
 
 /// Whether a key is that of the count of all values: `npts`, `number of data points`.

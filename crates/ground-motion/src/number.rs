@@ -259,7 +259,9 @@ pub(crate) enum Bare {
 /// Another word, or a decimal comma.
 pub(crate) fn step_or_rate(text: &str, bare: Bare) -> Result<Option<f64>, String> {
     let text = text.trim_start();
-    let end = text.find([' ', ',', '\t', '(']).unwrap_or(text.len());
+    let end = text
+        .find([' ', ',', ';', '|', '\t', '('])
+        .unwrap_or(text.len());
     let (first, behind) = text.split_at(end);
     let digit_follows = behind
         .strip_prefix(',')

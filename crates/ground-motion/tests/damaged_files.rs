@@ -462,12 +462,19 @@ fn files_that_are_no_text() {
     for (start, words, remedy) in [
         (&b"\x1f\x8b\x08\x00abc"[..], "compressed by gzip", "unpack"),
         (b"PK\x03\x04abc", "zip archive", "unpack"),
+        (b"MS\x03\x04abc", "miniSEED 3", "miniSEED 2"),
         (b"\xff\xfe0\x00.\x001\x00\n\x00", "UTF-16", "UTF-8"),
     ] {
         let error = read_all_bytes("f", start, &ReadOptions::default()).unwrap_err();
         let shown = format!("{error}; {}", error.help().unwrap());
         assert!(shown.contains(words) && shown.contains(remedy), "{shown}");
     }
+    let row = format!(
+        "{:15.7}{:15.3}{:15.3}{:15.2}{:15.2}\n",
+        0.01, -1.0, 1.0, -12345.0, -12345.0
+    );
+    let error = read(&row.repeat(14), &ReadOptions::default()).unwrap_err();
+    assert!(error.to_string().contains("alphanumeric SAC"), "{error}");
 }
 
 /// Row numbers that pass for times of 1 s, beside the step that the user gives.

@@ -75,6 +75,121 @@ fn steps_rates_and_units() {
     assert_eq!((series[0].unit, series[0].samples.len()), ("g", 4));
 }
 
+/// Keys of steps and rates in the languages of the agencies and the spellings of programs, commented or not.
+#[test]
+fn steps_in_many_spellings() {
+    for line in [
+        "Paso de tiempo: 0.01 s",
+        "Frecuencia de muestreo: 100 Hz",
+        "Intervalo de tempo: 0.01 s",
+        "Zeitschritt (s): 0,01",
+        "Abtastrate: 100 Hz",
+        "Passo temporale: 0.01 s",
+        "Intervallo di campionamento: 0.01",
+        "Pas de temps: 0.01 s",
+        "Fr\u{e9}quence d'\u{e9}chantillonnage: 100 Hz",
+        "\u{d6}rnekleme aral\u{131}\u{11f}\u{131}: 0.01 s",
+        "dt,0.01",
+        "time step;0.01",
+        "sampling_rate_hz,100",
+        "timestep_s: 0.01",
+        "Time step, s: 0.01",
+        "DT(s)=0.01",
+        "delta_t: 0.01",
+        "Interval: 0.01 s",
+        "Delta: 0.01 sec",
+        "Rate = 100 Hz",
+        "Sampling rate: 100 Hertz",
+        "Sampling interval: 1/100 s",
+        "SamplingRate=100",
+        "Samples/s: 100",
+    ] {
+        is_read(&format!("# {line}\n# Units: g"), 0.01, "g");
+        is_read(&format!("A title\n{line}\nUnits: g"), 0.01, "g");
+    }
+    // Of a window, of a distance, of a day.
+    for line in [
+        "Interval: 30 s",
+        "Delta: 0.35",
+        "samples: 2020/01/05",
+        "Rate = 4 Hz",
+    ] {
+        refused(
+            &format!("# {line}\n# Units: g"),
+            "does not state its time step",
+        );
+    }
+}
+
+#[test]
+fn units_in_many_spellings() {
+    for (line, unit) in [
+        ("Units: \"g\"", "g"),
+        ("Units: g (9.81 m/s2)", "g"),
+        ("Unit: 1 g", "g"),
+        ("Units\tg", "g"),
+        ("units,g", "g"),
+        ("Units of g", "g"),
+        ("Units: fraction of g", "g"),
+        ("Units: milli-g", "mg"),
+        ("Accelerations are in g", "g"),
+        ("Acceleration time history in g", "g"),
+        ("Units: cm/s2 (gal)", "cm/s2"),
+        ("\u{130}vme (cm/sn2)", "cm/s2"),
+        ("Aceleraci\u{f3}n (cm/s2)", "cm/s2"),
+        ("Units: centimeters per second squared", "cm/s2"),
+        ("Units: metres per second per second", "m/s2"),
+    ] {
+        is_read(&format!("# dt = 0.01 s\n# {line}"), 0.01, unit);
+        is_read(&format!("A title\ndt = 0.01 s\n{line}"), 0.01, unit);
+    }
+    // Two units, and one that is that of a peak.
+    refused("# dt = 0.01\n# Units: g (cm/s2)", "is not used");
+    refused(
+        "# dt = 0.01\n# Peak acceleration is in g",
+        "does not state the unit",
+    );
+}
+
+/// NPTS and DT before text lines, names of columns or other keys are no header of AT2.
+#[test]
+fn keys_of_at2_before_plain_columns() {
+    for header in [
+        "dt = 0.01; npts = 40; units = g",
+        "dt=0.01 npts=40 units=g",
+        "# dt=0.01 npts=40 units=g",
+        "NPTS= 40 , DT= .0100 SEC, units g",
+        "dt: 0.01 s | unit: g | npts: 40",
+        "# dt: 0.01 s | unit: g | npts: 40",
+        "NPTS= 40, DT= .01 SEC\n# data in g",
+        "NPTS 40\nDT 0.01\nUnits g\nAcceleration",
+        "UNITS OF G (PGA 0.3)\nNPTS= 40, DT= .01 SEC",
+        "UNITS OF G (FREQUENCY 100 HZ)\nNPTS= 40, DT= .01 SEC",
+        "dt 0.01 npts 40\nUnits: g",
+        "npts,40\ndt,0.01\nunit,g",
+        "Origin Time: 2020/01/01 12:00:00\nSampling rate: 100 Hz\nUnits: g",
+    ] {
+        is_read(header, 0.01, "g");
+    }
+    let rows: String = (0..40)
+        .map(|i| {
+            format!(
+                "{:.2} {:.4}\n",
+                0.01 * f64::from(i),
+                0.3 * (0.5 * f64::from(i)).sin()
+            )
+        })
+        .collect();
+    let text = format!("NPTS: 40\nDT: 0.01\nTime (s) Acc (g)\n{rows}");
+    let series = read_with(&text, &ReadOptions::default()).unwrap();
+    assert_eq!((series[0].unit, series[0].samples.len()), ("g", 40));
+    let short = text.replace("NPTS: 40", "NPTS: 41");
+    let said = read_with(&short, &ReadOptions::default())
+        .unwrap_err()
+        .to_string();
+    assert!(said.contains("41"), "{said}");
+}
+
 /// Behind a key stands its own number: others on the line are of filters and recorders.
 #[test]
 fn one_of_several_numbers() {
@@ -97,7 +212,7 @@ fn one_of_several_numbers() {
         ("Sampling rate: 200 1/s", Some(0.005)),
         // A thousand, or one.
         ("Sampling rate: 1,000 Hz", None),
-        ("Sampling rate: 0.1 kHz", None),
+        ("Sampling rate: 0.1 kHz", Some(0.01)),
         ("dt [ms]: 5", Some(0.005)),
         ("Time step: 2,5 ms", Some(0.0025)),
         ("Original sampling rate: 200 Hz", None),

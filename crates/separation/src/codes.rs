@@ -562,7 +562,7 @@ static ALL: &[&CodeDescriptor] = &[
         "iran_2800",
         "iran_2800",
         by_owner(
-            Listed::of(&[&iran_2800::BETWEEN]),
+            Listed::of(&[&iran_2800::BETWEEN_BY_HEIGHT, &iran_2800::BETWEEN]),
             Listed::of(&[
                 &iran_2800::BOUNDARY_BY_HEIGHT,
                 &iran_2800::BOUNDARY_BY_ANALYSIS

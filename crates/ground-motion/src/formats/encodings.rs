@@ -9,7 +9,12 @@ const SAVE: &str = "save it as UTF-8";
 /// Refuses what is packed or text in other characters than bytes, and says what it is.
 pub(super) fn is_plain_text(file: &str, start: &[u8]) -> Result<(), GroundMotionError> {
     // Longer marks go before those that they start with.
-    let starts: [(&[u8], &str, &'static str); 6] = [
+    let starts: [(&[u8], &str, &'static str); 7] = [
+        (
+            b"MS\x03",
+            "the file is miniSEED 3, of which records of version 2 alone are read",
+            "convert it to miniSEED 2, or to SAC or text, by the tools of whoever gives it out",
+        ),
         (
             b"\x1f\x8b",
             "the file is compressed by gzip",
@@ -57,6 +62,26 @@ fn of_wide_characters(start: &[u8]) -> Option<&'static str> {
         [0] | [3] => Some("the text is UTF-32"),
         _ => None,
     }
+}
+
+/// Refuses an alphanumeric SAC file: fourteen lines of five numbers of 15
+/// characters, of which those that nobody knows are -12345.
+pub(super) fn is_no_alphanumeric_sac(file: &str, start: &[u8]) -> Result<(), GroundMotionError> {
+    const UNDEFINED: &[u8] = b"-12345.0";
+    let mut lines = start.split(|b| *b == b'\n').map(<[u8]>::trim_ascii_end);
+    let rows: Vec<&[u8]> = lines.by_ref().take(14).collect();
+    let is_row = |row: &&[u8]| row.len() == 75 && row.is_ascii();
+    let undefined = rows
+        .iter()
+        .filter(|row| row.windows(UNDEFINED.len()).any(|w| w == UNDEFINED));
+    if rows.len() < 14 || !rows.iter().all(is_row) || undefined.count() < 7 {
+        return Ok(());
+    }
+    Err(unsupported(
+        file,
+        "the file is an alphanumeric SAC file, of which the binary ones alone are read",
+        "write it as binary SAC, `convert from alpha FILE to sac FILE` in SAC, or give its values as plain columns",
+    ))
 }
 
 /// Refuses a file of no known format whose numbers have a dash for the minus, as word processors write it.

@@ -49,7 +49,10 @@ pub(super) static FORMAT: Format = Format {
 };
 
 fn matches(source: &Source<'_>) -> bool {
-    source.first_line().starts_with("origin time")
+    // Headers of others have a colon behind the key.
+    let first = source.first_line();
+    let behind = first.strip_prefix("origin time").map(str::trim_start);
+    behind.is_some_and(|rest| !rest.starts_with([':', '=']))
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {

@@ -340,6 +340,7 @@ fn format_of(
     let format = options.format.or_else(detected);
     if !format.is_some_and(is_binary) {
         encodings::is_plain_text(file, start)?;
+        encodings::is_no_alphanumeric_sac(file, start)?;
     }
     if format.is_none() {
         encodings::has_hyphens(file, start)?;

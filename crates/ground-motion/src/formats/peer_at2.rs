@@ -77,8 +77,43 @@ fn line_of_counts<'a>(source: &Source<'a>) -> Option<(Line<'a>, usize)> {
     })
 }
 
+/// Rows behind the header that show whether they are values alone.
+const ROWS: usize = 30;
+
+/// Whether values follow the line of the counts, alone: behind words that name columns, and in pairs of times
+/// and values, rows are plain columns whose header has the keys of this format.
+fn has_values_alone(source: &Source<'_>, (line, last): (Line<'_>, usize)) -> bool {
+    // The keys of this format stand the other way round, or have signs of equality.
+    let lower = line.lower();
+    if lower.starts_with("dt ") && !lower.contains(['=', ':']) {
+        return false;
+    }
+    let behind = source.lines().skip_while(|l| l.number <= last);
+    let mut rows = behind
+        .skip_while(|l| l.is_text() && is_key(l))
+        .filter(|l| !l.is_blank())
+        .take(ROWS)
+        .peekable();
+    let names = rows.peek().is_some_and(|l| {
+        let first = l.fields().next().map_or(&b""[..], |(_, field)| field);
+        let starts = |b: &u8| b.is_ascii_digit() || b"+-.*".contains(b);
+        let is_end = l.lower().contains("end data");
+        l.is_text() && !is_end && !first.first().is_some_and(starts) || is_comment(l)
+    });
+    let pairs: Option<Vec<f64>> = rows
+        .map(|l| {
+            let mut fields = l.fields().map(|(_, field)| number::parse(field).ok());
+            let pair = [fields.next()??, fields.next()??];
+            fields.next().is_none().then_some(pair)
+        })
+        .collect::<Option<Vec<_>>>()
+        .map(|pairs| pairs.concat());
+    !names && !pairs.is_some_and(|numbers| mostly_times(&numbers, 2))
+}
+
 fn matches(source: &Source<'_>) -> bool {
-    line_of_counts(source).is_some() || source.lines().take(FREE_LINES).any(|l| is_spaced(&l))
+    line_of_counts(source).is_some_and(|found| has_values_alone(source, found))
+        || source.lines().take(FREE_LINES).any(|l| is_spaced(&l))
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
@@ -267,7 +302,15 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     }
     let mut counts = Vec::new();
     let mut steps = Vec::new();
-    let others = source.lines().take_while(|l| l.number <= last);
+    // The title of a file that this program wrote is a name, whatever keys stand in it.
+    let own = source.first_line();
+    let is_own = [RAW, OTHER]
+        .iter()
+        .any(|first| own == first.to_ascii_lowercase());
+    let others = source
+        .lines()
+        .take_while(|l| l.number <= last)
+        .filter(|l| !is_own || l.number != 2);
     // The line of the count goes before the others.
     for stated in std::iter::once(line).chain(others.filter(|l| l.number != line.number)) {
         let (more, times) = statements(source, stated)?;
@@ -433,18 +476,23 @@ const OF_VALUES: [&str; 2] = ["time series", "time history"];
 type UnitAndRest<'t> = (SeriesUnit, &'t str);
 
 /// The unit that a text in lower case states: `in units of g`, `the units are (g)`,
-/// `units of cm / sec / sec`.
+/// `units of cm / sec / sec`, `unit: g`, `units g`.
 fn unit_in(lower: &str) -> Option<UnitAndRest<'_>> {
-    lower.split("units").skip(1).find_map(|after| {
-        let after = after.trim_start();
-        let word = after
+    lower.split("unit").skip(1).find_map(|after| {
+        let after = after.strip_prefix('s').unwrap_or(after);
+        let bare = after.trim_start();
+        let word = bare
             .strip_prefix("of")
-            .or_else(|| after.strip_prefix("are"))
-            .or_else(|| after.strip_prefix([':', '=']))?;
+            .or_else(|| bare.strip_prefix("are"))
+            .or_else(|| bare.strip_prefix([':', '=']))
+            .or_else(|| after.starts_with([' ', '\t']).then_some(bare))?;
         let word = word.trim_start_matches([' ', '(', ':', '=', '\n']);
         let word = word.split('\n').next().unwrap_or(word);
         // Blanks may stand within it.
-        let ends = [&[',', ')', ';', '\t'][..], &[' ', ',', ')', ';', '\t']];
+        let ends = [
+            &[',', ')', ';', '\t', '|'][..],
+            &[' ', ',', ')', ';', '\t', '|'],
+        ];
         ends.into_iter().find_map(|ends| {
             let unit = &word[..word.find(ends).unwrap_or(word.len())];
             let unit = unit.trim_end_matches('.');
@@ -453,6 +501,8 @@ fn unit_in(lower: &str) -> Option<UnitAndRest<'_>> {
     })
 }
 
+/// First words in brackets behind a unit that a number of something else follows: `G (PGA 0.3)`.
+const KEYS_BEHIND_UNIT: [&str; 7] = ["dt", "frequency", "npts", "pga", "rate", "sampling", "sps"];
 /// First words that speak of something else where they follow a unit.
 const BEHIND_UNIT: [&str; 21] = [
     "acceleration",
@@ -499,7 +549,7 @@ const OF_UNIT: [&str; 9] = [
 fn is_of_something_else(unit: SeriesUnit, rest: &str) -> bool {
     let blanks = [' ', '\t', ')', '-'];
     let direct = rest.trim_start_matches(blanks);
-    let text = direct.trim_start_matches(['.', ',', ';', ':', ' ', '\t']);
+    let text = direct.trim_start_matches(['.', ',', ';', ':', '|', ' ', '\t']);
     if text.is_empty() {
         return true;
     }
@@ -509,9 +559,11 @@ fn is_of_something_else(unit: SeriesUnit, rest: &str) -> bool {
             && inside
                 .chars()
                 .all(|c| c.is_ascii_alphabetic() || " ,-".contains(c));
+        let word = inside.split(|c: char| !c.is_ascii_alphabetic()).next();
+        let is_key = word.is_some_and(|word| KEYS_BEHIND_UNIT.contains(&word));
         let known = match SeriesUnit::parse(inside) {
             Some(other) => other == unit,
-            None => in_words || Layout::find(text).is_some(),
+            None => in_words || is_key || Layout::find(text).is_some(),
         };
         return known && is_of_something_else(unit, behind);
     }

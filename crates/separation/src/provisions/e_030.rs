@@ -93,6 +93,7 @@ static E_030_2026: Edition = Edition {
 };
 
 const UNREDUCED: &str = "u is the unreduced displacement; the code takes 0.75 R or 0.85 R of the reduced one (Art. 31).";
+const UNREDUCED_2026: &str = "u is the unreduced displacement; the edition of 2018 takes 0.75 R or 0.85 R of the reduced one (its Art. 31), that of 2026 was not seen on it.";
 
 pub(crate) static BOUNDARY_2018: ProvisionDescriptor = ProvisionDescriptor {
     name: "e_030_2018_boundary",
@@ -160,7 +161,7 @@ pub(crate) static BOUNDARY_2026: ProvisionDescriptor = ProvisionDescriptor {
     inputs: &[Input::Displacement, Input::DesignGroundAcceleration],
     status: OF_2026,
     remarks: &[
-        UNREDUCED,
+        UNREDUCED_2026,
         "s / 2 holds beside a neighbour that has its joint; beside another see 52.4.",
     ],
     worked: "max(2 / 3 * 80, max(0.02 * 0.25 * 18000, 30) / 2)",
@@ -172,6 +173,7 @@ pub(crate) static BETWEEN_2026: ProvisionDescriptor = ProvisionDescriptor {
     name: "e_030_2026_between",
     edition: &E_030_2026,
     clause: "52",
+    remarks: &[UNREDUCED_2026],
     status: OF_2026,
     ..BETWEEN_2018
 };

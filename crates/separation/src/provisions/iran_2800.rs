@@ -11,22 +11,40 @@ use crate::working::{Working, root};
 /// Importance factor from which a building is of high importance.
 const HIGH_IMPORTANCE: f64 = 1.2;
 
+/// Refuses a building for which the width by its height does not do; `rule` is the one that asks for an
+/// analysis.
+fn needs_no_analysis(
+    working: &Working,
+    structure: &Structure,
+    rule: &str,
+) -> Result<(), SeparationError> {
+    if structure.storeys > 8 {
+        let reason = format!("above 8 storeys it asks for an analysis: see {rule}");
+        return Err(working.not_applicable(reason));
+    }
+    if let Some(factor) = structure.importance.filter(|i| *i >= HIGH_IMPORTANCE) {
+        let reason = format!(
+            "a building of high or very high importance (I = {factor}, from {HIGH_IMPORTANCE} on) needs an analysis: see {rule}"
+        );
+        return Err(working.not_applicable(reason));
+    }
+    Ok(())
+}
+
 fn by_height(
     working: &mut Working,
     structure: &Structure,
     _: &Site,
 ) -> Result<f64, SeparationError> {
-    if structure.storeys > 8 {
-        let reason = "above 8 storeys it asks for an analysis: see iran_2800_boundary_by_analysis";
-        return Err(working.not_applicable(reason));
-    }
-    if let Some(factor) = structure.importance.filter(|i| *i >= HIGH_IMPORTANCE) {
-        let reason = format!(
-            "a building of high or very high importance (I = {factor}, from {HIGH_IMPORTANCE} on) needs an analysis: see iran_2800_boundary_by_analysis"
-        );
-        return Err(working.not_applicable(reason));
-    }
+    needs_no_analysis(working, structure, BOUNDARY_BY_ANALYSIS.name)?;
     Ok(0.005 * working.elevation(structure))
+}
+
+fn between_by_height(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
+    for structure in [&situation.left, &situation.right] {
+        needs_no_analysis(working, structure, BETWEEN.name)?;
+    }
+    Ok(0.01 * working.common_elevation(situation))
 }
 
 fn by_analysis(
@@ -104,13 +122,29 @@ pub(crate) static BOUNDARY_BY_ANALYSIS: ProvisionDescriptor = ProvisionDescripto
     ..BOUNDARY_BY_HEIGHT
 };
 
+pub(crate) static BETWEEN_BY_HEIGHT: ProvisionDescriptor = ProvisionDescriptor {
+    name: "iran_2800_between_by_height",
+    formula: "0.01 h",
+    remarks: &[
+        "Buildings of high or very high importance need the analysis: this width holds for others only, which `importance` below 1.2 says.",
+    ],
+    rule: Rule::Between(between_by_height),
+    worked: "0.01 * 18000",
+    ground: Ground::NotAsked,
+    ..BOUNDARY_BY_HEIGHT
+};
+
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "iran_2800_between",
     basis: Basis::Displacement,
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
     status: Status::Unverified("SRSS"),
-    remarks: &["Beside an unknown neighbour a rule of 70 % holds, which is not here."],
+    remarks: &[
+        "Above 8 storeys, and for buildings of high or very high importance (1.2 and more).",
+        "Nonlinear displacement with P-delta, which u has to include.",
+        "Beside an unknown neighbour a rule of 70 % holds, which is not here.",
+    ],
     rule: Rule::Between(between),
     worked: "sqrt(pow(80, 2) + pow(60, 2))",
     height: HeightDatum::NotUsed,
@@ -153,7 +187,7 @@ mod tests {
         }
     }
 
-    /// 18 m: 90 mm on either side, 180 mm between in Tehran; 80 and 60 mm: 100 mm.
+    /// 18 m: 90 mm on either side, 180 mm between, in Tehran too; 80 and 60 mm: 100 mm.
     #[test]
     fn by_hand() {
         let s = situation(6, 18.0);
@@ -161,6 +195,7 @@ mod tests {
         assert!((own(&BOUNDARY_BY_HEIGHT) - 0.09).abs() < 1.0e-12);
         assert!((own(&BOUNDARY_BY_ANALYSIS) - 0.08).abs() < 1.0e-12);
         assert!((BETWEEN.between(&s).unwrap().width - 0.1).abs() < 1.0e-12);
+        assert!((BETWEEN_BY_HEIGHT.between(&s).unwrap().width - 0.18).abs() < 1.0e-12);
         assert!((TEHRAN.between(&s).unwrap().width - 0.18).abs() < 1.0e-12);
     }
 
@@ -170,10 +205,13 @@ mod tests {
             matches!(c.between(s), Err(SeparationError::NotApplicable { .. }))
         };
         assert!(refused(&BOUNDARY_BY_HEIGHT, &situation(9, 27.0)));
+        assert!(refused(&BETWEEN_BY_HEIGHT, &situation(9, 27.0)));
         for (importance, analysis) in [(1.0, false), (1.2, true), (1.4, true)] {
             let mut important = situation(6, 18.0);
             important.right.importance = Some(importance);
-            assert_eq!(refused(&BOUNDARY_BY_HEIGHT, &important), analysis);
+            for rule in [&BOUNDARY_BY_HEIGHT, &BETWEEN_BY_HEIGHT] {
+                assert_eq!(refused(rule, &important), analysis);
+            }
         }
         assert!(refused(&TEHRAN, &situation(4, 12.0)));
         assert!(!refused(&TEHRAN, &situation(5, 12.0)));

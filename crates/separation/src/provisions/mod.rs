@@ -68,6 +68,7 @@ pub(crate) static ALL: &[&ProvisionDescriptor] = &[
     &is_4326::BETWEEN,
     &iran_2800::BOUNDARY_BY_HEIGHT,
     &iran_2800::BOUNDARY_BY_ANALYSIS,
+    &iran_2800::BETWEEN_BY_HEIGHT,
     &iran_2800::BETWEEN,
     &iran_2800::TEHRAN,
     &taiwan_2011::BOUNDARY,

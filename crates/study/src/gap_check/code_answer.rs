@@ -123,6 +123,14 @@ impl CodeAnswer {
             .filter(move |c| stated.is_none() || c.ownership.is_none() || c.ownership == stated)
     }
 
+    /// Whether it has a width at any level, by any ownership.
+    #[must_use]
+    pub fn has_widths(&self) -> bool {
+        self.cases
+            .iter()
+            .any(|case| case.levels.iter().any(Result::is_ok))
+    }
+
     /// Whether displacements under the records count in any of its widths; of rules that ask for
     /// heights alone they do not.
     #[must_use]

@@ -83,7 +83,7 @@ pub struct SineArguments {
     /// Frequency, such as "1.5 Hz"
     #[arg(long)]
     pub frequency: String,
-    /// Phase (rad)
+    /// Phase (rad), or in degrees, "30 deg"
     #[arg(long, default_value = "0", allow_hyphen_values = true)]
     pub phase: String,
     /// Length of the sine [default: the duration]
@@ -126,7 +126,7 @@ pub struct MavroeidisPapageorgiouArguments {
     /// Oscillatory character gamma, above 1
     #[arg(long)]
     pub gamma: String,
-    /// Phase nu (rad)
+    /// Phase nu (rad), or in degrees, "30 deg"
     #[arg(long, default_value = "0", allow_hyphen_values = true)]
     pub phase: String,
     /// Time of the envelope's peak [default: half the pulse's length]

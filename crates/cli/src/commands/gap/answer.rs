@@ -210,6 +210,9 @@ fn statistic(answer: &CodeAnswer, (records, distinct): (usize, usize), times: f6
             counted(count, "record")
         ),
     };
+    if !answer.has_widths() {
+        return collapsed;
+    }
     if !answer.takes_records() {
         return format!(
             "  decided without the records: no displacement counts in the widths of the code here\n{collapsed}"

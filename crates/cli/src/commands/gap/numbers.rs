@@ -340,7 +340,8 @@ struct Code<'c> {
     statistic_clause: &'static str,
     statistic_status: &'static str,
     /// Whether displacements under the records count in any of its widths.
-    takes_records: bool,
+    /// `null` where no level has a width.
+    takes_records: Option<bool>,
     enough_records: bool,
     /// `null` where nothing is known of what the code asks of the mean spectrum.
     spectrum: Option<CodeSpectrum>,
@@ -458,7 +459,7 @@ impl<'c> Code<'c> {
             statistic_rule: suite.explanation(),
             statistic_clause: suite.clause,
             statistic_status: suite.status.name(),
-            takes_records: answer.takes_records(),
+            takes_records: answer.has_widths().then(|| answer.takes_records()),
             enough_records: answer.enough_records,
             spectrum: CodeSpectrum::of(&answer.spectrum),
             demand: answer.demand,

@@ -24,6 +24,18 @@ fn number(text: &str, name: &str) -> Result<f64, Failure> {
     value(text, name, Dimension::NUMBER)
 }
 
+/// An angle (rad): a plain number or "0.5 rad", or degrees, "30 deg".
+fn angle(text: &str, name: &str) -> Result<f64, Failure> {
+    let bare = text.trim();
+    let degrees = ["degrees", "deg", "\u{b0}"]
+        .iter()
+        .find_map(|unit| bare.strip_suffix(unit));
+    Ok(match degrees {
+        Some(degrees) => number(degrees.trim_end(), name)?.to_radians(),
+        None => number(bare, name)?,
+    })
+}
+
 fn time(text: &str, name: &str) -> Result<f64, Failure> {
     value(text, name, Dimension::TIME)
 }
@@ -49,7 +61,7 @@ pub fn sine(a: &SineArguments) -> Result<Generated, Failure> {
     let motion = Sine {
         amplitude: value(&a.amplitude, "amplitude", Dimension::ACCELERATION)?,
         frequency: frequency(&a.frequency, "frequency")?,
-        phase: number(&a.phase, "phase")?,
+        phase: angle(&a.phase, "phase")?,
         length: match &a.length {
             Some(text) => time(text, "length")?,
             None => grid.duration,
@@ -81,7 +93,7 @@ pub fn velocity_pulse(a: &MavroeidisPapageorgiouArguments) -> Result<Generated, 
         amplitude: value(&a.amplitude, "amplitude", Dimension::VELOCITY)?,
         frequency,
         oscillation,
-        phase: number(&a.phase, "phase")?,
+        phase: angle(&a.phase, "phase")?,
         centre: match &a.centre {
             Some(text) => time(text, "centre")?,
             None => 0.5 * oscillation / frequency,

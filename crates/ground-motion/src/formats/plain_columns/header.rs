@@ -1,11 +1,11 @@
 //! Names and units of columns in the line before the rows: `time (s),acceleration (m/s2)`,
 //! `t [s];a [g]`, `time_s acceleration_g`.
 
-use super::OTHERS;
 use super::names::{
     ACCELERATION, COUNTER, FOREIGN, LONG, MOTION, PROSE, TIME, are_of_spectrum, has_factor,
     is_channel, is_component, is_spectral, is_time, motion_unit, plain, time_unit, unquoted,
 };
+use super::{OTHERS, stated};
 use crate::error::GroundMotionError;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::source::Source;
@@ -264,6 +264,11 @@ impl Cells {
 
     /// The same names with units that stand in the line below them.
     fn with_units(&self, below: &Self) -> Option<Self> {
+        let has_keys =
+            |cells: &&Self| stated::has_number(&cells.text) || stated::has_unit(&cells.text);
+        if [self, below].iter().any(has_keys) {
+            return None;
+        }
         // Brackets between blanks belong to no name before them here.
         let text = below.text.trim_start_matches(COMMENT);
         let fields = || text.split_whitespace().map(bare_unit).collect();
@@ -295,6 +300,13 @@ impl Cells {
             names: self.names.iter().zip(&units).map(both).collect(),
             separator: self.separator,
         })
+    }
+
+    /// Whether the line states something under a key, and names no acceleration beside it.
+    pub(super) fn is_key(&self) -> bool {
+        let accelerates = |name: &String| matches!(role(name), Some(Role::Acceleration(..)));
+        stated::has_unit(&self.text)
+            || stated::has_number(&self.text) && !self.names.iter().any(accelerates)
     }
 
     /// Whether the cells name the columns of rows without saying that one has the times: `NS EW
@@ -533,6 +545,11 @@ pub(super) fn role(cell: &str) -> Option<Role> {
         return None;
     }
     let named = |name: &str, unit: &str| of_unit(&plain(name), name.trim(), unit);
+    // `a/g (-)` is a number.
+    let cell = cell
+        .strip_suffix("(-)")
+        .or(cell.strip_suffix("[-]"))
+        .map_or(cell, str::trim_end);
     if let Some((name, rest)) = cell.split_once(['(', '[']) {
         let unit = rest.strip_suffix([')', ']'])?;
         // `a/(m/s2)`, as standards on quantities write.

@@ -128,7 +128,11 @@ fn fault(source: &Source<'_>, header: Option<&Header>) -> Option<Faulty> {
         .filter_map(|cells| {
             let (text, fault) = faults::fault_of(cells)?;
             let line = cells.line;
-            Some(Faulty { line, text, fault })
+            let of_names = matches!(
+                fault,
+                Fault::Column(..) | Fault::MotionUnit(..) | Fault::TimeUnit(..)
+            );
+            (!of_names || !cells.is_key()).then_some(Faulty { line, text, fault })
         })
         .filter(|f| f.line > after || is_other(f) && !stated)
         .max_by_key(|f| match f.fault {

@@ -15,7 +15,7 @@ pub(super) const TIME: [&str; 11] = [
     "時間",
     "时间",
 ];
-pub(super) const ACCELERATION: [&str; 9] = [
+pub(super) const ACCELERATION: [&str; 15] = [
     "a",
     "ag",
     "a g",
@@ -25,6 +25,12 @@ pub(super) const ACCELERATION: [&str; 9] = [
     "accelerations",
     "ground acceleration",
     "ground accel",
+    "aceleraci\u{f3}n",
+    "aceleracion",
+    "acc\u{e9}l\u{e9}ration",
+    "accelerazione",
+    "beschleunigung",
+    "ivme",
 ];
 pub(super) const MOTION: [&str; 8] = [
     "v",
@@ -203,8 +209,11 @@ pub(in crate::formats) fn motion_unit(text: &str) -> Option<SeriesUnit> {
         let length = length.strip_suffix([' ', '.', '·', '*', '_'])?;
         Some(format!("{length}/s2"))
     });
-    if plain == "g/1000" {
-        return Some(SeriesUnit::MILLI_G);
+    let plain = symbols(&plain);
+    match plain.as_str() {
+        "g/1000" | "milli g" | "milli-g" | "millig" => return Some(SeriesUnit::MILLI_G),
+        "gs" | "gravity" => return Some(SeriesUnit::G),
+        _ => {}
     }
     // `ms2`, `mps2`, `ms-2`, as names of variables have them.
     let bare = plain.replace(['^', '-'], "");
@@ -215,6 +224,38 @@ pub(in crate::formats) fn motion_unit(text: &str) -> Option<SeriesUnit> {
     // SeriesUnit takes stops out, which are none of a unit of a header.
     let known = |text: &str| SeriesUnit::parse(text).filter(|_| !text.contains('.'));
     known(&spaced.unwrap_or_else(|| plain.clone())).or_else(|| known(&plain.replacen('_', "/", 1)))
+}
+
+/// A unit in lower case with symbols for its words, `cm/s2` of `centimeters per second squared`, and for the
+/// seconds of other languages.
+fn symbols(plain: &str) -> String {
+    const WORDS: [(&str, &str); 22] = [
+        ("centimeters", "cm"),
+        ("centimetres", "cm"),
+        ("centimeter", "cm"),
+        ("centimetre", "cm"),
+        ("millimeters", "mm"),
+        ("millimetres", "mm"),
+        ("millimeter", "mm"),
+        ("millimetre", "mm"),
+        ("meters", "m"),
+        ("metres", "m"),
+        ("meter", "m"),
+        ("metre", "m"),
+        ("inches", "in"),
+        ("inch", "in"),
+        ("feet", "ft"),
+        ("foot", "ft"),
+        (" per ", "/"),
+        ("seconds", "s"),
+        ("second", "s"),
+        ("s squared", "s2"),
+        ("sec squared", "s2"),
+        ("/sn", "/s"),
+    ];
+    WORDS.iter().fold(plain.to_owned(), |text, (word, symbol)| {
+        text.replace(word, symbol)
+    })
 }
 
 /// Whether a name is that of a component or of one of several instruments: `ns`, `acc1`, `ch 3`.
@@ -402,7 +443,12 @@ pub(super) fn is_component(known: &str) -> bool {
 
 /// Lower case, blanks for underscores, without a stop at the end.
 pub(super) fn plain(name: &str) -> String {
-    let lower = name.trim().trim_end_matches(['.', ':', '_']).to_lowercase();
+    // The small letter of a Turkish capital has a dot of its own.
+    let lower = name
+        .trim()
+        .trim_end_matches(['.', ':', '_'])
+        .to_lowercase()
+        .replace("i\u{307}", "i");
     let words: Vec<&str> = lower.split(['_', ' ']).filter(|w| !w.is_empty()).collect();
     words.join(" ")
 }

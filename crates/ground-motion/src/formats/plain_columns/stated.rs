@@ -5,12 +5,12 @@
 use super::{faults, header, names};
 use crate::draft::{Draft, DraftPeak, NamedQuantity, Printed, StatedDuration, not_applied};
 use crate::error::{GroundMotionError, bound};
-use crate::header_keys::{self, Meaning, is_of_rate, keyed, meaning, unit_words};
+use crate::header_keys::{self, Entry, Meaning, is_of_rate, keyed, meaning, unit_words};
 use crate::number;
-use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
+use crate::quantity::{Quantity, SeriesUnit, named_with_unit, of_something_else};
 use crate::source::Source;
 use crate::stated_step::STEP_TOLERANCE;
-use crate::text::{Line, in_brackets};
+use crate::text::Line;
 
 /// Keys of our CSV that tell how a record was made from another one.
 const HISTORY: [&str; 6] = ["source", "step", "read", "note", "event", "station"];
@@ -20,6 +20,20 @@ const NO_UNIT: [&str; 12] = [
     "standard",
 ];
 
+/// Units of rates.
+const HERTZ: [&str; 11] = [
+    "",
+    "hz",
+    "hertz",
+    "sps",
+    "samples/s",
+    "samples/sec",
+    "samples/second",
+    "samples per second",
+    "1/s",
+    "1/sec",
+    "/s",
+];
 /// Rate (Hz) below which a frequency is none of sampling.
 const LEAST_RATE: f64 = 20.0;
 
@@ -168,8 +182,8 @@ impl Stated {
             let Some((found, digits, behind)) = entry.number() else {
                 continue;
             };
-            let bracket = entry.key.replace('[', "(").replace(']', ")");
-            let inside = in_brackets(&bracket).map(str::trim);
+            let inside = entry.unit_of_key();
+            let inside = inside.as_deref();
             let unit = match behind {
                 "" => inside.unwrap_or_default(),
                 unit => unit,
@@ -178,7 +192,7 @@ impl Stated {
                 "" => Some(1.0),
                 unit => names::time_unit(unit),
             };
-            let hertz = ["", "hz", "sps", "samples/s", "samples/sec", "1/s", "/s"].contains(&unit);
+            let hertz = HERTZ.contains(&unit);
             let mut step = |seconds, is_rate| self.state_step(line, seconds, is_rate);
             match meaning {
                 // A rate under a key of a step says so.
@@ -187,6 +201,12 @@ impl Stated {
                     None if hertz => step(1.0 / found, true),
                     None => {}
                 },
+                // An interval of a second and more is that of a window.
+                Meaning::StepByUnit => {
+                    let own = seconds.filter(|one| !unit.is_empty() && found * one < 1.0);
+                    step(own.map_or(0.0, |one| found * one), false);
+                }
+                Meaning::Rate if ["khz", "kilohertz"].contains(&unit) => step(1.0e-3 / found, true),
                 Meaning::Rate => {
                     let worded = number::rates(&format!("sampling {}", entry.value));
                     let same = |(seconds, _): &&(f64, f64)| (seconds * found - 1.0).abs() < 1.0e-9;
@@ -415,7 +435,7 @@ fn unit_of(lower: &str) -> Unit {
     for entry in keyed(lower).iter().filter(|entry| unit_words(entry.key)) {
         // Other keys may follow on the line.
         let end = match entry.value.contains([':', '=']) {
-            true => entry.value.find([',', ';', '\t']),
+            true => entry.value.find([',', ';', '\t', '|']),
             false => None,
         };
         let value = &entry.value[..end.unwrap_or(entry.value.len())];
@@ -427,6 +447,12 @@ fn unit_of(lower: &str) -> Unit {
             Unit::None => {}
             stated => return stated,
         }
+    }
+    if let Some(unit) = lower.split([',', ';', '|']).find_map(behind_word_of_unit) {
+        return Unit::Known(unit);
+    }
+    if let Some(unit) = in_at_the_end(bare) {
+        return Unit::Known(unit);
     }
     let by_name = named_with_unit(lower).filter(|found| {
         let rest = found.rest.trim_matches([' ', '\t', '.', ',', ';']);
@@ -443,6 +469,22 @@ fn unit_of(lower: &str) -> Unit {
         }
         _ => Unit::None,
     }
+}
+
+/// Whether a line states a number under a key, `# dt: 0.01`, and so names no columns.
+pub(super) fn has_number(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let stated = |entry: &Entry<'_>| meaning(entry).is_some() && entry.has_number();
+    keyed(&lower).iter().any(stated)
+}
+
+/// Whether a line states the unit of the values under a key, `Units: cm/s2 (gal)`.
+pub(super) fn has_unit(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let stated = |entry: &Entry<'_>| {
+        unit_words(entry.key) && matches!(value_of(entry.value), Unit::Known(_))
+    };
+    keyed(&lower).iter().any(stated)
 }
 
 /// The unit of accelerations in a line of units alone, of which one is that of times: `s g`,
@@ -465,10 +507,69 @@ fn beside_seconds(bare: &str) -> Option<SeriesUnit> {
     known.all(|unit| unit == first).then_some(first)
 }
 
+/// The unit behind a word for it without a colon: `units g`, `unit of cm/s2`.
+fn behind_word_of_unit(part: &str) -> Option<SeriesUnit> {
+    let bare = part.trim_matches(|c: char| "#%!*/ \t".contains(c));
+    let (key, unit) = bare.split_once([' ', '\t'])?;
+    let unit = unit.trim();
+    let unit = unit.strip_prefix("of ").unwrap_or(unit);
+    unit_words(key).then(|| names::motion_unit(&header::bare_unit(unit)))?
+}
+
+/// The unit that ends a line on accelerations alone, without a number: `acceleration time history in g`.
+fn in_at_the_end(bare: &str) -> Option<SeriesUnit> {
+    let (words, unit) = bare.trim_end_matches('.').rsplit_once(" in ")?;
+    let unit = names::motion_unit(unit.strip_prefix("units of ").unwrap_or(unit))?;
+    let is = |of: &dyn Fn(&str) -> bool| words.split(|c: char| !c.is_alphabetic()).any(of);
+    let accelerates = is(&|word| word.starts_with("accel") || word == "acc");
+    let other =
+        is(&|word| word.starts_with("vel") || word.starts_with("disp") || of_something_else(word))
+            || words.contains(|c: char| c.is_ascii_digit());
+    (accelerates && !other).then_some(unit)
+}
+
+/// A unit that another spelling of it may follow in brackets: `cm/s2 (gal)`, `g (9.81 m/s2)`; a factor of one
+/// may stand before it.
+fn spelled_twice(value: &str) -> Option<SeriesUnit> {
+    let value = value.strip_prefix("1 ").unwrap_or(value);
+    for words in [
+        "fraction of ",
+        "fractions of ",
+        "units of ",
+        "multiples of ",
+    ] {
+        if let Some(unit) = value.strip_prefix(words) {
+            return names::motion_unit(unit);
+        }
+    }
+    let Some((unit, inside)) = value.split_once('(') else {
+        return names::motion_unit(value);
+    };
+    let unit = names::motion_unit(unit.trim())?;
+    let inside = inside
+        .strip_suffix(')')?
+        .trim()
+        .trim_start_matches(['1', '=', ' ']);
+    let digits = inside.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+    let other = names::motion_unit(digits.trim())?;
+    let printed = inside[..inside.len() - digits.len()].parse();
+    let one = match inside.len() == digits.len() {
+        true => 1.0,
+        false => printed.ok()?,
+    };
+    let same = |a: f64, b: f64| (a / b - 1.0).abs() < 0.002;
+    let gravity = pounding_catalogue::STANDARD_GRAVITY;
+    same(unit.in_si(gravity), one * other.in_si(gravity)).then_some(unit)
+}
+
 /// The unit behind a key; units of the times may stand beside it.
 fn value_of(value: &str) -> Unit {
     let value = value.trim().trim_end_matches(['.', ';', ',']);
     if let Some(unit) = names::motion_unit(value) {
+        return Unit::Known(unit);
+    }
+    let quoted = value.trim_matches(['"', '\'', '<', '>']).trim();
+    if let Some(unit) = spelled_twice(quoted) {
         return Unit::Known(unit);
     }
     let joined = value.replace(' ', "");

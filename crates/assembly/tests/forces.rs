@@ -80,6 +80,24 @@ fn forces_that_cannot_be_read_are_refused_at_their_place() {
         ),
         (
             file,
+            "t,force_kilonewton\n0,1\n1,0\n",
+            "\"kilonewton\" in the column \"force_kilonewton\" is no unit of a force",
+            "column (N)",
+        ),
+        (
+            file,
+            "t,force_kN_total\n0,1\n1,0\n",
+            "\"kN\" in the column \"force_kN_total\"",
+            "column (N)",
+        ),
+        (
+            file,
+            "t,force KN\n0,1\n1,0\n",
+            "\"KN\" in the column \"force KN\"",
+            "column (N)",
+        ),
+        (
+            file,
             "time (sek),force_N\n0,1\n1,0\n",
             "\"sek\" in the column \"time (sek)\" is no unit of a time",
             "column (s)",
@@ -141,6 +159,13 @@ fn units_of_columns_are_those_of_their_names() {
         ("unit = \"kN\"", "t,F\n0,0\n0.1,2\n0.2,0\n"),
         ("", "time,force_above\n0,0\n0.1,2000\n0.2,0\n"),
         ("", "0,0\n0.1,2000\n0.2,0\n"),
+        ("", "t/s,F/kN\n0,0\n0.1,2\n0.2,0\n"),
+        ("", "time ms;force kN\n0;0\n100;2\n200;0\n"),
+        ("", "ms,kN\n0,0\n100,2\n200,0\n"),
+        ("", "time in ms,force - kN\n0,0\n100,2\n200,0\n"),
+        ("", "time seconds,\"force, kN\"\n0,0\n0.1,2\n0.2,0\n"),
+        ("", "t,force {kN}\n0,0\n0.1,2\n0.2,0\n"),
+        ("", "time [s],wind above 10 m\n0,0\n0.1,2000\n0.2,0\n"),
     ] {
         let csv = csv.replace(';', ",");
         let force = format!("file = \"f.csv\"\n{unit}");

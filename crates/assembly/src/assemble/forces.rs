@@ -190,33 +190,76 @@ fn read(
 /// The longest ending of a name, `_ms` in `time_ms`, that must be a unit; longer ones may be words.
 const UNIT: usize = 3;
 
-/// Size in SI of the unit in the name of a column, `kN` in `force_kN` and `force (kN)`; none where
-/// it names no unit.
+/// Size in SI of the unit in the name of a column, `kN` in `force_kN`, `force (kN)`, `force kN`, `F/kN` and
+/// `force in kN`; none where it names no unit.
 fn unit_of_name(name: &str, dimension: Dimension) -> Result<Option<f64>, Refused> {
-    let Some(unit) = unit_in(name) else {
-        return Ok(None);
+    let base = if dimension == Dimension::TIME {
+        "s"
+    } else {
+        "N"
     };
     let help = || {
-        let base = if dimension == Dimension::TIME {
-            "s"
-        } else {
-            "N"
-        };
         format!("name the column with its unit, such as `{base}` in brackets: `column ({base})`")
     };
+    let no_unit = |unit: &str| {
+        let message = format!("\"{unit}\" in the column \"{name}\" is no unit of {dimension}");
+        Err((message, help()))
+    };
+    let (unit, marked) = match unit_in(name) {
+        Some(unit) => (unit, name.contains(['(', '[']) || unit.len() <= UNIT),
+        None => (last_word(name), false),
+    };
     match parse_quantity(&format!("1 {unit}")) {
-        Ok(found) if found.dimension == Some(dimension) => Ok(Some(found.value)),
-        Ok(found) => {
+        Ok(found) if found.dimension == Some(dimension) => return Ok(Some(found.value)),
+        // A word that is not marked may be a symbol: `t` of a time is a tonne too.
+        Ok(found) if marked => {
             let found = found.dimension.unwrap_or(Dimension::NUMBER);
             let message = format!(
                 "the column \"{name}\" is in \"{unit}\", which is {found}, not {dimension}"
             );
-            Err((message, help()))
+            return Err((message, help()));
         }
-        Err(_) if name.contains(['(', '[']) || unit.len() <= UNIT => {
-            let message = format!("\"{unit}\" in the column \"{name}\" is no unit of {dimension}");
-            Err((message, help()))
-        }
-        Err(_) => Ok(None),
+        Err(_) if marked => return no_unit(unit),
+        _ => {}
     }
+    let spelled: &[&str] = match dimension == Dimension::TIME {
+        true => &["second", "seconds", "sec"],
+        false => &["newton", "newtons"],
+    };
+    if spelled.iter().any(|word| word.eq_ignore_ascii_case(unit)) {
+        return Ok(Some(1.0));
+    }
+    // A unit elsewhere in the name, spelled out or in other letters is not passed over for the SI.
+    match words(name).find(|word| is_nearly_unit(word, dimension)) {
+        Some(word) => no_unit(word),
+        None => Ok(None),
+    }
+}
+
+/// The words of a name of a column.
+fn words(name: &str) -> impl Iterator<Item = &str> {
+    name.split(|c: char| !c.is_alphanumeric())
+        .filter(|word| !word.is_empty())
+}
+
+fn last_word(name: &str) -> &str {
+    words(name).last().unwrap_or_default()
+}
+
+/// Whether a word is a unit of a dimension, also spelled out or with other capitals.
+fn is_nearly_unit(word: &str, dimension: Dimension) -> bool {
+    let symbols: &[&str] = match dimension == Dimension::TIME {
+        true => &["s", "ms", "us", "min"],
+        false => &["N", "kN", "MN", "lbf", "kip", "kips", "kgf", "tf"],
+    };
+    let names: &[&str] = match dimension == Dimension::TIME {
+        true => &["second", "sec", "minute", "hour"],
+        false => &["newton", "pound", "kilopond"],
+    };
+    let lower = word.to_lowercase();
+    let singular = lower.strip_suffix('s').unwrap_or(&lower);
+    symbols
+        .iter()
+        .any(|symbol| symbol.eq_ignore_ascii_case(word))
+        || names.iter().any(|name| singular.ends_with(name))
 }

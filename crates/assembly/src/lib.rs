@@ -33,7 +33,7 @@ mod number_file;
 
 pub use assemble::{
     Assembly, assemble, assemble_sharing, assemble_with_record, assemble_without_gaps,
-    nothing_to_move_across, regap,
+    methods_that_take, nothing_to_move_across, regap,
 };
 pub use dimension::parameter_dimension;
 pub use error::AssemblyError;

@@ -341,6 +341,64 @@ fn keys_of_another_method() {
         let told = pounding(path, &["sweep", "study.toml", "-o", &format!("{count}.h5")]);
         assert_eq!(told.matches("nothing with method").count(), count, "{told}");
     }
+    // A key that stands in the study alone, and what no result of a study tells of.
+    std::fs::write(path.join("case.toml"), CASE).unwrap();
+    for (varied, values, words) in [
+        (
+            "analysis.step",
+            "[1e-3, 2e-3]",
+            "`analysis.step` (of newmark, hht_alpha, runge_kutta_4, moreau_jean) does nothing with method event_driven",
+        ),
+        (
+            "separation.importance",
+            "[1.0, 1.5]",
+            "no result of a study tells of `separation.importance`",
+        ),
+        (
+            "gap.0.seat",
+            "[0.1, 0.2]",
+            "no result of a study tells of `gap.0.seat`",
+        ),
+        ("gap.0.width", "[0.1, 0.2]", ""),
+    ] {
+        let study =
+            format!("case = \"case.toml\"\n[[variable]]\npath = \"{varied}\"\nvalues = {values}\n");
+        std::fs::write(path.join("study.toml"), study).unwrap();
+        let told = pounding(
+            path,
+            &["sweep", "study.toml", "-o", &format!("{varied}.h5")],
+        );
+        let told: Vec<&str> = told.split_whitespace().collect();
+        let told = told.join(" ");
+        assert_eq!(
+            told.contains("runs that differ in it alone are equal"),
+            !words.is_empty(),
+            "{told}"
+        );
+        assert!(told.contains(words), "{told}");
+    }
+}
+
+/// A force that the run does not reach, or whose largest value it does not.
+#[test]
+fn a_run_that_ends_before_a_force() {
+    for (points, delay, words) in [
+        (
+            "[[0, 0], [1, 1e5]]",
+            100,
+            "before the force on storey 2 of b is largest, at 101 s",
+        ),
+        ("[[0, 1e4], [5, 1e5]]", 0, "the run ends at 2 s"),
+        ("[[0, 1e5], [5, 1e4]]", 0, ""),
+    ] {
+        let force =
+            format!("[[building.force]]\nstorey = 2\npoints = {points}\ndelay = {delay}\n[[gap]]");
+        let told = said(&CASE.replacen("[[gap]]", &force, 1));
+        match words {
+            "" => assert!(told.check.is_empty(), "{:?}", told.check),
+            words => one(&told, &[words]),
+        }
+    }
 }
 
 #[test]

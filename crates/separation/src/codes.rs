@@ -884,16 +884,18 @@ mod tests {
         assert!((width.requirement.width - 0.09 * 5.0 / 9.806_65).abs() < 1e-12);
     }
 
-    /// Up to 8 storeys by height: 5 mm a metre on either side; above by analysis.
+    /// Up to 8 storeys by height: 10 mm a metre between, 5 mm a metre on either side; above by analysis.
     #[test]
     fn of_alternatives_the_first_that_applies() {
         let found = widths("iran_2800", &between(true));
+        assert!((found[0].1 - 0.09).abs() < 1e-12);
         assert!((found[1].1 - 2.0 * 0.045).abs() < 1e-12);
         let Sides::Between(mut tall) = between(true) else {
             unreachable!()
         };
         (tall.left.storeys, tall.right.storeys) = (9, 9);
         let found = widths("iran_2800", &Sides::Between(tall));
+        assert!((found[0].1 - 0.1).abs() < 1e-12);
         assert!((found[1].1 - 0.14).abs() < 1e-12);
         let Sides::Between(mut important) = between(true) else {
             unreachable!()

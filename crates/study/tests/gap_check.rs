@@ -304,14 +304,15 @@ fn a_lower_roof_that_lies_at_no_level_is_said() {
 /// nothing is asked of any level, the highest is shown.
 #[test]
 fn a_level_that_needs_nothing_does_not_govern() {
-    for (expression, width, required) in [
-        ("ceil((height - base) / step) * w", "\"30 mm\"", 0.02),
-        ("max(0, (height - base) / 100)", "\"30 mm\"", 0.06),
-        ("max(0, (height - base) / 100)", "[0, 0.05, 0.05]", 0.06),
-        ("0 * (height - base)", "[0, 0.05, 0.05]", 0.0),
+    let steps = ", step = \"3 m\", w = \"10 mm\"";
+    for (expression, more, width, required) in [
+        ("ceil((height - base) / step) * w", steps, "\"30 mm\"", 0.02),
+        ("max(0, (height - base) / 100)", "", "\"30 mm\"", 0.06),
+        ("max(0, (height - base) / 100)", "", "[0, 0.05, 0.05]", 0.06),
+        ("0 * (height - base)", "", "[0, 0.05, 0.05]", 0.0),
     ] {
         let more = format!(
-            "[separation]\ncode = \"mine\"\n[[separation.rule]]\nname = \"mine\"\nkind = \"between\"\nexpression = \"{expression}\"\ninputs = {{ base = \"3 m\", step = \"3 m\", w = \"10 mm\" }}\n"
+            "[separation]\ncode = \"mine\"\n[[separation.rule]]\nname = \"mine\"\nkind = \"between\"\nexpression = \"{expression}\"\ninputs = {{ base = \"3 m\"{more} }}\n"
         );
         let case = of_storeys((3, "3.0"), (3, "3.0"), MATCHING, &more);
         let text = case.source.replace("\"200 mm\"", width);

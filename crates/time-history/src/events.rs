@@ -48,7 +48,23 @@ pub(crate) struct Finder {
     nodes: [f64; COEFFICIENTS],
     state: Vec<f64>,
     acceleration: Vec<f64>,
+    /// Forces of all levels at places of one step, as far as they were asked for there: what holds one level
+    /// depends on all that are stuck.
+    known: Vec<Known>,
+    /// Of `known`, those of the step in hand.
+    known_now: usize,
 }
+
+/// State and forces of all levels at a place of a step.
+#[derive(Debug)]
+struct Known {
+    theta: f64,
+    state: Vec<f64>,
+    forces: Vec<f64>,
+}
+
+/// Places of a step of which the forces are kept: those of a fit, and some at which a peak is looked at.
+const MOST_KNOWN: usize = 2 * COEFFICIENTS;
 
 impl Finder {
     pub(crate) fn new(layout: Layout) -> Self {
@@ -58,7 +74,14 @@ impl Finder {
             nodes: fit_nodes(),
             state: vec![0.0; layout.motion()],
             acceleration: vec![0.0; layout.dofs],
+            known: Vec::new(),
+            known_now: 0,
         }
+    }
+
+    /// Forgets the forces of the step before: another step, or other contacts, have others.
+    pub(crate) fn forget(&mut self) {
+        self.known_now = 0;
     }
 
     /// Collects the first event of every level and returns the earliest.
@@ -71,6 +94,7 @@ impl Finder {
         muted: impl Fn(Candidate) -> bool,
     ) -> Option<Candidate> {
         self.candidates.clear();
+        self.forget();
         for level in 0..context.contacts.modes.len() {
             let mut first: Option<Candidate> = None;
             let kinds = kinds(context, level);
@@ -207,6 +231,12 @@ impl Finder {
         level: usize,
         (tau, step, theta): (f64, f64, f64),
     ) -> f64 {
+        let known = &self.known[..self.known_now];
+        if let Some(known) = known.iter().find(|known| known.theta == theta) {
+            self.state.copy_from_slice(&known.state);
+            context.dynamics.forces.copy_from_slice(&known.forces);
+            return known.forces[level];
+        }
         for (i, y) in self.state.iter_mut().enumerate() {
             *y = value(method.polynomial(i), theta);
         }
@@ -220,7 +250,23 @@ impl Finder {
             let out = &mut self.acceleration;
             context.dynamics.accelerations(contacts, now, state, out);
         }
-        context.dynamics.forces[level]
+        let forces = &context.dynamics.forces;
+        // One level alone is asked for once.
+        if contacts.closed().len() > 1 && self.known_now < MOST_KNOWN {
+            if self.known_now == self.known.len() {
+                self.known.push(Known {
+                    theta,
+                    state: self.state.clone(),
+                    forces: forces.clone(),
+                });
+            }
+            let known = &mut self.known[self.known_now];
+            known.theta = theta;
+            known.state.copy_from_slice(&self.state);
+            known.forces.copy_from_slice(forces);
+            self.known_now += 1;
+        }
+        forces[level]
     }
 }
 

@@ -170,6 +170,7 @@ impl Peaks {
         place: (f64, f64),
     ) {
         let system = context.dynamics.system;
+        finder.forget();
         self.at = [f64::NAN; 3];
         for (building, range) in system.buildings().iter().zip(system.offsets().windows(2)) {
             self.building(context, method, building, range[0], place);

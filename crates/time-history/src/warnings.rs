@@ -150,6 +150,17 @@ pub enum Warning {
         /// When the peak ground acceleration comes (s).
         peak: f64,
     },
+    /// A run that ends before a force is largest.
+    EndsBeforeForce {
+        /// Building.
+        building: String,
+        /// Storey below the floor, from 1.
+        storey: usize,
+        /// Duration of the run (s).
+        duration: f64,
+        /// When the force is largest (s).
+        time: f64,
+    },
     /// Contacts of a level have lost less than nothing.
     EnergyFromContacts {
         /// Gap and level.
@@ -303,6 +314,17 @@ impl fmt::Display for Warning {
                 "the run ends at {} s, before the peak ground acceleration at {} s{place}, and what follows is left out: take a longer `duration`, or leave it out; where a filter puts zeros before the record, `keep_pads = false` in the filter leaves them out",
                 six_digits(*duration),
                 six_digits(*peak)
+            ),
+            Self::EndsBeforeForce {
+                building,
+                storey,
+                duration,
+                time,
+            } => write!(
+                f,
+                "the run ends at {} s, before the force on storey {storey} of {building} is largest, at {} s: take a longer `duration`, or a shorter `delay`",
+                six_digits(*duration),
+                six_digits(*time)
             ),
             Self::EnergyFromContacts { place, energy } => write!(
                 f,
@@ -507,7 +529,7 @@ impl Warning {
 
     /// What can be said of ground motions, forces and initial state: that the ground shakes as no
     /// record does or stays apart, that all is left at rest, or that the run ends before the
-    /// ground shakes most.
+    /// ground shakes most, or before a force is largest.
     #[must_use]
     pub fn of_excitation(system: &System, options: &RunOptions) -> Vec<Self> {
         let mut warnings: Vec<_> = ground_offsets(system).collect();
@@ -521,6 +543,16 @@ impl Warning {
             warnings.push(Self::GroundAcceleration { peak });
         }
         warnings.extend(Self::of_rest(system, options));
+        let duration = options.duration.unwrap_or_else(|| system.record_duration());
+        warnings.extend(system.forces().iter().filter_map(|force| {
+            let time = force.history.peak().time;
+            (time > duration).then(|| Self::EndsBeforeForce {
+                building: system.buildings()[force.building].name().to_owned(),
+                storey: force.storey + 1,
+                duration,
+                time,
+            })
+        }));
         warnings
     }
 

@@ -65,6 +65,13 @@ pub(super) fn options(case: &Case) -> Result<RunOptions, CaseError> {
     })
 }
 
+/// The methods that take a key of `[analysis]`; none of a key that all take, or none.
+#[must_use]
+pub fn methods_that_take(key: &str) -> Vec<&'static str> {
+    let takes = METHODS.iter().filter(|(_, keys)| keys.contains(&key));
+    takes.map(|(name, _)| *name).collect()
+}
+
 /// Keys that the case gives and its method does not take, in words. They are no errors: a study
 /// may vary the method.
 pub(super) fn without_effect(case: &Case) -> Option<String> {
@@ -77,10 +84,7 @@ pub(super) fn without_effect(case: &Case) -> Option<String> {
             keys.push(key);
         }
     }
-    let takers = |key: &str| {
-        let takes = METHODS.iter().filter(|(_, keys)| keys.contains(&key));
-        takes.map(|(name, _)| *name).collect::<Vec<_>>().join(", ")
-    };
+    let takers = |key: &str| methods_that_take(key).join(", ");
     let told = keys
         .iter()
         .map(|key| format!("`{key}` (of {})", takers(key)));

@@ -11,6 +11,7 @@ mod motions;
 mod plan;
 
 pub use again::{assemble_with_record, assemble_without_gaps, regap};
+pub use method::methods_that_take;
 pub use motions::nothing_to_move_across;
 
 use std::sync::Arc;

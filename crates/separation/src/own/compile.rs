@@ -33,6 +33,7 @@ pub(super) fn compile(text: &RuleText) -> Result<OwnRule, CaseError> {
     let mut compiler = Compiler::of(text)?;
     let mut whole = Text::of(&text.expression, "expression", text);
     let expression = compiler.whole(&mut whole, 0)?;
+    compiler.uses_all()?;
     match expression.kind {
         Kind::Zero => {}
         Kind::Number(dimension) if dimension == Dimension::LENGTH => {}
@@ -204,6 +205,8 @@ struct Compiler<'t> {
     definitions: Vec<(String, Part)>,
     states: Vec<State>,
     needs: Vec<Named>,
+    /// Inputs and tables that a text names.
+    used: Vec<String>,
 }
 
 impl<'t> Compiler<'t> {
@@ -259,7 +262,32 @@ impl<'t> Compiler<'t> {
             definitions: Vec::new(),
             states: vec![State::Untouched; text.definitions.len()],
             needs: Vec::new(),
+            used: Vec::new(),
         })
+    }
+
+    /// Refuses what the expression does not take, by itself or through a definition: a misspelled minimum
+    /// would be none.
+    fn uses_all(&self) -> Result<(), CaseError> {
+        let text = self.text;
+        let defined = text.definitions.iter().zip(&self.states);
+        let idle = defined
+            .filter(|(_, state)| **state == State::Untouched)
+            .map(|((name, _), _)| name);
+        let unused = |name: &&Located<String>| !self.used.contains(&name.value);
+        let inputs = text.inputs.iter().map(|(name, _)| name).filter(unused);
+        let tables = text.tables.iter().map(|(name, _)| name).filter(unused);
+        match inputs.chain(tables).chain(idle).next() {
+            None => Ok(()),
+            Some(name) => {
+                let message = format!(
+                    "rule \"{}\": the expression does not take \"{}\"",
+                    text.name.value, name.value
+                );
+                let help = "name it in the expression, or in a definition that the expression takes; or remove it";
+                Err(text.error(name.span.clone(), message, Some(help.to_owned())))
+            }
+        }
     }
 
     fn finish(self, expression: Part) -> OwnRule {
@@ -349,6 +377,7 @@ impl<'t> Compiler<'t> {
     ) -> Result<Part, CaseError> {
         if let Some(i) = self.inputs.iter().position(|(known, ..)| known == name) {
             let kind = Kind::Number(self.inputs[i].2);
+            self.used.push(name.to_owned());
             return Ok(part(Node::Input(i), kind, at));
         }
         let definitions = &self.text.definitions;
@@ -458,6 +487,7 @@ impl<'t> Compiler<'t> {
                     "write it in parentheses",
                 ));
             };
+            self.used.push(name.to_owned());
             let [over, value] = self.tables[i].1.dimensions;
             let fits =
                 matches!(one.kind, Kind::Zero) || matches!(one.kind, Kind::Number(d) if d == over);

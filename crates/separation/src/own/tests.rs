@@ -312,6 +312,16 @@ fn wrong_parts_are_refused_with_their_place() {
             "needs itself",
         ),
         ("definitions = { a = \"a\" }", 5, "needs itself"),
+        (
+            "inputs = { a = \"1 m\", laest = \"30 mm\" }",
+            5,
+            "does not take \"laest\"",
+        ),
+        (
+            "inputs = { a = \"1 m\" }\ndefinitions = { b = \"1 +\" }",
+            6,
+            "does not take \"b\"",
+        ),
         ("definitions = { a = \"u_left +\" }", 5, "it ends too early"),
         ("definitions = { a = \"x\" }", 5, "this name is not known"),
         (
@@ -500,7 +510,7 @@ fn random_texts_are_answered() {
         .unwrap_or(1000);
     let more = "inputs = { least = \"30 mm\" }\ndefinitions = { s = \"max(least, u_left)\" }\n[rule.tables]\npart = { points = [[1, 0], [9, 1]], interpolation = \"linear\" }\n";
     let mut rules = RuleText::parse_all(&file("between", "1", more), "rules.toml").unwrap();
-    let mut text = rules.remove(0);
+    let text = rules.remove(0);
     // Any sequence of numbers does: that of Lehmer, 1951, as by Park and Miller, 1988.
     let mut state: u64 = 20_261_123;
     let mut random = |below: usize| {
@@ -534,6 +544,17 @@ fn random_texts_are_answered() {
             }
             expression = letters.into_iter().collect();
         }
+        // What the expression does not take would be refused.
+        let mut text = text.clone();
+        let of_word = |word: &str| {
+            let mut words = expression.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
+            words.any(|w| w == word)
+        };
+        text.definitions.retain(|(name, _)| of_word(&name.value));
+        let defines = !text.definitions.is_empty();
+        text.inputs
+            .retain(|(name, _)| defines || of_word(&name.value));
+        text.tables.retain(|(name, _)| of_word(&name.value));
         text.expression.value = expression;
         let Ok(rule) = OwnRule::compile(&text) else {
             continue;

@@ -96,6 +96,20 @@ impl Path {
         ["title", "analysis.output_step"].contains(&&*self.to_string())
     }
 
+    /// Whether it leads to what `gap` asks of a code, or to a seat, of which no result of a study tells.
+    pub(crate) fn without_result(&self) -> bool {
+        let of_seat = self.table() == "gap" && self.leads_through("seat");
+        self.table() == "separation" || of_seat
+    }
+
+    /// The key of a method that it leads to, `step` of `analysis.step`.
+    pub(crate) fn of_method_key(&self) -> Option<&str> {
+        match self.0.as_slice() {
+            [_, Step::Key(key)] if self.table() == "analysis" => Some(key),
+            _ => None,
+        }
+    }
+
     /// Whether it leads to the elevations of floors.
     pub(crate) fn of_elevations(&self) -> bool {
         let heights = ["height", "elevations"];

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use pounding_assembly::{
-    AssemblyError, assemble_with_record, assemble_without_gaps, regap, scale_record,
+    AssemblyError, assemble_with_record, assemble_without_gaps, methods_that_take, regap,
+    scale_record,
 };
 use pounding_case::{Case, CaseTree};
 use pounding_ground_motion::Accelerogram;
@@ -143,7 +144,14 @@ impl<'s> Runner<'s> {
                 v.name, v.unit
             ))
         }));
+        warnings.extend(study.variables.iter().filter_map(without_result));
         warnings.extend(study.variables.iter().filter_map(model_named_twice));
+        warnings.extend(
+            study
+                .variables
+                .iter()
+                .filter_map(|v| of_no_method(study, v)),
+        );
         let known = |r: usize| Some(&motions.all[r].as_ref().ok()?.first);
         // One file that is read in several ways is no repetition.
         let once = study.reads_one_way();
@@ -406,6 +414,46 @@ fn model_named_twice(variable: &Variable) -> Option<String> {
             "variable \"{}\" has the model {own} more than once, as \"{first}\" and \"{name}\": its runs are made, and count, as often",
             variable.name
         ))
+    })
+}
+
+/// What to say of a key of `[analysis]` that varies and that no method of the study takes.
+fn of_no_method(study: &Study, variable: &Variable) -> Option<String> {
+    let Target::Entry { path, .. } = &variable.target else {
+        return None;
+    };
+    let key = path.of_method_key()?;
+    let takers = methods_that_take(key);
+    let of_methods = |v: &&Variable| matches!(&v.target, Target::Entry { path, .. } if path.of_method_key() == Some("method"));
+    let used: Vec<&str> = match study.variables.iter().find(of_methods).map(|v| &v.values) {
+        Some(Values::Choices(names)) => names.iter().map(|n| n.trim_matches(['"', '\''])).collect(),
+        _ => vec![&study.base.analysis.method.value],
+    };
+    // A key that the case itself gives is said of the case.
+    if !varies(study, "analysis.method") && study.base.analysis.places.contains_key(key) {
+        return None;
+    }
+    let is_idle = !takers.is_empty() && !used.iter().any(|method| takers.contains(method));
+    is_idle.then(|| {
+        format!(
+            "variable \"{}\": `{path}` (of {}) does nothing with method {}: runs that differ in it alone are equal",
+            variable.name,
+            takers.join(", "),
+            used.join(", ")
+        )
+    })
+}
+
+/// What to say of a variable of which no result of a study tells.
+fn without_result(variable: &Variable) -> Option<String> {
+    let Target::Entry { path, .. } = &variable.target else {
+        return None;
+    };
+    path.without_result().then(|| {
+        format!(
+            "variable \"{}\": no result of a study tells of `{path}`: runs that differ in it alone are equal; `pounding gap` asks for it",
+            variable.name
+        )
     })
 }
 

@@ -107,6 +107,7 @@ impl Driver<'_> {
             segment,
         };
         let method = self.method.as_ref();
+        self.finder.forget();
         self.finder
             .guard(&mut context, method, event.level, event.kind, tau, step)
     }

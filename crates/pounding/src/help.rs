@@ -145,7 +145,7 @@ pub(crate) fn of_run(error: &TimeHistoryError) -> Option<String> {
             "choose a smaller `step`, or take `MethodChoice::EventDriven`, `Adaptive` or `Newmark`; check stiffness, damping and masses there for a wrong unit"
         }
         TimeHistoryError::StepTooSmall { .. } => {
-            "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or take `MethodChoice::Adaptive`; floors that hold together without any clearance between two walls have no unique contact forces: leave some"
+            "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or take `MethodChoice::Adaptive`; floors that hold together without any clearance between two walls have no unique contact forces: leave some; a `relative_tolerance` below 1e-10, or a restitution of almost zero, may ask for more than numbers hold: take larger ones"
         }
         TimeHistoryError::NotFinite { .. } => {
             "check stiffness, masses and gap widths; with a fixed-step method choose a smaller `step`, or take `MethodChoice::Adaptive`"

@@ -132,6 +132,9 @@ pub(crate) struct Dynamics<'a> {
     matrix: Vec<f64>,
     right: Vec<f64>,
     solver: SmallSolver,
+    /// The levels whose matrix the solver holds, and whether it is regular.
+    prepared: Vec<usize>,
+    regular: bool,
     scratch: Option<History>,
 }
 
@@ -149,6 +152,8 @@ impl<'a> Dynamics<'a> {
             matrix: Vec::with_capacity(together * together),
             right: Vec::with_capacity(together),
             solver: SmallSolver::with_capacity(together),
+            prepared: Vec::with_capacity(layout.levels),
+            regular: false,
             scratch: system.elements().first().map(|e| e.law.virgin()),
         }
     }
@@ -408,20 +413,27 @@ impl<'a> Dynamics<'a> {
     /// those that they would have without them.
     fn solve_holding(&mut self, relative: impl Fn(&Self, &ContactLevel) -> f64) {
         let (levels, mass) = (self.system.levels(), self.system.mass());
-        self.matrix.clear();
         self.right.clear();
         for k in 0..self.stuck.len() {
-            let l = self.stuck[k];
-            let right = relative(self, &levels[l]);
+            let right = relative(self, &levels[self.stuck[k]]);
             self.right.push(right);
-            for &m in &self.stuck {
-                self.matrix.push(coupling(&levels[l], &levels[m], mass));
+        }
+        // The levels that are stuck stay so over many evaluations.
+        if self.prepared != self.stuck {
+            self.matrix.clear();
+            for &l in &self.stuck {
+                for &m in &self.stuck {
+                    self.matrix.push(coupling(&levels[l], &levels[m], mass));
+                }
             }
+            self.prepared.clone_from(&self.stuck);
+            self.regular = self.solver.prepare(&self.matrix, self.stuck.len());
         }
         // The matrix is positive definite unless floors are wedged between two walls,
         // where contact forces are not unique; that surfaces as a rejected step.
-        if !self.solver.solve(&self.matrix, &mut self.right) {
-            self.right.fill(f64::NAN);
+        match self.regular {
+            true => self.solver.solve_prepared(&mut self.right),
+            false => self.right.fill(f64::NAN),
         }
         for (l, force) in self.stuck.iter().zip(&self.right) {
             self.forces[*l] = *force;

@@ -280,7 +280,7 @@ impl TimeHistoryError {
                 "choose a smaller `step`, or use method = \"event_driven\", \"adaptive\" or \"newmark\"; check stiffness, damping and masses there for a wrong unit"
             }
             Self::StepTooSmall { .. } => {
-                "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\"; floors that hold together without any clearance between two walls have no unique contact forces: leave some"
+                "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\"; floors that hold together without any clearance between two walls have no unique contact forces: leave some; a `relative_tolerance` below 1e-10, or a restitution of almost zero, may ask for more than numbers hold: take larger ones"
             }
             Self::NotFinite { .. } => {
                 "check stiffness, masses and gap widths; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\""

@@ -67,9 +67,10 @@ impl Values {
                     // The ends are the numbers of the file to the last bit.
                     _ if index == 0 => *from,
                     _ if index >= last => *to,
-                    Spacing::Linear => short((from * after + to * before) / last as f64),
+                    Spacing::Linear => short((from * after + to * before) / last as f64, 0.0),
                     Spacing::Logarithmic => {
-                        short(from * libm::exp(before / last as f64 * libm::log(to / from)))
+                        let power = before / last as f64 * libm::log(to / from);
+                        short(from * libm::exp(power), power)
                     }
                 })
             }
@@ -96,10 +97,12 @@ impl Values {
 }
 
 /// A number of a grid without the round-off of its steps: the decimal number of 12 digits, if it lies
-/// as near as round-off does, so that 0.8 is what `0.8` is read as. Others stay as they are.
-fn short(x: f64) -> f64 {
+/// as near as round-off does, that of a power of e with its exponent too, so that 0.8 is what `0.8` is read as.
+/// Others stay as they are.
+fn short(x: f64, power: f64) -> f64 {
+    let round_off = (16.0 + power.abs()) * f64::EPSILON;
     match format!("{x:.11e}").parse() {
-        Ok(near) if f64::abs(near - x) <= 16.0 * f64::EPSILON * x.abs() => near,
+        Ok(near) if f64::abs(near - x) <= round_off * x.abs() => near,
         _ => x,
     }
 }
@@ -374,6 +377,9 @@ mod tests {
         }
         let decades = numbers(1e-3, 1e3, 7, Spacing::Logarithmic);
         assert_eq!(decades, [1e-3, 0.01, 0.1, 1.0, 10.0, 100.0, 1e3]);
+        let many = numbers(1.0, 1e26, 27, Spacing::Logarithmic);
+        let expected: Vec<f64> = (0..27).map(|i| read(format!("1e{i}"))).collect();
+        assert_eq!(many, expected);
         let down = numbers(0.3, -0.3, 7, Spacing::Linear);
         assert_eq!(down, [0.3, 0.2, 0.1, 0.0, -0.1, -0.2, -0.3]);
     }

@@ -75,7 +75,7 @@ impl<'t> Entry<'t> {
     fn words(&self) -> String {
         let before = self.key.split(['(', '[']).next().unwrap_or_default();
         let before = before.trim_matches(['"', '\'', ' ']);
-        let plain = before.replace(['-', '_'], " ").replace('\u{2019}', "'");
+        let plain = without_marks(before).replace(['-', '_'], " ");
         match last_unit(&plain) {
             Some(unit) => plain[..plain.len() - unit.len()]
                 .trim_end_matches([' ', ',', '/'])
@@ -105,7 +105,8 @@ impl<'t> Entry<'t> {
 /// processed.
 pub(crate) fn is_of_rate(entry: &Entry<'_>) -> bool {
     let plain = entry.words();
-    entry.parted && RATES.iter().any(|key| ends_in(&plain, key))
+    let named = |key: &str| ends_in(&plain, key) || key.contains(' ') && plain.contains(key);
+    entry.parted && RATES.iter().any(|key| named(key))
 }
 
 /// What follows the words of a rate of sampling in a line in lower case, `200, cutoff 80 hz`.
@@ -121,7 +122,9 @@ pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
     let plain = entry.words();
     let plain = plain.as_str();
     // `Original dt` is that of another record.
-    if plain.split(' ').any(|word| OF_ANOTHER.contains(&word)) {
+    let whole = without_marks(entry.key);
+    let mut words = whole.split(|c: char| !c.is_alphanumeric());
+    if words.any(|word| OF_ANOTHER.contains(&word)) {
         return None;
     }
     let is = |keys: &[&str]| keys.contains(&plain);
@@ -156,6 +159,7 @@ pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
 /// Whether a key is that of the unit of the values: `units`, `acceleration unit`, `y-unit`,
 /// `unidad de medida`.
 pub(crate) fn unit_words(key: &str) -> bool {
+    let key = without_marks(key);
     let mut words: Vec<&str> = key
         .split([' ', '\t', '-', '_'])
         .filter(|w| !w.is_empty())
@@ -219,7 +223,7 @@ fn cell_pair(lower: &str) -> Option<Entry<'_>> {
         parted: true,
     };
     // Cells that are blank may close the line.
-    let alone = cells.all(str::is_empty);
+    let alone = cells.all(str::is_empty) && !entry.key.contains(|c: char| c.is_ascii_digit());
     (alone && !entry.key.is_empty() && !entry.value.is_empty()).then_some(entry)
 }
 
@@ -229,7 +233,11 @@ fn behind_value(text: &str) -> &str {
     let number = |c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+');
     let text = text.trim_start();
     if !text.starts_with(number) {
-        return text;
+        // `g factor` of `units=g factor=0.001`.
+        return match text.split_once([' ', '\t']) {
+            Some(("g" | "gal" | "cm/s2" | "m/s2" | "mg", key)) => key.trim_start(),
+            _ => text,
+        };
     }
     let rest = text.trim_start_matches(number).trim_start();
     let units = ["s", "sec", "secs", "ms", "msec", "hz", "sps", "g", "gal"];
@@ -254,7 +262,7 @@ fn before_numbers(lower: &str) -> Vec<Entry<'_>> {
     };
     let words: Vec<&str> = bare.split_whitespace().collect();
     let pair = |two: &[&str]| starts(two[1]) && two[0].starts_with(char::is_alphabetic);
-    if words.len() >= 4 && words.len() % 2 == 0 && words.chunks_exact(2).all(pair) {
+    if words.len() >= 4 && words.len().is_multiple_of(2) && words.chunks_exact(2).all(pair) {
         return words
             .chunks_exact(2)
             .map(|two| entry(two[0], two[1]))
@@ -295,6 +303,34 @@ fn split_number(text: &str) -> (&str, &str) {
         false => word.trim_end_matches('.'),
     };
     (text[..end].trim_end_matches('.'), word)
+}
+
+/// A text in lower case without the marks of its letters, `ornekleme frekansi`, as capitals and plain texts
+/// have it; signs of omission are apostrophes.
+fn without_marks(text: &str) -> String {
+    const MARKED: [(&str, char); 8] = [
+        ("\u{e0}\u{e1}\u{e2}\u{e3}\u{e4}", 'a'),
+        ("\u{e8}\u{e9}\u{ea}", 'e'),
+        ("\u{ec}\u{ed}\u{ee}\u{131}", 'i'),
+        ("\u{f2}\u{f3}\u{f4}\u{f5}\u{f6}", 'o'),
+        ("\u{f9}\u{fa}\u{fb}\u{fc}", 'u'),
+        ("\u{e7}", 'c'),
+        ("\u{15f}", 's'),
+        ("\u{11f}", 'g'),
+    ];
+    let plain = |c: char| match c {
+        '\u{2019}' => '\'',
+        c if c.is_ascii() => c,
+        c => MARKED
+            .iter()
+            .find(|(marked, _)| marked.contains(c))
+            .map_or(c, |(_, plain)| *plain),
+    };
+    // The dot of a Turkish capital is a sign of its own.
+    text.chars()
+        .filter(|c| *c != '\u{307}')
+        .map(plain)
+        .collect()
 }
 
 /// The last word of a key, if that is the unit of its value and not the key itself.

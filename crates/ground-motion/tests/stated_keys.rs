@@ -151,6 +151,124 @@ fn units_in_many_spellings() {
     );
 }
 
+/// Steps of other stages of the record, of filters, windows and instruments state none.
+#[test]
+fn steps_of_something_else() {
+    for line in [
+        "dt = 0.005 s (original), 0.01 s (this file)",
+        "Time step: 0.005 s, now 0.01 s",
+        "Time step: 0.005 s, interpolated to 0.01 s",
+        "Sampling rate (original): 200 Hz",
+        "Resampled from fs=200 Hz",
+        "Sampling rate before decimation: 200 Hz",
+        "Orijinal \u{f6}rnekleme frekans\u{131}: 200 Hz",
+        "Analysis time step: 0.001 s",
+        "Interval: 0.05 s taper",
+        "Delta: 0.05 s (clock correction)",
+        "Spatial sampling interval: 0.05",
+        "Low-pass filter, frequency = 25 Hz",
+        "Frequency (natural): 50 Hz",
+        "GPS sampling rate: 50 Hz",
+        "Rate: 100",
+    ] {
+        refused(
+            &format!("# {line}\n# Units: g"),
+            "does not state its time step",
+        );
+    }
+    for line in [
+        "ZAMAN ADIMI: 0.01 s",
+        "\u{d6}RNEKLEME FREKANSI: 100 Hz",
+        "ORNEKLEME ARALIGI: 0.01",
+        "Tasa de muestreo: 100 muestras/s",
+    ] {
+        is_read(&format!("# {line}\n# B\u{130}R\u{130}M: g"), 0.01, "g");
+    }
+    refused(
+        "# Time unit: ms\n# dt: 10\n# Units: g",
+        "the times are in ms here",
+    );
+    for line in [
+        "units=g factor=0.001",
+        "Units: g\n# SF = 0.001",
+        "Units: g\n# Factor de escala: 0.001",
+        "Units: g\n# Values multiplied by 1000",
+    ] {
+        let warnings = is_read(&format!("# dt = 0.01 s\n# {line}"), 0.01, "g");
+        assert!(
+            warnings.iter().any(|w| w.contains("factor")),
+            "{line}: {warnings:?}"
+        );
+    }
+}
+
+/// A line of a key has as many words as there are columns, and names none of them; names have their units in
+/// cells of their own, or in other languages.
+#[test]
+fn columns_below_keys() {
+    let rows = |columns: usize| -> String {
+        (0..40)
+            .map(|i| {
+                let t = 0.01 * f64::from(i);
+                let more: String = (1..columns)
+                    .map(|k| format!(",{:.4}", 0.1 * k as f64 * (50.0 * t).sin()))
+                    .collect();
+                format!("{t:.2}{more}\n")
+            })
+            .collect()
+    };
+    for (header, columns) in [
+        ("Units: g\nTime step: 0.01 s", 4),
+        ("Units: g\nTime increment: 0.01 s", 4),
+        ("Units: g\nTime step: 0.01", 3),
+        ("# Units: g\n# dt = 0.01 s", 4),
+    ] {
+        let rows = rows(columns).replace(',', " ");
+        let series = read_with(&format!("{header}\n{rows}"), &ReadOptions::default()).unwrap();
+        assert_eq!(series.len(), columns - 1, "{header}");
+        let peak = series[0]
+            .samples
+            .iter()
+            .fold(0.0_f64, |m, a| m.max(a.abs()));
+        assert!((peak / 9.806_65 - 0.1).abs() < 2e-3, "{header}: {peak}");
+    }
+    let third = |header: &str, columns: usize| {
+        let text = format!("{header}\n{}", rows(columns));
+        let series =
+            read_with(&text, &ReadOptions::default()).unwrap_or_else(|e| panic!("{header}: {e}"));
+        assert_eq!(series.len(), 1, "{header}");
+        let peak = series[0]
+            .samples
+            .iter()
+            .fold(0.0_f64, |m, a| m.max(a.abs()));
+        (peak / series[0].unit_in_si, series[0].unit)
+    };
+    for (header, unit) in [
+        (
+            "Units: cm/s2\nTime, s,Velocity (cm/s),Acceleration (cm/s2)",
+            "cm/s2",
+        ),
+        ("Time, s,Velocity, cm/s,Acceleration, cm/s2", "cm/s2"),
+        ("Units: g\nTempo,Velocidade,Acelera\u{e7}\u{e3}o", "g"),
+        ("Units: g\nTime,Ground vel,Ground acc", "g"),
+        ("Units: g\nTiempo,Velocidad,Aceleracion", "g"),
+    ] {
+        let (peak, found) = third(header, 3);
+        assert_eq!(found, unit, "{header}");
+        assert!((peak - 0.2).abs() < 4e-3, "{header}: {peak}");
+    }
+    for header in [
+        "Units: g\nTiempo,Velocidad",
+        "Units: g\nZeit,Geschwindigkeit",
+        "T [s],Se [g]",
+        "T (s),Sae (g)",
+        "Periodo (s),Accelerazione (g)",
+    ] {
+        let said = read_with(&format!("{header}\n{}", rows(2)), &ReadOptions::default());
+        assert!(said.is_err(), "{header}: {said:?}");
+    }
+}
+
 /// NPTS and DT before text lines, names of columns or other keys are no header of AT2.
 #[test]
 fn keys_of_at2_before_plain_columns() {

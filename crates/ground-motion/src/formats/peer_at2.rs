@@ -11,7 +11,7 @@ use crate::draft::{
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
-use crate::header_keys::{Meaning, keyed, meaning};
+use crate::header_keys::{Meaning, keyed, meaning, unit_words};
 use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
 use crate::recording::Series;
@@ -691,7 +691,25 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
             "header lines contradict one another: a line such as `ACCELERATION TIME SERIES IN UNITS OF G` must say the unit of the values",
         ));
     }
-    if let Some((_, (unit, _))) = units.first() {
+    if let Some((first, (unit, _))) = units.first() {
+        // `Units: cm/s2` below `IN UNITS OF G`.
+        let keys = lower.iter().enumerate().filter_map(|(i, line)| {
+            let entry = keyed(line)
+                .into_iter()
+                .find(|entry| unit_words(entry.key))?;
+            Some((i + 1, SeriesUnit::parse(entry.value)?))
+        });
+        if let Some((line, other)) = keys.into_iter().find(|(_, other)| other != unit) {
+            return Err(source.error(
+                line,
+                0,
+                format!(
+                    "the unit is {} here, but {} in line {first}",
+                    other.symbol, unit.symbol
+                ),
+                "the header contradicts itself: correct it, or get the record again",
+            ));
+        }
         return Ok(DraftUnit::Stated(*unit));
     }
     let words = |q: Quantity| all.contains(&format!("{} time", q.name()));

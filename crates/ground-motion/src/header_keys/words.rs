@@ -1,7 +1,9 @@
-//! The words of keys of header lines, in lower case with blanks for hyphens and underscores.
+//! The words of keys of header lines, in lower case, letters without their marks, with blanks for hyphens and
+//! underscores.
 
 /// Ends of keys of a time step.
-pub(super) const STEPS: [&str; 51] = [
+pub(super) const STEPS: [&str; 50] = [
+    "intervalo de amostra",
     "dt",
     "delta t",
     "deltat",
@@ -32,7 +34,6 @@ pub(super) const STEPS: [&str; 51] = [
     "intervalo de muestreo",
     "incremento de tiempo",
     "periodo de muestreo",
-    "per\u{ed}odo de muestreo",
     "paso de muestreo",
     "delta de tiempo",
     "passo de tempo",
@@ -45,24 +46,25 @@ pub(super) const STEPS: [&str; 51] = [
     "intervallo di tempo",
     // French.
     "pas de temps",
-    "pas d'\u{e9}chantillonnage",
     "pas d'echantillonnage",
     "intervalle de temps",
-    "intervalle d'\u{e9}chantillonnage",
+    "intervalle d'echantillonnage",
     // German.
     "zeitschritt",
     "zeitschrittweite",
     "zeitinkrement",
     "abtastintervall",
     // Turkish.
-    "\u{f6}rnekleme aral\u{131}\u{11f}\u{131}",
-    "zaman aral\u{131}\u{11f}\u{131}",
-    "zaman ad\u{131}m\u{131}",
+    "ornekleme araligi",
+    "zaman araligi",
+    "zaman adimi",
 ];
 /// Keys of a time step where a unit of time says so: `delta` may be a distance, `interval` that of a window.
 pub(super) const STEPS_BY_UNIT: [&str; 5] = ["delta", "interval", "step", "increment", "spacing"];
 /// Ends of keys of a rate.
-pub(super) const RATES: [&str; 32] = [
+pub(super) const RATES: [&str; 29] = [
+    "frequence d'echantillonnage",
+    "frecuencia de muestreo",
     "fs",
     "sampling rate",
     "sample rate",
@@ -81,20 +83,15 @@ pub(super) const RATES: [&str; 32] = [
     "digitization rate",
     "acquisition rate",
     "recording rate",
-    "frecuencia de muestreo",
     "tasa de muestreo",
-    "raz\u{f3}n de muestreo",
-    "frequ\u{ea}ncia de amostragem",
+    "razon de muestreo",
     "frequencia de amostragem",
     "taxa de amostragem",
     "frequenza di campionamento",
-    "fr\u{e9}quence d'\u{e9}chantillonnage",
-    "frequence d'echantillonnage",
     "abtastrate",
     "abtastfrequenz",
-    "samplingrate",
-    "\u{f6}rnekleme frekans\u{131}",
-    "\u{f6}rnekleme h\u{131}z\u{131}",
+    "ornekleme frekansi",
+    "ornekleme hizi",
 ];
 /// Keys of a count.
 pub(super) const COUNTS: [&str; 11] = [
@@ -147,7 +144,16 @@ pub(super) const QUANTITIES: [&str; 7] = [
     "kind",
 ];
 /// Keys of a factor of the values.
-pub(super) const FACTORS: [&str; 11] = [
+pub(super) const FACTORS: [&str; 20] = [
+    "sf",
+    "mult",
+    "calib",
+    "factor de escala",
+    "fator de escala",
+    "fattore di scala",
+    "facteur d'echelle",
+    "skalierungsfaktor",
+    "olcek",
     "scale",
     "scale factor",
     "scaling",
@@ -161,7 +167,11 @@ pub(super) const FACTORS: [&str; 11] = [
     "gain",
 ];
 /// Keys of a unit.
-pub(super) const UNITS: [&str; 11] = [
+pub(super) const UNITS: [&str; 12] = [
+    "unidade",
+    "birimi",
+    "unites",
+    "unite",
     "unit",
     "units",
     "unidad",
@@ -169,13 +179,16 @@ pub(super) const UNITS: [&str; 11] = [
     "einheit",
     "einheiten",
     "unita",
-    "unit\u{e0}",
-    "unit\u{e9}",
-    "unit\u{e9}s",
     "birim",
 ];
 /// Words beside a key of the unit of the values.
-pub(super) const OF_VALUES: [&str; 14] = [
+pub(super) const OF_VALUES: [&str; 20] = [
+    "di",
+    "misura",
+    "medicion",
+    "aceleracao",
+    "ivme",
+    "accelerazione",
     "data",
     "value",
     "values",
@@ -189,10 +202,39 @@ pub(super) const OF_VALUES: [&str; 14] = [
     "the",
     "measure",
     "medida",
-    "aceleraci\u{f3}n",
+    "aceleracion",
 ];
 
 /// Words of keys that speak of the record before it was processed.
-pub(super) const OF_ANOTHER: [&str; 5] = ["original", "raw", "initial", "former", "native"];
+pub(super) const OF_ANOTHER: [&str; 28] = [
+    "originale",
+    "originali",
+    "originales",
+    "ursprungliche",
+    "ursprunglicher",
+    "orijinal",
+    "cruda",
+    "crudo",
+    "brute",
+    "before",
+    "from",
+    "adc",
+    "gps",
+    "analysis",
+    "newmark",
+    "critical",
+    "minimum",
+    "maximum",
+    "spatial",
+    "opensees",
+    "integration",
+    "solver",
+    "window",
+    "original",
+    "raw",
+    "initial",
+    "former",
+    "native",
+];
 /// Last words of keys that are the unit of their value: `timestep_s`, `sample rate, hz`.
 pub(super) const LAST_UNITS: [&str; 8] = ["s", "sec", "secs", "seconds", "ms", "msec", "hz", "sps"];

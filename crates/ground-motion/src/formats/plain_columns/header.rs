@@ -191,7 +191,37 @@ impl Cells {
     /// The header of rows like the first one: every cell names a column, or one is that of times,
     /// and the names need no units.
     pub(super) fn header_of(&self, row: &Line<'_>) -> Option<Header> {
-        self.parse().or_else(|| self.beside_times(row))
+        self.parse().or_else(|| self.beside_times(row)).or_else(|| {
+            self.with_units_apart()
+                .filter(|both| both.fits(row))?
+                .header_of(row)
+        })
+    }
+
+    /// The same names where units stand in cells of their own behind them: `Time, s,Acceleration, g`.
+    pub(super) fn with_units_apart(&self) -> Option<Self> {
+        let mut names: Vec<String> = Vec::new();
+        for cell in &self.names {
+            let unit = bare_unit(cell);
+            let is_unit = time_unit(&unit).is_some() || motion_unit(&unit).is_some();
+            let before = names.last_mut().filter(|name| {
+                let known = plain(name);
+                let motion =
+                    ACCELERATION.contains(&known.as_str()) || MOTION.contains(&known.as_str());
+                is_unit && known.len() > 1 && (motion || TIME.contains(&known.as_str()))
+            });
+            match before {
+                Some(name) => *name = format!("{} ({unit})", unquoted(name)),
+                None => names.push(cell.clone()),
+            }
+        }
+        let fewer = names.len() < self.names.len();
+        fewer.then(|| Self {
+            line: self.line,
+            text: self.text.clone(),
+            names,
+            separator: self.separator,
+        })
     }
 
     /// Whether the rows have as many cells as there are names.
@@ -210,6 +240,7 @@ impl Cells {
     fn beside_times(&self, row: &Line<'_>) -> Option<Header> {
         let prose = |name: &String| PROSE.contains(&plain(name).as_str());
         if self.names.len() < 2
+            || self.is_key()
             || are_of_spectrum(&self.names, self.separator)
             || !self.fits(row)
             || self.separator.is_none() && self.names.iter().any(prose)
@@ -319,7 +350,7 @@ impl Cells {
         };
         let known = self.names.iter().filter(known).count();
         let as_many = self.names.len() == row.fields().count();
-        if self.names.len() < 2 || !as_many {
+        if self.names.len() < 2 || !as_many || self.is_key() {
             return false;
         }
         if known == self.names.len() {
@@ -514,7 +545,8 @@ pub(super) fn quantity(cell: &str) -> Option<Quantity> {
         let name = known.trim_start_matches("ground ");
         match name.chars().next() {
             _ if !MOTION.contains(&known.as_str()) => None,
-            Some('v') => Some(Quantity::Velocity),
+            Some('v' | 'h') if name != "verschiebung" => Some(Quantity::Velocity),
+            Some('g') => Some(Quantity::Velocity),
             _ => Some(Quantity::Displacement),
         }
     };
@@ -568,6 +600,17 @@ pub(super) fn role(cell: &str) -> Option<Role> {
     if let Some((name, unit)) = cell.split_once(" in ") {
         return named(name, unit);
     }
+    // `Time - s`, `Acceleration, g` in one cell.
+    let apart = cell.rsplit_once(" - ").or_else(|| cell.rsplit_once(','));
+    if let Some(found) = apart.and_then(|(name, unit)| {
+        let known = plain(name);
+        let known = known.as_str();
+        let named_so =
+            TIME.contains(&known) || ACCELERATION.contains(&known) || MOTION.contains(&known);
+        named(name, unit.trim()).filter(|_| named_so)
+    }) {
+        return Some(found);
+    }
     cell.match_indices(['_', ' ', '/'])
         .find_map(|(at, divider)| {
             let (name, unit) = (&cell[..at], &cell[at + 1..]);
@@ -600,8 +643,10 @@ fn of_unit(known: &str, name: &str, unit: &str) -> Option<Role> {
         };
     }
     // A component or channel by its own name.
+    const NONE: [&str; 3] = ["gravity", "threshold", "spectral"];
     match accelerates {
         true if has_factor(name) => None,
+        true if known.split(' ').any(|word| NONE.contains(&word)) => None,
         true => Some(Role::Acceleration(name.to_owned(), Some(unit))),
         false => Some(Role::Other),
     }

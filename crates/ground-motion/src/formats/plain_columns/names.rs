@@ -15,7 +15,10 @@ pub(super) const TIME: [&str; 11] = [
     "時間",
     "时间",
 ];
-pub(super) const ACCELERATION: [&str; 15] = [
+pub(super) const ACCELERATION: [&str; 18] = [
+    "ground acc",
+    "acelera\u{e7}\u{e3}o",
+    "aceleracao",
     "a",
     "ag",
     "a g",
@@ -32,7 +35,24 @@ pub(super) const ACCELERATION: [&str; 15] = [
     "beschleunigung",
     "ivme",
 ];
-pub(super) const MOTION: [&str; 8] = [
+pub(super) const MOTION: [&str; 25] = [
+    "ground vel",
+    "ground disp",
+    "velocidad",
+    "velocidade",
+    "vitesse",
+    "velocit\u{e0}",
+    "velocita",
+    "geschwindigkeit",
+    "h\u{131}z",
+    "hiz",
+    "desplazamiento",
+    "deslocamento",
+    "d\u{e9}placement",
+    "spostamento",
+    "verschiebung",
+    "yer de\u{11f}i\u{15f}tirme",
+    "deplasman",
     "v",
     "vel",
     "velocity",
@@ -96,7 +116,12 @@ pub(super) const FOREIGN: [&str; 34] = [
     "weight",
 ];
 /// Names of columns of response spectra and Fourier spectra.
-const SPECTRAL: [&str; 22] = [
+const SPECTRAL: [&str; 27] = [
+    "periodo",
+    "per\u{ed}odo",
+    "p\u{e9}riode",
+    "periode",
+    "schwingzeit",
     "sa",
     "psa",
     "spa",
@@ -302,9 +327,18 @@ pub(super) fn unquoted(cell: &str) -> &str {
 /// Whether a column is what the ordinates of a spectrum stand over.
 pub(super) fn is_abscissa(name: &str) -> bool {
     is_spectral(name)
-        && ["period", "natural period", "freq", "per", "tn"]
-            .iter()
-            .any(|n| plain(name).starts_with(n))
+        && [
+            "period",
+            "natural period",
+            "p\u{e9}riode",
+            "per\u{ed}odo",
+            "schwingzeit",
+            "freq",
+            "per",
+            "tn",
+        ]
+        .iter()
+        .any(|n| plain(name).starts_with(n))
         || is_frequency(name)
 }
 
@@ -383,9 +417,15 @@ pub(super) fn are_of_spectrum(names: &[String], separator: Option<char>) -> bool
     };
     let apart = matches!(separator, Some(';' | '\t' | '|')) || first.contains(['(', '[']);
     // Letters of codes, in which capitals tell them from directions.
-    let letters = ["Sa", "Se", "Sae", "Sde", "Sd", "Sv"].contains(&unquoted(second));
+    let letters = ["Sa", "Se", "Sae", "Sde", "Sd", "Sv"].contains(&before_unit(second));
     is_abscissa(first) && apart && !unquoted(second).is_empty()
-        || names.len() == 2 && letters && is_time(&plain(first))
+        || names.len() == 2 && letters && is_time(&plain(before_unit(first)))
+}
+
+/// A name without the unit in brackets behind it.
+fn before_unit(name: &str) -> &str {
+    let name = unquoted(name);
+    name.split(['(', '[']).next().unwrap_or(name).trim_end()
 }
 
 /// Whether a unit is that of something else than motion: counts, volts, forces.

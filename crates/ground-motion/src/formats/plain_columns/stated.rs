@@ -21,7 +21,7 @@ const NO_UNIT: [&str; 12] = [
 ];
 
 /// Units of rates.
-const HERTZ: [&str; 11] = [
+const HERTZ: [&str; 13] = [
     "",
     "hz",
     "hertz",
@@ -30,9 +30,22 @@ const HERTZ: [&str; 11] = [
     "samples/sec",
     "samples/second",
     "samples per second",
+    "muestras/s",
+    "campioni/s",
     "1/s",
     "1/sec",
     "/s",
+];
+/// Words behind a step or a rate by which it is that of another stage of the record, or not the last one said.
+const OF_OTHER_STAGES: [&str; 8] = [
+    "interpolat",
+    "decimat",
+    "resampl",
+    "now ",
+    "(original",
+    "original)",
+    "every ",
+    "this file",
 ];
 /// Rate (Hz) below which a frequency is none of sampling.
 const LEAST_RATE: f64 = 20.0;
@@ -87,6 +100,7 @@ impl Stated {
             if header != Some(line.number) {
                 stated.unit(source, line, &lower)?;
             }
+            seconds(source, line, &lower)?;
             stated.numbers(line.number, &lower);
         }
         if let Some(At { line, value }) = stated.frequency.take()
@@ -168,6 +182,16 @@ impl Stated {
                 }
             }
         }
+        let multiplied = ["multiplied by ", "multiply by "]
+            .iter()
+            .find_map(|words| number::first_in(lower.split_once(words)?.1));
+        let keyed_factor = entries.iter().any(|e| meaning(e) == Some(Meaning::Factor));
+        if let Some((factor, _)) = multiplied.filter(|(x, _)| *x != 1.0 && !keyed_factor) {
+            self.factors.push(At {
+                line,
+                value: factor,
+            });
+        }
         let alone = entries.len() == 1;
         for entry in entries {
             let Some(meaning) = meaning(&entry) else {
@@ -182,6 +206,14 @@ impl Stated {
             let Some((found, digits, behind)) = entry.number() else {
                 continue;
             };
+            let of_time = matches!(meaning, Meaning::Step | Meaning::StepByUnit | Meaning::Rate);
+            // `200 Hz (decimated from 1000 Hz)` is that of the record.
+            let of_other = OF_OTHER_STAGES
+                .iter()
+                .any(|words| entry.value.contains(words));
+            if of_time && of_other && !entry.value.contains("ed from") {
+                continue;
+            }
             let inside = entry.unit_of_key();
             let inside = inside.as_deref();
             let unit = match behind {
@@ -203,7 +235,9 @@ impl Stated {
                 },
                 // An interval of a second and more is that of a window.
                 Meaning::StepByUnit => {
-                    let own = seconds.filter(|one| !unit.is_empty() && found * one < 1.0);
+                    let rest = entry.value[digits.len()..].trim();
+                    let alone = rest == behind || rest.trim_end_matches('.') == behind;
+                    let own = seconds.filter(|one| alone && !unit.is_empty() && found * one < 1.0);
                     step(own.map_or(0.0, |one| found * one), false);
                 }
                 Meaning::Rate if ["khz", "kilohertz"].contains(&unit) => step(1.0e-3 / found, true),
@@ -218,7 +252,12 @@ impl Stated {
                 Meaning::Frequency => {
                     let rest = entry.value[digits.len()..].trim();
                     let bare = rest.is_empty() || rest == behind;
-                    if hertz && alone && bare && found >= LEAST_RATE {
+                    // `Low-pass filter, frequency = 25 Hz`, `Frequency (natural): 50 Hz`, `Rate: 5`.
+                    let first = lower.trim_start_matches(|c: char| !c.is_alphanumeric());
+                    let own = first.starts_with(entry.key)
+                        && inside.is_none_or(|unit| HERTZ.contains(&unit))
+                        && !(entry.key == "rate" && unit.is_empty());
+                    if hertz && alone && bare && own && found >= LEAST_RATE {
                         let value = 1.0 / found;
                         self.frequency = Some(At { line, value });
                     }
@@ -398,6 +437,32 @@ impl Stated {
     }
 }
 
+/// Refuses another unit of the times than the second under a key, which the rows do not know of: `Time unit: ms`.
+fn seconds(source: &Source<'_>, line: Line<'_>, lower: &str) -> Result<(), GroundMotionError> {
+    const KEYS: [&str; 5] = [
+        "time unit",
+        "time units",
+        "unit of time",
+        "x unit",
+        "x units",
+    ];
+    let other = keyed(lower).into_iter().find_map(|entry| {
+        let key = entry.key.replace(['-', '_'], " ");
+        let unit = entry.value.split([',', ';', ' ']).next()?;
+        let one = names::time_unit(unit).filter(|_| KEYS.contains(&key.trim()))?;
+        (one != 1.0).then(|| unit.to_owned())
+    });
+    match other {
+        Some(unit) if source.options.layout.is_none() => Err(source.error(
+            line.number,
+            0,
+            format!("the times are in {unit} here, and are read in seconds"),
+            "name the column with its unit, `time (ms)`, or bring the times to seconds and take the line out",
+        )),
+        _ => Ok(()),
+    }
+}
+
 /// A unit that a line states.
 enum Unit {
     None,
@@ -435,7 +500,10 @@ fn unit_of(lower: &str) -> Unit {
     for entry in keyed(lower).iter().filter(|entry| unit_words(entry.key)) {
         // Other keys may follow on the line.
         let end = match entry.value.contains([':', '=']) {
-            true => entry.value.find([',', ';', '\t', '|']),
+            true => entry
+                .value
+                .find([',', ';', '\t', '|'])
+                .or(entry.value.find(' ')),
             false => None,
         };
         let value = &entry.value[..end.unwrap_or(entry.value.len())];
@@ -516,15 +584,25 @@ fn behind_word_of_unit(part: &str) -> Option<SeriesUnit> {
     unit_words(key).then(|| names::motion_unit(&header::bare_unit(unit)))?
 }
 
-/// The unit that ends a line on accelerations alone, without a number: `acceleration time history in g`.
+/// The unit that ends a line on accelerations alone, without a number: `acceleration time history in g`,
+/// `acceleration data (cm/sec^2)`.
 fn in_at_the_end(bare: &str) -> Option<SeriesUnit> {
-    let (words, unit) = bare.trim_end_matches('.').rsplit_once(" in ")?;
+    const OF_ANOTHER: [&str; 5] = ["spectral", "spectrum", "threshold", "gravity", "pseudo"];
+    let bare = bare.trim_end_matches('.');
+    let in_brackets = || {
+        let (words, unit) = bare.strip_suffix([')', ']'])?.rsplit_once(['(', '['])?;
+        Some((words, unit))
+    };
+    let (words, unit) = bare.rsplit_once(" in ").or_else(in_brackets)?;
     let unit = names::motion_unit(unit.strip_prefix("units of ").unwrap_or(unit))?;
     let is = |of: &dyn Fn(&str) -> bool| words.split(|c: char| !c.is_alphabetic()).any(of);
     let accelerates = is(&|word| word.starts_with("accel") || word == "acc");
-    let other =
-        is(&|word| word.starts_with("vel") || word.starts_with("disp") || of_something_else(word))
-            || words.contains(|c: char| c.is_ascii_digit());
+    let other = is(&|word| {
+        word.starts_with("vel")
+            || word.starts_with("disp")
+            || of_something_else(word)
+            || OF_ANOTHER.contains(&word)
+    }) || words.contains(|c: char| c.is_ascii_digit());
     (accelerates && !other).then_some(unit)
 }
 
@@ -569,6 +647,11 @@ fn value_of(value: &str) -> Unit {
         return Unit::Known(unit);
     }
     let quoted = value.trim_matches(['"', '\'', '<', '>']).trim();
+    // The bracket of the whole line.
+    let quoted = match quoted.contains('(') {
+        true => quoted,
+        false => quoted.trim_end_matches(')'),
+    };
     if let Some(unit) = spelled_twice(quoted) {
         return Unit::Known(unit);
     }

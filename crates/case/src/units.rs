@@ -422,8 +422,8 @@ pub fn unit_in(name: &str) -> Option<&str> {
 }
 
 /// Parses `"25 t"`, `"2.75e9 N/m^1.5"`, `"0.35 g"`, `"kN s/m"` style units: factors
-/// separated by blank, `*` or `·`, one divisor after each `/`, powers after `^` or
-/// as final digits. `g` is standard gravity, never gram. A text that is only a
+/// separated by blank, `*`, `·` or `⋅`, one divisor after each `/`, powers after `^`, as final
+/// digits or raised, as in `m·s⁻²`. `g` is standard gravity, never gram. A text that is only a
 /// number has no dimension.
 ///
 /// # Errors
@@ -534,11 +534,41 @@ fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitEr
 
 /// A unit with powers, products and the prefix micro in plain signs.
 fn normal(unit: &str) -> String {
-    unit.replace('²', "^2")
-        .replace('³', "^3")
-        .replace('·', "*")
-        .replace(['µ', 'μ'], "u")
+    let mut plain = String::with_capacity(unit.len());
+    let mut is_raised = false;
+    for sign in unit.chars() {
+        let raised = SUPERSCRIPTS.iter().find(|(raised, _)| *raised == sign);
+        match (raised, sign) {
+            (Some((_, low)), _) => {
+                if !is_raised {
+                    plain.push('^');
+                }
+                plain.push(*low);
+            }
+            (None, '·' | '⋅') => plain.push('*'),
+            (None, 'µ' | 'μ') => plain.push('u'),
+            (None, other) => plain.push(other),
+        }
+        is_raised = raised.is_some();
+    }
+    plain
 }
+
+/// Signs of powers, and what they are on the line.
+const SUPERSCRIPTS: [(char, char); 12] = [
+    ('⁺', '+'),
+    ('⁻', '-'),
+    ('⁰', '0'),
+    ('¹', '1'),
+    ('²', '2'),
+    ('³', '3'),
+    ('⁴', '4'),
+    ('⁵', '5'),
+    ('⁶', '6'),
+    ('⁷', '7'),
+    ('⁸', '8'),
+    ('⁹', '9'),
+];
 
 /// A symbol in plain signs as it stands in a unit: with the sign for micro that was written.
 fn as_written(unit: &str, symbol: &str) -> String {
@@ -557,6 +587,10 @@ fn split_power(term: &str) -> Option<(&str, f64)> {
         (None, Some(at)) if at > 0 => term.split_at(at),
         (None, _) => return Some((term, 1.0)),
     };
+    // A full stop behind a unit is no part of it, with or without a power.
+    if power.ends_with('.') {
+        return None;
+    }
     let power: f64 = power.parse().ok()?;
     (power.abs() <= LARGEST_POWER).then_some((symbol, power))
 }

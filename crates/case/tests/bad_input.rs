@@ -264,7 +264,19 @@ fn numbers_in_all_forms() {
         assert!((found / value - 1.0).abs() < 5e-10, "{text}: {found}");
     }
     for text in [
-        "5 kN/m s", "5 N/", "5 1", "5 m^nan", "1e308 t", "3,4 m", "- 5 m", "inf kg",
+        "5 kN/m s",
+        "5 N/",
+        "5 1",
+        "5 m^nan",
+        "1e308 t",
+        "3,4 m",
+        "- 5 m",
+        "inf kg",
+        "5 mm.",
+        "5 m/s2.",
+        "5 m/s^2.",
+        "5 m\u{207b}",
+        "5 \u{22c5}m",
     ] {
         assert!(parse_quantity(text).is_err(), "{text}");
     }
@@ -302,6 +314,11 @@ fn texts_without_unit_are_pure_numbers() {
     }
     // Pure numbers are as before.
     let source = CASE.replacen(
+        ("5 MN·m\u{207b}¹", 5.0e6),
+        ("2 m·s\u{207b}²", 2.0),
+        ("3 kN\u{22c5}s/m", 3000.0),
+        ("2 kN\u{22c5}m\u{207b}\u{b9}\u{22c5}s", 2000.0),
+        ("4 cm\u{2074}", 4.0e-8),
         "stiffness_proportional = 0.05",
         "stiffness_proportional = \"0.05\"",
         1,

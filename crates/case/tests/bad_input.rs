@@ -238,6 +238,32 @@ fn each_error_points_at_its_place() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
+/// A whole number may have a decimal point, as a JSON Schema has it; a fraction may not.
+#[test]
+fn counts_with_a_decimal_point() {
+    let storeys = |text: &str| {
+        let source = CASE.replacen("storeys = 2", &format!("storeys = {text}"), 1);
+        Case::parse(&source, Path::new("c"))
+    };
+    for text in ["2.0", "2e0", "0.2e1", "2_0e-1"] {
+        assert_eq!(storeys(text).unwrap().buildings[0].mass.len(), 2, "{text}");
+    }
+    for (text, says) in [
+        ("2.5", "not one with a fraction"),
+        ("nan", "must be a whole number"),
+        ("inf", "must be a whole number"),
+        ("-2.0", "from 1"),
+        ("1e15", "from 1"),
+        ("1e300", "must be a whole number"),
+    ] {
+        let error = storeys(text).unwrap_err();
+        assert!(error.message.contains(says), "{error}");
+        assert_eq!((error.line, error.column), (4, 11), "{error}");
+    }
+    let source = CASE.replacen("[1, 2]", "[1.0, 2.0]", 1);
+    Case::parse(&source, Path::new("c")).unwrap();
+}
+
 #[test]
 fn numbers_in_all_forms() {
     for text in ["25_000", "2.5e4", "+25000", "0x61A8", "'25Mg'"] {
@@ -259,6 +285,11 @@ fn numbers_in_all_forms() {
         ("25000 kip/in", 4.378_170_881e9),
         ("35 cm", 0.35),
         ("2 m/s/s", 2.0),
+        ("5 MN·m\u{207b}¹", 5.0e6),
+        ("2 m·s\u{207b}²", 2.0),
+        ("3 kN\u{22c5}s/m", 3000.0),
+        ("2 kN\u{22c5}m\u{207b}\u{b9}\u{22c5}s", 2000.0),
+        ("4 cm\u{2074}", 4.0e-8),
     ] {
         let found = parse_quantity(text).unwrap().value;
         assert!((found / value - 1.0).abs() < 5e-10, "{text}: {found}");
@@ -314,11 +345,6 @@ fn texts_without_unit_are_pure_numbers() {
     }
     // Pure numbers are as before.
     let source = CASE.replacen(
-        ("5 MN·m\u{207b}¹", 5.0e6),
-        ("2 m·s\u{207b}²", 2.0),
-        ("3 kN\u{22c5}s/m", 3000.0),
-        ("2 kN\u{22c5}m\u{207b}\u{b9}\u{22c5}s", 2000.0),
-        ("4 cm\u{2074}", 4.0e-8),
         "stiffness_proportional = 0.05",
         "stiffness_proportional = \"0.05\"",
         1,

@@ -87,6 +87,9 @@ const WORD: &str = "a text in quotes";
 /// What counts expect.
 const WHOLE: &str = "a whole number";
 
+/// Whole numbers up to which a double tells each from the next one: 2^53.
+const MOST_EXACT: f64 = 9_007_199_254_740_992.0;
+
 /// The name of a key or table in a message.
 pub(super) fn quoted(name: &str) -> String {
     match name.contains('`') {
@@ -312,6 +315,16 @@ impl<'r> Value<'r> {
         }
     }
 
+    /// The whole number that is written with a decimal point, as in 3.0: one to a JSON Schema.
+    fn whole(self) -> Option<i64> {
+        let DeValue::Float(digits) = self.given().ok()?.get_ref() else {
+            return None;
+        };
+        let number: f64 = digits.as_str().parse().ok()?;
+        let is_whole = number.fract() == 0.0 && number.abs() <= MOST_EXACT;
+        is_whole.then_some(number as i64)
+    }
+
     /// What the type that holds this one expects, or else this.
     fn wanted(self, otherwise: &'r str) -> &'r str {
         match self.wanted.is_empty() {
@@ -461,6 +474,9 @@ impl<'de> Deserializer<'de> for Value<'_> {
     }
 
     fn deserialize_i64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        if let Some(number) = self.whole() {
+            return visitor.visit_i64(number);
+        }
         self.only(DeValue::is_integer, self.wanted(WHOLE))?
             .deserialize_any(visitor)
     }

@@ -264,6 +264,23 @@ fn counts_with_a_decimal_point() {
     Case::parse(&source, Path::new("c")).unwrap();
 }
 
+/// What is given already is not suggested once more, and another letter says nothing.
+#[test]
+fn suggestions_of_what_can_be_meant() {
+    let help = |from: &str, to: &str| {
+        assert!(CASE.contains(from), "{from}");
+        let error = Case::parse(&CASE.replacen(from, to, 1), Path::new("c")).unwrap_err();
+        let helps = error.each().filter_map(|e| e.help);
+        helps.collect::<Vec<_>>().join(" | ")
+    };
+    let weight = help("mass = \"25 t\"", "weight = \"245 kN\"");
+    assert!(weight.contains("add `mass"), "{weight}");
+    assert!(!weight.contains("did you mean"), "{weight}");
+    let between = |name: &str| help("[\"a\", \"b\"]", &format!("[\"a\", \"{name}\"]"));
+    assert!(between("B").starts_with("did you mean \"b\"? "));
+    assert!(between("c").starts_with("buildings: a, b"));
+}
+
 #[test]
 fn numbers_in_all_forms() {
     for text in ["25_000", "2.5e4", "+25000", "0x61A8", "'25Mg'"] {

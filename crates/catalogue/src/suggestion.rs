@@ -19,14 +19,18 @@ pub fn nearest_within<T: AsRef<str>>(
         .map(|(_, known)| known)
 }
 
-/// The known name of which `name` is an abbreviation; else the one with the fewest letters to
-/// change, if they are no more than one and a third of those of `name`.
+/// The known name that `name` is in other case; else the one of which it is an abbreviation; else
+/// the one with the fewest letters to change, if they are no more than one and a third of those of
+/// `name`, and any letter stays.
 pub fn misspelt<T: AsRef<str>>(name: &str, known: impl IntoIterator<Item = T>) -> Option<T> {
     let letters = name.chars().count();
     let change = |known: &T| {
-        let change = letters_to_change(name, known.as_ref());
-        let is_short = is_abbreviation(name, known.as_ref());
-        (is_short || change <= 1 + letters / 3).then_some((!is_short, change))
+        let known = known.as_ref();
+        let is_same = known.to_lowercase() == name.to_lowercase();
+        let change = letters_to_change(name, known);
+        let is_short = is_abbreviation(name, known);
+        let is_like = change <= 1 + letters / 3 && change < letters.max(known.chars().count());
+        (is_same || is_short || is_like).then_some((!is_same, !is_short, change))
     };
     let near = known
         .into_iter()
@@ -77,6 +81,11 @@ mod tests {
         ] {
             assert_eq!(misspelt(name, keys), meant, "{name}");
         }
+        // Another letter alone says nothing, the same one in other case does.
+        assert_eq!(misspelt("h", ["L", "H"]), Some("H"));
+        assert_eq!(misspelt("x", ["L", "H"]), None);
+        assert_eq!(misspelt("L", ["L1", "H1"]), Some("L1"));
+        assert_eq!(misspelt("LEFT", ["lift", "left"]), Some("left"));
         assert_eq!(
             misspelt("rate", ["ratio", "rate_of_decay"]),
             Some("rate_of_decay")
@@ -93,7 +102,7 @@ mod tests {
             misspelt("restitutoin", ["stiffness", "restitution"]),
             Some("restitution")
         );
-        assert_eq!(misspelt("é", ["e"]), Some("e"));
+        assert_eq!(misspelt("né", ["ne"]), Some("ne"));
         assert_eq!(misspelt("mass", ["stiffness"]), None);
         assert_eq!(nearest_within("width", ["widht"], 2), Some("widht"));
         assert_eq!(nearest_within("width", ["widht"], 1), None);

@@ -725,8 +725,10 @@ impl<'r> Keys<'r> {
             kinds: "",
         };
         let known = || fields.iter().copied().filter(|k| *k != FREE);
+        // A key that is given already is not meant once more.
+        let absent = || known().filter(|k| !table.contains_key(*k));
         let unknown = |(key, _): (&'r Key<'r>, _)| match keys.is_open() {
-            false => Some((key, suggestion::misspelt(key.get_ref(), known()))),
+            false => Some((key, suggestion::misspelt(key.get_ref(), absent()))),
             // Where any key may stand, one that is nearly another is a slip.
             true => {
                 let meant = suggestion::nearest_within(key.get_ref(), known(), 2);

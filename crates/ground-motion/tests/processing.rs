@@ -342,6 +342,15 @@ fn windows() {
             end: 2.0,
         },
     );
+    // What is told is what was done: whole steps.
+    let between = [ProcessingStep::Taper {
+        start: 1.009,
+        end: 2.0,
+    }];
+    let done = process(&ground, &between).unwrap();
+    assert_eq!(done.steps[0].get("start"), Some(1.0));
+    assert_eq!(done.steps[0].get("end"), Some(2.0));
+    assert_eq!(done.accelerogram.samples(), tapered.samples());
     let a = tapered.samples();
     for (i, exact) in [
         (0, 0.0),

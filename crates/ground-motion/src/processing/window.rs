@@ -82,16 +82,16 @@ pub(crate) fn taper(
     within(STEP, "end", end, 0.0, duration - start)?;
     let mut samples = record.samples().to_vec();
     let last = samples.len() - 1;
-    for (length, reversed) in [(start, false), (end, true)] {
-        let count = whole_steps(length, h);
+    let counts = [start, end].map(|length| whole_steps(length, h));
+    for (count, reversed) in counts.into_iter().zip([false, true]) {
         for i in 0..count {
             let weight = 0.5 * (1.0 - libm::cos(PI * i as f64 / count as f64));
             samples[if reversed { last - i } else { i }] *= weight;
         }
     }
     let step = StepRecord::new(STEP)
-        .number("start", start, "s")
-        .number("end", end, "s");
+        .number("start", counts[0] as f64 * h, "s")
+        .number("end", counts[1] as f64 * h, "s");
     Ok((record.with_samples(samples, h)?, step))
 }
 

@@ -87,6 +87,17 @@ fn unusual_values_are_warned_of() {
             &["at most 10 s", "was \"2800 ms\" meant?"],
         ),
         (
+            "yield_amplification = [1, 1e6]",
+            &["is 1000000 for building 2", "in codes 1 to 2"],
+        ),
+        ("yield_amplification = 0.8", &["its inverse is 1.25"]),
+        (
+            "plan_length = \"4e7 m\"",
+            &["is 4.00000e7 m, and buildings have 1 m to 1000 m"],
+        ),
+        ("plan_length = 40000", &["was \"40000 mm\" meant?"]),
+        ("plan_width = [\"1 mm\", 20]", &["0.001 m for building 1"]),
+        (
             "plan_length = 40\nplan_width = 20\nplan_eccentricity = [2, 21]",
             &["21 m for building 2", "half of the plan of 40 m"],
         ),
@@ -99,7 +110,8 @@ fn unusual_values_are_warned_of() {
     }
     let ends = "importance = [0.5, 2]\nresponse_modification = [1, 12]\ndisplacement_amplification = [1, 12]\n\
         design_ground_acceleration = \"2 g\"\nspectral_acceleration_1s = \"0.05 g\"\nseismic_coefficient = 1\n\
-        isolation_damping_coefficient = [0.8, 2]\nisolation_period = \"10 s\"\nplan_length = 40\nplan_eccentricity = 20";
+        isolation_damping_coefficient = [0.8, 2]\nisolation_period = \"10 s\"\nplan_length = 40\nplan_eccentricity = 20\n\
+        yield_amplification = [1, 2]\nplan_width = [1, 1000]";
     assert_eq!(warnings(ends), [""; 0]);
 }
 

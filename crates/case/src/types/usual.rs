@@ -32,9 +32,11 @@ enum Kind {
     Acceleration,
     /// A time (s).
     Time,
+    /// A length of a building (m).
+    Length,
 }
 
-const USUAL: [Usual; 8] = [
+const USUAL: [Usual; 11] = [
     Usual {
         key: "response_modification",
         bounds: Bounds::of((1.0, 12.0), Kind::Number),
@@ -80,7 +82,25 @@ const USUAL: [Usual; 8] = [
         bounds: Bounds::of((0.0, 10.0), Kind::Time),
         given: |s| s.isolation_period.as_deref().unwrap_or_default(),
     },
+    Usual {
+        key: "yield_amplification",
+        bounds: Bounds::of((1.0, 2.0), Kind::Number),
+        given: |s| s.yield_amplification.as_deref().unwrap_or_default(),
+    },
+    Usual {
+        key: "plan_length",
+        bounds: Bounds::of(PLAN, Kind::Length),
+        given: |s| s.plan_length.as_deref().unwrap_or_default(),
+    },
+    Usual {
+        key: "plan_width",
+        bounds: Bounds::of(PLAN, Kind::Length),
+        given: |s| s.plan_width.as_deref().unwrap_or_default(),
+    },
 ];
+
+/// Dimensions in plan (m) of buildings.
+const PLAN: (f64, f64) = (1.0, 1000.0);
 
 /// A warning for each key with a value that no code has.
 pub(super) fn warnings(separation: &Separation) -> Vec<String> {
@@ -140,7 +160,11 @@ impl Bounds {
         let range = self.kind.range(self.range);
         let meant = self.meant(value);
         let meant = meant.map_or(String::new(), |meant| format!("; {meant}"));
-        format!("`{key}` of {place} is {shown}{of}, and in codes {range}{meant}")
+        let usual = match self.kind {
+            Kind::Length => "buildings have",
+            _ => "in codes",
+        };
+        format!("`{key}` of {place} is {shown}{of}, and {usual} {range}{meant}")
     }
 
     /// What was probably meant.
@@ -173,6 +197,10 @@ impl Bounds {
                 let number = six_digits(value);
                 format!("a number without unit is in s: was \"{number} ms\" meant?")
             }),
+            Kind::Length => self.holds(value / 1000.0).then(|| {
+                let number = six_digits(value);
+                format!("a number without unit is in m: was \"{number} mm\" meant?")
+            }),
         }
     }
 }
@@ -182,7 +210,7 @@ impl Kind {
     fn unit(self) -> f64 {
         match self {
             Self::Acceleration => STANDARD_GRAVITY,
-            Self::Number | Self::Time => 1.0,
+            Self::Number | Self::Time | Self::Length => 1.0,
         }
     }
 
@@ -191,6 +219,7 @@ impl Kind {
         match self {
             Self::Number => number,
             Self::Time => format!("{number} s"),
+            Self::Length => format!("{number} m"),
             Self::Acceleration => {
                 let of_gravity = six_digits(value / STANDARD_GRAVITY);
                 format!("{number} m/s2 ({of_gravity} g)")
@@ -202,6 +231,7 @@ impl Kind {
         let unit = match self {
             Self::Number => "",
             Self::Time => " s",
+            Self::Length => " m",
             Self::Acceleration => " g",
         };
         match least == 0.0 {

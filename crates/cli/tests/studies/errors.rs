@@ -295,6 +295,18 @@ fn contradictions_are_told() {
         ),
         (with_ida("target_frequency = 1e-3"), "needs a hazard curve"),
         (
+            with_ida("target_frequency = \"1e-3 Hz\""),
+            "plain numbers are in 1/year: write 1e-3, or \"1e-3 1/year\"",
+        ),
+        (
+            with_ida("target_frequency = \"-1e-3 1/year\""),
+            "must be greater than zero",
+        ),
+        (
+            with_ida("hazard = [[1, \"1e-2 1/s\"], [2, 1e-3]]"),
+            "must be a mean annual frequency (1/year), but \"1e-2 1/s\" is a frequency",
+        ),
+        (
             with_ida("hazard = [[1, 1e-3], [2, 1e-2]]"),
             "frequencies fall",
         ),

@@ -38,7 +38,7 @@ const ANNUAL: [&str; 5] = [
     "mafe",
 ];
 const FREQUENCY: [&str; 3] = ["frequency", "rate", "lambda"];
-const PER_YEAR: [&str; 6] = ["1/year", "1/yr", "1/a", "per_year", "year^-1", "yr^-1"];
+pub(super) const PER_YEAR: [&str; 6] = ["1/year", "1/yr", "1/a", "per_year", "year^-1", "yr^-1"];
 
 /// Part by which a period in a header may differ from that of the study: it is rounded.
 const PERIOD_TOLERANCE: f64 = 0.01;

@@ -6,8 +6,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use pounding_case::document::{
-    AboveZero, Amount, Entry, Fault, Field, FromZero, List, Number, Optional, Positive, Reader,
-    TableOr, Within, Written,
+    AboveZero, Amount, Entry, Fault, Field, FromZero, List, Number, Optional, Reader, TableOr,
+    Within, Written,
 };
 use pounding_case::{Building, ContactLevel, Dimension, Located, Support};
 use pounding_catalogue::wording::one_line;
@@ -15,6 +15,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
 
+use super::annual_frequency::AnnualFrequency;
 use super::context::Context;
 use super::values::{Numbers, Whole, all, not_both};
 use super::{IntensityMeasure, hazard_file};
@@ -240,7 +241,7 @@ pub(super) struct IdaTable {
     /// Hazard at the site: points, or the name of a CSV file
     hazard: Optional<Hazard>,
     /// Mean annual frequency of pounding that is aimed at (1/year)
-    target_frequency: Optional<Positive<Number>>,
+    target_frequency: Optional<AnnualFrequency>,
     /// Confidence of intervals, by default 0.95
     confidence: Optional<Amount<Number, BelowOne>>,
 }
@@ -652,7 +653,11 @@ fn hazard_curve(
                     reader.keep(&item.span, "hazard", value)
                 };
                 let intensity = number(intensity, measure.map(IntensityMeasure::dimension));
-                intensity.zip(number(frequency, Some(Dimension::NUMBER)))
+                let frequency = frequency.located().and_then(|item| {
+                    let value = AnnualFrequency::try_from(item.value).map(f64::from);
+                    reader.keep(&item.span, "hazard", value)
+                });
+                intensity.zip(frequency)
             }))?;
             (points, None)
         }

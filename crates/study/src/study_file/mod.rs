@@ -1,5 +1,6 @@
 //! The study file: a case, what varies in it, and how it is sampled.
 
+mod annual_frequency;
 mod context;
 mod files;
 mod hazard_file;

@@ -91,6 +91,25 @@ fn the_case_itself_is_sound() {
     no_part_file(folder.path());
 }
 
+/// A day that is none does not hide a code that is none.
+#[test]
+fn wrong_dates_and_codes_are_said_together() {
+    let with = |keys: &str| format!("{CASE}[separation]\n{keys}\n");
+    let date = "case.toml:28:8: ";
+    for (keys, wanted) in [
+        ("code = \"nosuch_2004\"", "case.toml:29:8: "),
+        ("country = \"Atlantis\"", "case.toml:29:11: "),
+    ] {
+        let case = with(&format!("date = \"2018-02-30\"\n{keys}"));
+        refused(&case, &record(), &[date, wanted, "2 errors"]);
+    }
+    let known = with("date = \"2018-02-30\"\ncode = \"ntc\"");
+    let folder = tempfile::tempdir().unwrap();
+    let output = run_in(folder.path(), &known, &record(), &["check", "case.toml"]);
+    let text = message(&output);
+    assert!(text.contains(date) && !text.contains("errors"), "{text}");
+}
+
 /// Options of the record that say nothing of it, and quantities without unit where parameters of a
 /// law are read.
 #[test]

@@ -465,6 +465,25 @@ fn chosen_code(
     Ok((Some(code.code()), None))
 }
 
+/// The error of a code or country that is known on no day, beside a date that is none.
+fn unknown_code(case: &Case, separation: &Separation) -> Option<CheckError> {
+    date_of(case, separation).err()?;
+    let today = Date::today();
+    let (name, error) = match (&separation.country, &separation.code) {
+        (Some(country), _) => (country, code_in_country(&country.value, today).err()?),
+        (None, Some(code)) => (code, choose_code(&code.value, today).err()?),
+        (None, None) => return None,
+    };
+    // What is in force depends on the day, which is not known.
+    let of_day = matches!(
+        error,
+        SeparationError::NotInForce { .. }
+            | SeparationError::DayNotKnown { .. }
+            | SeparationError::SeveralCodes { .. }
+    );
+    (!of_day).then(|| unknown(case, name, error.to_string(), error.help()))
+}
+
 /// The error of a date that chooses between nothing. One in a case may wait for a code that an
 /// argument names, and is not meant for an edition that an argument names.
 fn idle_date(
@@ -506,7 +525,9 @@ pub fn unknown_words(case: &Case) -> Vec<CaseError> {
     };
     let is_own = given.code.as_ref().is_some_and(of_own);
     let code = (!is_own).then(|| chosen_code(case, given, known).err());
-    let all = systems.chain(zone).chain(provisions).chain(code.flatten());
+    let undated = (!is_own).then(|| unknown_code(case, given)).flatten();
+    let code = code.flatten().into_iter().chain(undated);
+    let all = systems.chain(zone).chain(provisions).chain(code);
     all.filter_map(placed).chain(rules).collect()
 }
 

@@ -1,7 +1,8 @@
 //! Where the units of a text meet the units of a model or law.
 
-use pounding_case::{Case, CaseError, Dimension, Located, Quantity};
+use pounding_case::{Case, CaseError, Dimension, Located, Quantity, UnreadParameter};
 use pounding_catalogue::{DefinitionError, Descriptor, ParameterDescriptor, ParameterUnit};
+use pounding_gap_element::{GapElementError, registry};
 
 /// Dimension that a parameter of an impact model or of a law with memory must have. Where its
 /// unit follows from the exponent of the law, that is the one given, or the default, or the fixed
@@ -32,6 +33,23 @@ pub fn parameter_dimension(
         ParameterUnit::MetrePerSecond => Dimension::VELOCITY,
         ParameterUnit::Second => Dimension::TIME,
     }
+}
+
+/// The error of a parameter that its model or law has not at all; `None` where that is known, or
+/// the model is not.
+#[must_use]
+pub fn unknown_parameter(case: &Case, given: &UnreadParameter) -> Option<CaseError> {
+    let UnreadParameter { key, model, of_gap } = given;
+    let (error, help) = if *of_gap {
+        let descriptor = registry::find(&model.value).ok()?;
+        let error = descriptor.parameter(&key.value).err()?;
+        (error.to_string(), GapElementError::from(error).help())
+    } else {
+        let descriptor = pounding_hysteresis::find(&model.value).ok()?;
+        let error = descriptor.parameter(&key.value).err()?;
+        (error.to_string(), Some(error.help()))
+    };
+    Some(case.error(key.span.clone(), error, help))
 }
 
 /// The value (SI) of a parameter: known, of its dimension and within its range. `help` is what to

@@ -35,7 +35,7 @@ pub use assemble::{
     Assembly, assemble, assemble_sharing, assemble_with_record, assemble_without_gaps,
     methods_that_take, nothing_to_move_across, regap,
 };
-pub use dimension::parameter_dimension;
+pub use dimension::{parameter_dimension, unknown_parameter};
 pub use error::AssemblyError;
 pub use excitation::{
     RecordFiles, further_record, process_record, read_record, read_target, scale_record,

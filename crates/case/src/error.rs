@@ -3,6 +3,8 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
+use crate::types::UnreadParameter;
+
 /// Something wrong in a case file, with its place and a remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[error("{}: {message}", self.place())]
@@ -111,6 +113,8 @@ pub struct Errors {
     found: RefCell<Vec<CaseError>>,
     /// Places of what could not be read whole, so that later errors there say nothing.
     incomplete: RefCell<Vec<Range<usize>>>,
+    /// Parameters whose values could not be read.
+    unread: RefCell<Vec<UnreadParameter>>,
 }
 
 impl Errors {
@@ -172,6 +176,17 @@ impl Errors {
     #[must_use]
     pub fn all_incomplete(&self) -> Vec<Range<usize>> {
         self.incomplete.borrow().clone()
+    }
+
+    /// Says that the value of a parameter was not read, and so not all of its model.
+    pub(crate) fn unread(&self, parameter: UnreadParameter) {
+        self.incomplete(parameter.model.span.clone());
+        self.unread.borrow_mut().push(parameter);
+    }
+
+    /// Parameters whose values were not read.
+    pub(crate) fn all_unread(&self) -> Vec<UnreadParameter> {
+        self.unread.borrow().clone()
     }
 
     /// The value, unless anything was wrong.

@@ -91,6 +91,45 @@ fn the_case_itself_is_sound() {
     no_part_file(folder.path());
 }
 
+/// A parameter that a law or model does not have is said to be unknown, whatever its value is.
+#[test]
+fn unknown_parameters_are_known_by_their_names() {
+    let link = "[[link]]\nbetween = [\"a\", \"b\"]\nmodel = \"linear\"\nstiffness = \"1 MN/m\"\n";
+    let with = |lines: &str| {
+        let link = format!("{link}{lines}\n[ground_motion]");
+        CASE.replacen("[ground_motion]", &link, 1)
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let said = |case: &str| {
+        let output = run_in(folder.path(), case, &record(), &["check", "case.toml"]);
+        message(&output)
+    };
+    let text = said(&with("wall = \"fixed\"\nstoreys = [1]\nother = { a = 1 }"));
+    for part in [
+        "case.toml:27:1: law linear has no parameter \"wall\"",
+        "case.toml:28:1: law linear has no parameter \"storeys\"",
+        "case.toml:29:1: law linear has no parameter \"other\"",
+        "its parameters are stiffness",
+        "3 errors",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    // Of one that it has the value is wrong, and a slip of a key is said once.
+    let text = said(&with("").replacen("\"1 MN/m\"", "\"much\"\nmodl = \"x\"", 1));
+    for part in [
+        "does not start with a number",
+        "unknown key `modl`",
+        "2 errors",
+    ] {
+        assert!(text.contains(part), "{part}: {text}");
+    }
+    let gap = CASE.replacen("restitution = 0.65", "restitution = 0.65\nother = [1]", 1);
+    let text = said(&gap);
+    assert!(text.contains("case.toml:23:1: "), "{text}");
+    assert!(text.contains("has no parameter \"other\""), "{text}");
+    assert!(!text.contains("errors"), "{text}");
+}
+
 /// A day that is none does not hide a code that is none.
 #[test]
 fn wrong_dates_and_codes_are_said_together() {

@@ -4,10 +4,12 @@
 //! methods and the record. Each step reports all that it finds, but what fails in the first
 //! is never seen by the second. Here the second looks at what the first could read.
 
+use std::ops::Range;
 use std::path::Path;
 
 use pounding_assembly::{
     Assembly, AssemblyError, assemble_with_record, read_record, regap, scale_record,
+    unknown_parameter,
 };
 use pounding_case::{
     Analysis, Building, Case, CaseError, Damping, Draft, GivenFiles, Located, Parameter, Quantity,
@@ -16,6 +18,7 @@ use pounding_gap_element::registry;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
 use pounding_hysteresis::help_among_gaps;
 use pounding_time_history::TimeHistoryError;
+use toml::de::{DeTable, DeValue};
 
 use crate::case_text::root_key;
 use crate::gap_check::unknown_words;
@@ -89,11 +92,12 @@ fn parse_case_of(
         ));
     }
     let mut case = Case::parse_or_draft(source, path).map_err(|refusal| {
-        let more = refusal.draft.map(|mut draft| {
-            draft.case.given_files = files.cloned();
-            later(&draft, own_record)
-        });
-        joined(refusal.error, more.unwrap_or_default())
+        let Some(mut draft) = refusal.draft else {
+            return refusal.error;
+        };
+        draft.case.given_files = files.cloned();
+        let known = with_unknown_parameters(refusal.error, &draft);
+        joined(known, later(&draft, own_record))
     })?;
     case.given_files = files.cloned();
     // Only the gap check needs these words, but a case in which they are wrong is wrong
@@ -109,6 +113,7 @@ fn sound(case: &Case) -> Draft {
     Draft {
         case: case.clone(),
         incomplete: Vec::new(),
+        unread: Vec::new(),
         motion_is_known: true,
     }
 }
@@ -129,6 +134,44 @@ pub fn with_all(error: AssemblyError, case: &Case, own_record: bool) -> Assembly
     };
     let first = CaseError::of_all(error.clone().each().map(|e| hinted(case, e)).collect());
     joined(first.unwrap_or(error), later(&sound(case), own_record)).into()
+}
+
+/// The errors of a case with those of parameters that their model or law does not have, in the
+/// place of what is wrong with the values of these.
+fn with_unknown_parameters(error: CaseError, draft: &Draft) -> CaseError {
+    let mut all: Vec<CaseError> = error.clone().each().collect();
+    for parameter in &draft.unread {
+        let start = parameter.key.span.start;
+        // A slip of another key was found by reading.
+        if all.iter().any(|e| e.span.start == start) {
+            continue;
+        }
+        let unknown = unknown_parameter(&draft.case, parameter);
+        if let Some((unknown, value)) = unknown.zip(value_of(&draft.case.source, start)) {
+            all.retain(|e| !value.contains(&e.span.start));
+            all.push(unknown);
+        }
+    }
+    CaseError::of_all(all).unwrap_or(error)
+}
+
+/// Where the value of the key that begins at a place stands.
+fn value_of(source: &str, key: usize) -> Option<Range<usize>> {
+    fn within(table: &DeTable<'_>, at: usize) -> Option<Range<usize>> {
+        table.iter().find_map(|(key, value)| {
+            let found = (key.span().start == at).then(|| value.span());
+            found.or_else(|| inside(value.get_ref(), at))
+        })
+    }
+    fn inside(value: &DeValue<'_>, at: usize) -> Option<Range<usize>> {
+        match value {
+            DeValue::Table(table) => within(table, at),
+            DeValue::Array(items) => items.iter().find_map(|item| inside(item.get_ref(), at)),
+            _ => None,
+        }
+    }
+    let tree = DeTable::parse(source).ok()?;
+    within(tree.get_ref(), key)
 }
 
 /// One error of an error and others, in the order of the file.

@@ -13,7 +13,9 @@ use crate::document::{
     Entry, Field, Force, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader,
     Signed,
 };
-use crate::types::{ContactLevel, Facing, Gap, HitColumns, Located, Parameter, Side};
+use crate::types::{
+    ContactLevel, Facing, Gap, HitColumns, Located, Parameter, Side, UnreadParameter,
+};
 use crate::units::Quantity;
 
 /// A gap between neighbours, or to a rigid wall
@@ -128,7 +130,11 @@ impl GapTable {
         for (key, value) in self.parameters.0 {
             match value.located() {
                 Some(value) => parameters.push(Parameter { key, value }),
-                None => reader.errors.incomplete(model.span.clone()),
+                None => reader.errors.unread(UnreadParameter {
+                    key,
+                    model: model.clone(),
+                    of_gap: true,
+                }),
             }
         }
         let (place, placed) = placed.unzip();

@@ -11,7 +11,9 @@ use super::{Row, name, spread};
 use crate::document::{
     Count, Entry, Field, FreeKeys, Length, OneOrEach, Optional, Positive, Reader,
 };
-use crate::types::{Facing, FoundationMotion, LawParameter, Link, Located, Side, StoreyLaw};
+use crate::types::{
+    Facing, FoundationMotion, LawParameter, Link, Located, Side, StoreyLaw, UnreadParameter,
+};
 use crate::units::Quantity;
 
 /// Law of some storeys
@@ -107,11 +109,9 @@ impl LawTable {
                 .and_then(|listed| listed_storeys(reader, listed, (storeys, isolated))),
         };
         let count = listed.as_ref().map(Vec::len);
-        let (parameters, whole) = parameters(reader, self.parameters, count);
+        let (parameters, unread) = parameters(reader, self.parameters, count);
         let model = self.model.located()?;
-        if !whole {
-            reader.errors.incomplete(model.span.clone());
-        }
+        not_whole(reader, &model, unread);
         Some(StoreyLaw {
             parameters,
             // Without its storeys a law can be judged by its name.
@@ -191,11 +191,9 @@ impl LinkTable {
             }
         };
         let levels = placed.as_ref().map(|p| p.pairs.len());
-        let (mut parameters, whole) = parameters(reader, self.parameters, levels);
+        let (mut parameters, unread) = parameters(reader, self.parameters, levels);
         let model = self.model.located()?;
-        if !whole {
-            reader.errors.incomplete(model.span.clone());
-        }
+        not_whole(reader, &model, unread);
         let place = placed.as_ref().map(|p| p.place.clone());
         let (between, names, levels) = match placed {
             Some(faced) => {
@@ -304,14 +302,25 @@ fn placed(reader: &Reader<'_>, faces: Faces<false>, row: &Row) -> Option<Faced> 
     }
 }
 
-/// The parameters of a law, and whether all of them could be read: one value for each of
+/// Says which parameters of a law could not be read.
+fn not_whole(reader: &Reader<'_>, model: &Located<String>, unread: Vec<Located<String>>) {
+    for key in unread {
+        reader.errors.unread(UnreadParameter {
+            key,
+            model: model.clone(),
+            of_gap: false,
+        });
+    }
+}
+
+/// The parameters of a law, and the keys of those that could not be read: one value for each of
 /// `count` places, or for one where their number is not known.
 fn parameters(
     reader: &Reader<'_>,
     keys: FreeKeys<Values>,
     count: Option<usize>,
-) -> (Vec<LawParameter>, bool) {
-    let mut whole = true;
+) -> (Vec<LawParameter>, Vec<Located<String>>) {
+    let mut unread = Vec::new();
     let mut parameters = Vec::new();
     for (key, values) in keys.0 {
         let values = values.located().and_then(|values| match count {
@@ -319,8 +328,10 @@ fn parameters(
             None => Some(values.value.into_list()),
         });
         let values: Option<Vec<_>> = values.filter(|values| !values.is_empty());
-        whole &= values.is_some();
-        parameters.extend(values.map(|values| LawParameter { key, values }));
+        match values {
+            Some(values) => parameters.push(LawParameter { key, values }),
+            None => unread.push(key),
+        }
     }
-    (parameters, whole)
+    (parameters, unread)
 }

@@ -132,6 +132,7 @@ impl CaseFile {
                 given_files: None,
             },
             incomplete: reader.errors.all_incomplete(),
+            unread: reader.errors.all_unread(),
             motion_is_known,
         }
     }

@@ -67,8 +67,21 @@ pub struct Draft {
     /// Places of models, laws and dampings of which not all is known: what is found wrong
     /// there may follow from an error that is reported already.
     pub incomplete: Vec<Range<usize>>,
+    /// Parameters whose values could not be read: it may have none of that name.
+    pub unread: Vec<UnreadParameter>,
     /// Whether all was read that says how the record is to be read.
     pub motion_is_known: bool,
+}
+
+/// A parameter whose value could not be read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnreadParameter {
+    /// Its key.
+    pub key: Located<String>,
+    /// The impact model or law that it is given to.
+    pub model: Located<String>,
+    /// Whether that is the model of a gap.
+    pub of_gap: bool,
 }
 
 /// Why a text is no case.

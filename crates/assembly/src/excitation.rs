@@ -38,7 +38,7 @@ pub fn further_record(case: &Case, motion: &GroundMotion) -> Result<Accelerogram
     made.map_err(|e| match e {
         // The case names several files: the place says which.
         AssemblyError::GroundMotion(e) => {
-            let place = motion.file.span.clone();
+            let place = motion.span_of(e.option().unwrap_or("file"));
             case.error(place, e.to_string(), e.help()).into()
         }
         e => e,
@@ -96,14 +96,29 @@ fn read(
             component: Some(rotation.second_component.value.clone()),
             ..options
         };
-        let other = files.read(case, &motion.file.value, &second)?;
-        let span = rotation.second_component.span.clone();
+        let other = files.read(case, &motion.file.value, &second);
+        let other = other.map_err(of_second)?;
+        let place = |e: &GroundMotionError| match e {
+            // What the angle is, not what the components are.
+            GroundMotionError::OutOfRange { .. } => motion.span_of("rotate"),
+            _ => rotation.second_component.span.clone(),
+        };
         record = rotate(&record, &other, rotation.angle)
             .and_then(|pair| distinct(&record, &other).map(|()| pair))
-            .map_err(|e| case.error(span, e.to_string(), e.help()))?
+            .map_err(|e| case.error(place(&e), e.to_string(), e.help()))?
             .first;
     }
     processed(case, motion, record)
+}
+
+/// An error of the component that was chosen, as one of the second component.
+fn of_second(error: AssemblyError) -> AssemblyError {
+    match error {
+        AssemblyError::GroundMotion(error) if error.option() == Some("component") => {
+            error.of_option("second_component").into()
+        }
+        error => error,
+    }
 }
 
 /// Does the steps that a case asks for on every record without steps of its own.

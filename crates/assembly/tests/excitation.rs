@@ -77,7 +77,7 @@ fn two_components_are_turned() {
     assert_eq!(turned.steps()[0].step, "rotation");
     assert_eq!(turned.steps()[0].get("angle"), Some(30.0));
     let error = refused("second_component = \"ew\"\nrotate = 400");
-    assert_eq!((error.line, error.column), (12, 20), "{error}");
+    assert_eq!((error.line, error.column), (13, 10), "{error}");
     // A component with itself is not at right angles.
     let error = refused("second_component = \"ns\"\nrotate = 30");
     assert_eq!((error.line, error.column), (12, 20), "{error}");

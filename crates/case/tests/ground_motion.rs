@@ -261,6 +261,21 @@ const WRONG: &[(&str, usize, &str)] = &[
         "write \"automatic\" or \"keep\" or \"remove\"",
     ),
     ("offset = true", 10, "must be a text"),
+    (
+        "scale = { target = \"t.csv\", from = 2, to = \"1 s\" }",
+        9,
+        "`from` = 2 s is not below `to` = 1 s",
+    ),
+    (
+        "scale = { code = \"eurocode_8_2004\", ag = 3, ground_type = \"C\", from = 1, to = 1 }",
+        9,
+        "give the smaller one first",
+    ),
+    (
+        "process = [{ scale = { target = \"t.csv\", from = 2, to = 1 } }]",
+        12,
+        "is not below",
+    ),
     ("process = { }", 11, "must be a list of steps"),
     ("process = [\"mean\"]", 12, "must be a table"),
     ("process = [{ }]", 12, "has one key, not 0"),

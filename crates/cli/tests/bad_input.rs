@@ -91,6 +91,76 @@ fn the_case_itself_is_sound() {
     no_part_file(folder.path());
 }
 
+/// What is wrong with the record because of a key stands at that key, with its remedy.
+#[test]
+fn errors_of_the_record_stand_at_the_key_that_makes_them() {
+    let mut two = "# Unit: g\ntime_s,NS_g,EW_g\n".to_owned();
+    for i in 0..120 {
+        let t = f64::from(i) * 0.02;
+        two.push_str(&format!("{t:.2},{:.5},{:.5}\n", t.sin(), t.cos()));
+    }
+    let with = |keys: &str| {
+        let file = "file = \"record.csv\"\n";
+        CASE.replacen(file, &format!("{file}{keys}\n"), 1)
+    };
+    for (keys, wanted) in [
+        (
+            "component = \"UD\"",
+            ["case.toml:25:13: ", "help: correct `component`"],
+        ),
+        (
+            "component = \"NS\"\nsecond_component = \"UD\"\nrotate = 40",
+            [
+                "case.toml:26:20: record.csv: there is no component \"UD\"",
+                "help: correct `second_component`",
+            ],
+        ),
+        (
+            "component = \"NS\"\nsecond_component = \"EW\"\nrotate = 400",
+            [
+                "case.toml:27:10: rotation: angle = 400",
+                "correct the number",
+            ],
+        ),
+        (
+            "component = \"NS\"\ngravity = 9",
+            [
+                "case.toml:26:11: reading: gravity = 9",
+                "correct the number",
+            ],
+        ),
+        (
+            "component = \"NS\"\nunit = \"m/s2\"",
+            [
+                "case.toml:26:8: record.csv: unit is g",
+                "do not give the unit",
+            ],
+        ),
+    ] {
+        refused(&with(keys), &two, &wanted);
+    }
+    let plain = "0.00 0.1 0.2\n0.02 0.2 0.3\n0.04 0.3 0.5\n0.06 0.3 0.5\n";
+    for (layout, says) in [
+        ("a,b", "3 columns where layout \"a,b\" has 2"),
+        ("8Z10", "3 columns where layout \"8Z10\" has 1"),
+        ("8Z10.2", "the Fortran format \"8Z10.2\" is not understood"),
+    ] {
+        let keys = format!("unit = \"g\"\ntime_step = 0.02\nlayout = \"{layout}\"");
+        refused(&with(&keys), plain, &["case.toml:27:10: record.csv", says]);
+    }
+    // That of one building likewise.
+    let own = CASE.replacen(
+        "height = \"3 m\"\n",
+        "height = \"3 m\"\nground = { file = \"two.csv\", component = \"UD\" }\n",
+        1,
+    );
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("two.csv"), &two).unwrap();
+    let output = run_in(folder.path(), &own, &record(), &["check", "case.toml"]);
+    let text = message(&output);
+    assert!(text.contains("case.toml:9:42: "), "{text}");
+}
+
 /// A parameter that a law or model does not have is said to be unknown, whatever its value is.
 #[test]
 fn unknown_parameters_are_known_by_their_names() {

@@ -2,7 +2,7 @@
 
 use crate::accelerogram::{Origin, Processing};
 use crate::direction::Orientation;
-use crate::error::{GroundMotionError, bound, within};
+use crate::error::{GroundMotionError, READING, bound, within};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::{HeaderPeak, Sampling, Series, unusual_step};
 use crate::source::{Source, Used};
@@ -425,7 +425,7 @@ impl Draft {
         let options = source.options;
         if let Some(given) = options.gravity {
             let (least, most) = GRAVITY;
-            within("reading", "gravity", given, least, most)?;
+            within(READING, "gravity", given, least, most)?;
         }
         let gravity = gravity(options.gravity);
         let of_gravity = |unit: SeriesUnit| {

@@ -4,6 +4,9 @@ use pounding_catalogue::DefinitionError;
 
 use crate::formats::Format;
 
+/// The step of numbers that are options of reading.
+pub(crate) const READING: &str = "reading";
+
 /// A record that cannot be read or used.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -175,6 +178,14 @@ pub enum GroundMotionError {
         /// What to do about it.
         remedy: &'static str,
     },
+    /// What an option of reading makes wrong.
+    #[error("{error}")]
+    OfOption {
+        /// The option.
+        option: &'static str,
+        /// What is wrong.
+        error: Box<GroundMotionError>,
+    },
     /// A unit that is not one of acceleration.
     #[error("\"{text}\" is not a unit of acceleration{hint}")]
     Unit {
@@ -245,6 +256,31 @@ fn list(available: &[String]) -> String {
 }
 
 impl GroundMotionError {
+    /// The same, as what an option of reading makes wrong.
+    #[must_use]
+    pub fn of_option(self, option: &'static str) -> Self {
+        Self::OfOption {
+            option,
+            error: Box::new(self),
+        }
+    }
+
+    /// The option of reading that makes it, as a case file calls it, if it is one.
+    #[must_use]
+    pub fn option(&self) -> Option<&'static str> {
+        match self {
+            Self::OfOption { option, .. } => Some(option),
+            Self::NoSuchSeries { .. } | Self::AmbiguousSeries { .. } => Some("component"),
+            Self::Contradiction { quantity, .. } => Some(quantity),
+            Self::OutOfRange {
+                step: READING,
+                name,
+                ..
+            } => Some(name),
+            _ => None,
+        }
+    }
+
     /// What to do about it.
     #[must_use]
     pub fn help(&self) -> Option<String> {
@@ -296,6 +332,10 @@ impl GroundMotionError {
                 "give the station's StationXML, `response = \"FILE\"` in [ground_motion] of a case, `--response FILE` with `pounding motion`; or `sensitivity` in counts per m/s2; or, of floats that are no counts, `unit`".to_owned()
             }
             Self::Unsupported { remedy, .. } => (*remedy).to_owned(),
+            Self::OfOption { option, error } => match **error {
+                Self::NoSuchSeries { .. } => format!("correct `{option}`"),
+                ref error => return error.help(),
+            },
             Self::Unit { .. } => "use g, mg, g/10, m/s2, cm/s2, mm/s2, gal, in/s2 or ft/s2".to_owned(),
             Self::OutOfRange { .. } => {
                 "correct the number; check its unit (SI inside: m/s2, s, Hz)".to_owned()

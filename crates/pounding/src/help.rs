@@ -98,6 +98,7 @@ pub(crate) fn of_motion(error: &GroundMotionError) -> String {
         GroundMotionError::AmbiguousSeries { .. } => {
             read("`component` of `ReadOptions`: its name, azimuth or channel number")
         }
+        GroundMotionError::OfOption { error, .. } => of_motion(error),
         GroundMotionError::NoSuchSeries { .. } => "correct `component` of `ReadOptions`".to_owned(),
         GroundMotionError::Uneven { mean, .. } => read(&format!(
             "`time_step` of `ReadOptions`, at most {mean:.6} s, to have it resampled to even steps by linear interpolation"

@@ -374,9 +374,9 @@ fn record(draft: &Draft) -> Vec<CaseError> {
     }
 }
 
-/// An error of the record, where the case names it.
+/// An error of the record, at the key that makes it, or else where the case names the record.
 fn of_record(case: &Case, error: &GroundMotionError) -> CaseError {
-    let place = case.ground_motion.file.span.clone();
+    let place = case.ground_motion.span_of(error.option().unwrap_or("file"));
     case.error(place, error.to_string(), error.help())
 }
 

@@ -1,5 +1,6 @@
 //! The record of a case.
 
+use std::collections::BTreeMap;
 use std::ops::Range;
 use std::path::PathBuf;
 
@@ -231,6 +232,7 @@ impl MotionTable {
             value: PathBuf::new(),
             span: 0..0,
         };
+        let places = self.places();
         GroundMotion {
             file: self.file.located().map_or_else(no_file, Located::from),
             format: self.format.located(),
@@ -263,7 +265,28 @@ impl MotionTable {
                     span: scale.span,
                 })
             }),
+            places,
         }
+    }
+
+    /// Where the values of the keys that say how to read the record stand.
+    fn places(&self) -> BTreeMap<&'static str, Range<usize>> {
+        let given = [
+            ("format", self.format.span()),
+            ("time_step", self.time_step.span()),
+            ("unit", self.unit.span()),
+            ("layout", self.layout.span()),
+            ("component", self.component.span()),
+            ("second_component", self.second_component.span()),
+            ("rotate", self.rotate.span()),
+            ("quantity", self.quantity.span()),
+            ("skip_lines", self.skip_lines.span()),
+            ("skip_columns", self.skip_columns.span()),
+            ("sensitivity", self.sensitivity.span()),
+            ("gravity", self.gravity.span()),
+        ];
+        let place = |(key, span): (_, Option<_>)| Some((key, span?));
+        given.into_iter().filter_map(place).collect()
     }
 }
 

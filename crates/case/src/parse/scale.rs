@@ -161,6 +161,7 @@ pub(super) fn scale_of(
     };
     let or_default = |damping: Option<Ratio>| damping.map_or(DAMPING, f64::from);
     let or_one = |times: Option<Positive<Number>>| times.map_or(1.0, f64::from);
+    ascending(reader, place, &table)?;
     Some(match table {
         ScaleTable::Factor { factor } => Scale::Factor(factor.into()),
         ScaleTable::Pga { pga } => Scale::PeakAcceleration(pga.into()),
@@ -258,6 +259,24 @@ pub(super) fn scale_of(
             })
         }
     })
+}
+
+/// Refuses a band of periods that ends before it begins.
+fn ascending(reader: &Reader<'_>, place: &Range<usize>, table: &ScaleTable) -> Option<()> {
+    let (from, to): (f64, f64) = match *table {
+        ScaleTable::Target { from, to, .. } => (from.into(), to.into()),
+        ScaleTable::Code {
+            from: Some(from),
+            to: Some(to),
+            ..
+        } => (from.into(), to.into()),
+        _ => return Some(()),
+    };
+    if from < to {
+        return Some(());
+    }
+    let message = format!("`from` = {from} s is not below `to` = {to} s");
+    reader.refuse(place.clone(), message, "give the smaller one first")
 }
 
 /// Keys of the table of a code's spectrum.

@@ -481,6 +481,16 @@ pub struct GroundMotion {
     pub process: Vec<Located<ProcessingStep<BandSource>>>,
     /// Scale, after that; `None`: as recorded.
     pub scale: Option<Located<Scale<BandSource>>>,
+    /// Where the values of the keys that say how to read it stand.
+    pub places: BTreeMap<&'static str, Range<usize>>,
+}
+
+impl GroundMotion {
+    /// Where the value of a key stands; that of `file`, if the key is not given.
+    #[must_use]
+    pub fn span_of(&self, key: &str) -> Range<usize> {
+        self.places.get(key).unwrap_or(&self.file.span).clone()
+    }
 }
 
 /// A turn of two components at right angles.

@@ -309,14 +309,15 @@ fn unused(source: &Source<'_>, format: &Format) -> Result<(), GroundMotionError>
     ];
     for (is_wrong, option, is, remedy) in given {
         if is_wrong {
-            return Err(GroundMotionError::Unsupported {
+            let error = GroundMotionError::Unsupported {
                 file: source.file.to_owned(),
                 what: format!(
                     "`{option}` is given, which {is}; this record is of format {}",
                     format.name
                 ),
                 remedy,
-            });
+            };
+            return Err(error.of_option(option));
         }
     }
     Ok(())

@@ -1,6 +1,6 @@
 //! One case under many records.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::io::Read;
 use std::mem::discriminant;
 use std::path::{Path, PathBuf};
@@ -348,6 +348,7 @@ fn motion(case: &Case, file: &Path) -> GroundMotion {
         // What the case does to its own record it does to all.
         process: case.ground_motion.process.clone(),
         scale: case.ground_motion.scale.clone(),
+        places: BTreeMap::new(),
     }
 }
 

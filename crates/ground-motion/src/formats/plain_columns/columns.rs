@@ -128,7 +128,13 @@ impl Table<'_> {
             || columns.separator.is_some() && found < count
             || columns.pairs && found.is_multiple_of(2);
         if !fits {
-            return Err(columns.other_row(source, line, found));
+            let error = columns.other_row(source, line, found);
+            // A later row may be damaged, the first one shows what columns there are.
+            let is_first = self.values.iter().all(|column| column.values.is_empty());
+            return Err(match columns.declared && is_first {
+                true => error.of_option("layout"),
+                false => error,
+            });
         }
         let at = |i: usize| cells.get(i).copied().unwrap_or((line.bytes.len(), b""));
         // Columns that ended before others do so are blank below.

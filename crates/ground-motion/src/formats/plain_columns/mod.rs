@@ -349,15 +349,16 @@ fn numbers(
         }
         // No column has such a name.
         if text.contains(['(', ')', '.']) {
-            return Err(GroundMotionError::Unsupported {
+            let error = GroundMotionError::Unsupported {
                 file: source.file.to_owned(),
                 what: format!("the Fortran format \"{text}\" is not understood"),
                 remedy: "give one of numbers of one width, such as \"8F10.5\", \"(1P5E14.6)\", \"2X,8F9.5\" or \"5(1X,E14.7)\"",
-            });
+            };
+            return Err(error.of_option("layout"));
         }
         let names: Vec<String> = text.split(',').map(|n| n.trim().to_owned()).collect();
         if let Some(header) = header {
-            header::layout_agrees(source, header, &names)?;
+            header::layout_agrees(source, header, &names).map_err(|e| e.of_option("layout"))?;
         }
         let survey = Survey::new(source, true)?;
         if names == ["a"] {

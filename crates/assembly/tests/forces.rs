@@ -177,3 +177,20 @@ fn units_of_columns_are_those_of_their_names() {
         assert!(apart < 1e-12, "{csv}: {points:?}");
     }
 }
+
+/// A program may take a building out of a case and leave the gaps that name it.
+#[test]
+fn gaps_of_buildings_that_are_gone_are_refused() {
+    let text = include_str!("../../../examples/three_storey_pair/case.toml");
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../examples/three_storey_pair/case.toml"
+    );
+    let mut case = Case::parse(text, std::path::Path::new(path)).unwrap();
+    case.buildings.pop();
+    let said = assemble(&case).unwrap_err().to_string();
+    assert!(
+        said.contains("joins a building that the case does not have"),
+        "{said}"
+    );
+}

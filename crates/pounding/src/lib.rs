@@ -225,6 +225,8 @@ pub use pounding_case as case;
 pub use pounding_catalogue as catalogue;
 #[cfg(feature = "hdf5")]
 pub use pounding_files::FileUseError;
+#[cfg(feature = "hdf5")]
+pub use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
 pub use pounding_gap_element as gap_element;
 pub use pounding_ground_motion as ground_motion;
 pub use pounding_hysteresis as hysteresis;

@@ -146,6 +146,31 @@ struct Parts {
     options: RunOptions,
 }
 
+/// Refuses gaps and links of buildings that the case does not have, as programs that take buildings out of it may
+/// leave them.
+fn names_its_buildings(case: &Case) -> Result<(), CaseError> {
+    let of_gaps = case.gaps.iter().map(|gap| ("gap", &gap.name, gap.between));
+    let of_links = case
+        .links
+        .iter()
+        .map(|link| ("link", &link.name, link.between));
+    let lost = of_gaps.chain(of_links).find(|(_, _, between)| {
+        let known = |side: &Side| match side {
+            Side::Building(b) => *b < case.buildings.len(),
+            Side::Wall => true,
+        };
+        !between.iter().all(known)
+    });
+    match lost {
+        None => Ok(()),
+        Some((what, name, _)) => Err(case.error(
+            0..0,
+            format!("{what} {name} joins a building that the case does not have"),
+            Some(format!("take the {what} out with its building")),
+        )),
+    }
+}
+
 impl Parts {
     /// Makes all of it, and reports all that is wrong in it.
     fn of(case: &Case) -> Result<Self, CaseError> {
@@ -155,6 +180,7 @@ impl Parts {
     /// The same with columns that the gaps of another case, with the same buildings, let
     /// floors hit.
     fn with_columns(case: &Case, gaps: &Case) -> Result<Self, CaseError> {
+        names_its_buildings(case)?;
         let errors = Errors::default();
         let hits = errors.keep(Hits::of(gaps));
         let points = |b: usize| {

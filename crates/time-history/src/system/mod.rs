@@ -203,13 +203,32 @@ impl System {
     /// Buildings without gaps, each under ground motions of its own.
     ///
     /// # Errors
-    /// No motion, supports that are not one a building or name no motion, or a delay that is
-    /// negative or not finite.
+    /// No motion, supports that are not one a building or name no motion, a delay that is
+    /// negative or not finite, or a motion whose time step is not positive, or whose samples are none or not
+    /// finite.
     pub fn with_motions(
         buildings: Vec<Arc<ShearBuilding>>,
         motions: Vec<GroundMotion>,
         supports: Vec<Support>,
     ) -> Result<Self, TimeHistoryError> {
+        for (m, motion) in motions.iter().enumerate() {
+            let GroundAcceleration { samples, time_step } = &motion.acceleration;
+            let finite = samples.iter().all(|a| a.is_finite());
+            if !(*time_step > 0.0 && time_step.is_finite() && finite && !samples.is_empty()) {
+                let count = samples.len();
+                return Err(TimeHistoryError::Motions {
+                    reason: format!(
+                        "motion {} has {count} samples at a time step of {time_step} s{}; it takes finite samples, and a step above zero",
+                        m + 1,
+                        if finite {
+                            ""
+                        } else {
+                            ", not all of them finite"
+                        }
+                    ),
+                });
+            }
+        }
         let made = Motions::new(motions, supports, &buildings)?;
         let first = made.motions[0].acceleration.clone();
         let plain = made.motions.len() == 1 && made.motions[0].delay == 0.0;

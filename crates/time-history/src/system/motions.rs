@@ -927,4 +927,28 @@ mod tests {
             assert!((motion.at(time) - expected).abs() < 1e-12, "{time}");
         }
     }
+
+    #[test]
+    fn motions_that_do_not_go_forward_are_refused() {
+        let of = |samples: &[f64], time_step: f64| GroundMotion {
+            acceleration: GroundAcceleration {
+                samples: samples.to_vec().into(),
+                time_step,
+            },
+            delay: 0.1,
+            origin: Vec::new(),
+        };
+        for (samples, time_step) in [
+            (&[1.0; 3][..], -0.01),
+            (&[1.0; 3], 0.0),
+            (&[1.0; 3], f64::NAN),
+            (&[1.0, f64::NAN], 0.01),
+            (&[], 0.01),
+        ] {
+            let motions = vec![of(&[1.0; 3], 0.01), of(samples, time_step)];
+            let said = System::with_motions(Vec::new(), motions, Vec::new());
+            let said = said.unwrap_err().to_string();
+            assert!(said.contains("motion 2 has"), "{said}");
+        }
+    }
 }

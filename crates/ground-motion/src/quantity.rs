@@ -75,9 +75,22 @@ pub(crate) struct NamedWithUnit<'t> {
 
 /// Words of lines that name a quantity other than that of the values: of the ground or the wave,
 /// or one value of a motion.
-const OF_SOMETHING_ELSE: [&str; 13] = [
-    "average", "end", "final", "initial", "max", "maximum", "min", "minimum", "peak", "residual",
-    "shear", "vs30", "wave",
+const OF_SOMETHING_ELSE: [&str; 15] = [
+    "spectral",
+    "threshold",
+    "average",
+    "end",
+    "final",
+    "initial",
+    "max",
+    "maximum",
+    "min",
+    "minimum",
+    "peak",
+    "residual",
+    "shear",
+    "vs30",
+    "wave",
 ];
 
 /// Whether a word says that a quantity beside it is not that of the values.

@@ -257,6 +257,21 @@ fn columns_below_keys() {
         assert_eq!(found, unit, "{header}");
         assert!((peak - 0.2).abs() < 4e-3, "{header}: {peak}");
     }
+    let rows_of_one = "Acc (mm/s2)\ndt=0.01\n0.0\n486.1\n938.5\n-1,461.5\n-515.5\n120.0\n";
+    let said = read_with(rows_of_one, &ReadOptions::default())
+        .unwrap_err()
+        .to_string();
+    assert!(
+        said.contains("file.txt:6") && said.contains("parts thousands"),
+        "{said}"
+    );
+    for header in [
+        "VELOCITY\nNPTS= 40, DT= .01 SEC, units g",
+        "dt: 0.01\nThreshold acceleration in g",
+        "dt: 0.01\nSpectral acceleration in g",
+    ] {
+        assert!(read(header).is_err(), "{header}");
+    }
     for header in [
         "Units: g\nTiempo,Velocidad",
         "Units: g\nZeit,Geschwindigkeit",

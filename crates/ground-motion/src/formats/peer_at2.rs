@@ -394,6 +394,7 @@ fn quantities(text: &[String]) -> Vec<NamedQuantity> {
         let says = ["units", "time history", "time series"];
         let says = says.iter().any(|words| lower.contains(words));
         let with_unit = || named_with_unit(&lower);
+        let says = says || ["velocity", "displacement"].contains(&lower.trim());
         (says || with_unit().is_some()).then(|| NamedQuantity::of(i + 1, line))?
     };
     text.iter().enumerate().filter_map(named).collect()

@@ -33,7 +33,7 @@ pub(super) fn compile(text: &RuleText) -> Result<OwnRule, CaseError> {
     let mut compiler = Compiler::of(text)?;
     let mut whole = Text::of(&text.expression, "expression", text);
     let expression = compiler.whole(&mut whole, 0)?;
-    compiler.uses_all()?;
+    let unused = compiler.unused()?;
     match expression.kind {
         Kind::Zero => {}
         Kind::Number(dimension) if dimension == Dimension::LENGTH => {}
@@ -51,7 +51,10 @@ pub(super) fn compile(text: &RuleText) -> Result<OwnRule, CaseError> {
             return Err(whole.error(at, message, help));
         }
     }
-    Ok(compiler.finish(expression))
+    Ok(OwnRule {
+        unused,
+        ..compiler.finish(expression)
+    })
 }
 
 /// An expression of numbers that has a number as its result.
@@ -266,28 +269,32 @@ impl<'t> Compiler<'t> {
         })
     }
 
-    /// Refuses what the expression does not take, by itself or through a definition: a misspelled minimum
-    /// would be none.
-    fn uses_all(&self) -> Result<(), CaseError> {
+    /// Names that the expression does not take, by itself or through a definition. Definitions among them are
+    /// checked all the same, and count for nothing.
+    fn unused(&mut self) -> Result<Vec<String>, CaseError> {
         let text = self.text;
-        let defined = text.definitions.iter().zip(&self.states);
-        let idle = defined
-            .filter(|(_, state)| **state == State::Untouched)
-            .map(|((name, _), _)| name);
-        let unused = |name: &&Located<String>| !self.used.contains(&name.value);
-        let inputs = text.inputs.iter().map(|(name, _)| name).filter(unused);
-        let tables = text.tables.iter().map(|(name, _)| name).filter(unused);
-        match inputs.chain(tables).chain(idle).next() {
-            None => Ok(()),
-            Some(name) => {
-                let message = format!(
-                    "rule \"{}\": the expression does not take \"{}\"",
-                    text.name.value, name.value
-                );
-                let help = "name it in the expression, or in a definition that the expression takes; or remove it";
-                Err(text.error(name.span.clone(), message, Some(help.to_owned())))
+        let used = self.used.clone();
+        let (needs, kept) = (self.needs.clone(), self.definitions.len());
+        let states = self.states.clone();
+        let mut unused: Vec<String> = Vec::new();
+        for (i, (name, _)) in text.definitions.iter().enumerate() {
+            if states[i] == State::Untouched {
+                let whole = Text::of(&text.expression, "expression", text);
+                self.definition(&whole, i, &(0..0), 0)?;
+                unused.push(name.value.clone());
             }
         }
+        self.needs = needs;
+        self.definitions.truncate(kept);
+        let inputs = text.inputs.iter().map(|(name, _)| &name.value);
+        let tables = text.tables.iter().map(|(name, _)| &name.value);
+        unused.extend(
+            inputs
+                .chain(tables)
+                .filter(|name| !used.contains(name))
+                .cloned(),
+        );
+        Ok(unused)
     }
 
     fn finish(self, expression: Part) -> OwnRule {
@@ -298,6 +305,7 @@ impl<'t> Compiler<'t> {
             definitions: self.definitions,
             expression,
             needs: self.needs,
+            unused: Vec::new(),
         }
     }
 

@@ -34,6 +34,8 @@ pub struct OwnRule {
     expression: Part,
     /// What it takes of the case, in the order of use.
     needs: Vec<names::Named>,
+    /// Names of its inputs, tables and definitions that the expression does not take.
+    unused: Vec<String>,
 }
 
 impl OwnRule {
@@ -127,6 +129,11 @@ impl OwnRule {
         let needs = |input| self.inputs().contains(&input);
         let says = |yes: bool, one: &str, other: &str| if yes { one } else { other }.to_owned();
         let height = self.needs.iter().any(names::Named::is_height);
+        // A misspelled least width is none.
+        let mut others = self.text.assumptions.clone();
+        others.extend(self.unused.iter().map(|name| {
+            format!("the expression does not take \"{name}\", which is given: is the name right?")
+        }));
         Assumptions {
             displacement: says(
                 self.depends_on_displacement(),
@@ -148,7 +155,7 @@ impl OwnRule {
                 "asks whether all floors up to the lower roof face floors",
                 "does not ask whether floors face floors",
             ),
-            others: self.text.assumptions.clone(),
+            others,
         }
     }
 

@@ -5,7 +5,7 @@ use pounding_case::{CaseError, RuleText};
 
 use super::OwnRule;
 use crate::error::SeparationError;
-use crate::inputs::Situation;
+use crate::inputs::{Input, Situation};
 use crate::worked_example::worked_example;
 use crate::working::Requirement;
 
@@ -313,14 +313,14 @@ fn wrong_parts_are_refused_with_their_place() {
         ),
         ("definitions = { a = \"a\" }", 5, "needs itself"),
         (
-            "inputs = { a = \"1 m\", laest = \"30 mm\" }",
-            5,
-            "does not take \"laest\"",
-        ),
-        (
             "inputs = { a = \"1 m\" }\ndefinitions = { b = \"1 +\" }",
             6,
-            "does not take \"b\"",
+            "it ends too early",
+        ),
+        (
+            "inputs = { a = \"1 m\" }\ndefinitions = { b = \"u_left + 30\" }",
+            6,
+            "cannot be added",
         ),
         ("definitions = { a = \"u_left +\" }", 5, "it ends too early"),
         ("definitions = { a = \"x\" }", 5, "this name is not known"),
@@ -380,6 +380,26 @@ fn wrong_parts_are_refused_with_their_place() {
 
 /// Found when the rule is applied: what divides by zero, leaves its table, has no root, is
 /// negative, is not given, or differs between the buildings.
+/// A misspelled least width is none, which is said beside the width.
+#[test]
+fn names_that_are_not_taken_are_said() {
+    let more =
+        "inputs = { laest = \"30 mm\", w = \"10 mm\" }\ndefinitions = { s = \"R_left * u_left\" }";
+    let mut rules =
+        RuleText::parse_all(&file("between", "u_left + u_right + w", more), "rules.toml").unwrap();
+    let rule = OwnRule::compile(&rules.remove(0)).unwrap();
+    let said = rule.assumptions().others;
+    assert_eq!(said.len(), 2, "{said:?}");
+    for (sentence, name) in said.iter().zip(["\"s\"", "\"laest\""]) {
+        assert!(
+            sentence.contains("does not take") && sentence.contains(name),
+            "{sentence}"
+        );
+    }
+    // It asks the case for what it takes alone.
+    assert_eq!(rule.inputs(), [Input::Displacement]);
+}
+
 #[test]
 fn values_that_are_none_are_refused_with_their_place() {
     let table =
@@ -510,7 +530,7 @@ fn random_texts_are_answered() {
         .unwrap_or(1000);
     let more = "inputs = { least = \"30 mm\" }\ndefinitions = { s = \"max(least, u_left)\" }\n[rule.tables]\npart = { points = [[1, 0], [9, 1]], interpolation = \"linear\" }\n";
     let mut rules = RuleText::parse_all(&file("between", "1", more), "rules.toml").unwrap();
-    let text = rules.remove(0);
+    let mut text = rules.remove(0);
     // Any sequence of numbers does: that of Lehmer, 1951, as by Park and Miller, 1988.
     let mut state: u64 = 20_261_123;
     let mut random = |below: usize| {
@@ -544,17 +564,6 @@ fn random_texts_are_answered() {
             }
             expression = letters.into_iter().collect();
         }
-        // What the expression does not take would be refused.
-        let mut text = text.clone();
-        let of_word = |word: &str| {
-            let mut words = expression.split(|c: char| !(c.is_ascii_alphanumeric() || c == '_'));
-            words.any(|w| w == word)
-        };
-        text.definitions.retain(|(name, _)| of_word(&name.value));
-        let defines = !text.definitions.is_empty();
-        text.inputs
-            .retain(|(name, _)| defines || of_word(&name.value));
-        text.tables.retain(|(name, _)| of_word(&name.value));
         text.expression.value = expression;
         let Ok(rule) = OwnRule::compile(&text) else {
             continue;

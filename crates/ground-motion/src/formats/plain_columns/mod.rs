@@ -245,6 +245,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     if let Some(error) = faulty.as_ref().and_then(|f| f.refused(source)) {
         return Err(error);
     }
+    thousands::are_no_groups(source)?;
     let bytes = decimal::with_points(source, header.as_ref())?;
     let pointed = Source::new(source.file, &bytes, source.options, source.path);
     let said = Said::before(&pointed, header.as_ref())?;

@@ -1,12 +1,60 @@
 //! Separators of thousands that would pass for decimal signs: `1,024` among whole numbers is 1024, or
 //! 1.024.
 
+use super::rows;
 use crate::error::GroundMotionError;
 use crate::number;
 use crate::source::Source;
 
 /// Digits of a group.
 const GROUP: usize = 3;
+
+/// Refuses rows of one number each in which some have a comma before three digits, `-1,461.5` among `938.5`:
+/// they would be two numbers.
+///
+/// # Errors
+/// At the first such row.
+pub(super) fn are_no_groups(source: &Source<'_>) -> Result<(), GroundMotionError> {
+    let (mut single, mut first) = (false, None);
+    for row in rows(source) {
+        let field = row.bytes.trim_ascii();
+        if is_grouped(field) {
+            first.get_or_insert((row.number, number::shown(field)));
+        } else if row.fields().count() == 1 {
+            single = true;
+        } else {
+            return Ok(());
+        }
+    }
+    match first.filter(|_| single) {
+        None => Ok(()),
+        Some((line, field)) => Err(source.error(
+            line,
+            0,
+            format!("\"{field}\" has a comma before three digits, and other rows have one number: it parts thousands"),
+            "write the numbers without separators of thousands",
+        )),
+    }
+}
+
+/// Whether a text is one number with commas before groups of three digits, `1,461.5`.
+fn is_grouped(text: &[u8]) -> bool {
+    let bare = text
+        .strip_prefix(b"-")
+        .or(text.strip_prefix(b"+"))
+        .unwrap_or(text);
+    let whole = bare.split(|b| *b == b'.').next().unwrap_or_default();
+    let digits = |part: &[u8]| !part.is_empty() && part.iter().all(u8::is_ascii_digit);
+    let mut groups = whole.split(|b| *b == b',');
+    let leads = groups
+        .next()
+        .is_some_and(|first| digits(first) && first.len() <= GROUP && first[0] != b'0');
+    let fraction = bare.get(whole.len() + 1..).unwrap_or_default();
+    leads
+        && whole.contains(&b',')
+        && groups.all(|group| digits(group) && group.len() == GROUP)
+        && fraction.iter().all(u8::is_ascii_digit)
+}
 
 /// The values of one series, as far as they show that their sign may part thousands: every one with a
 /// sign has a group of three digits behind it and one of up to three, of a number above zero, before it.

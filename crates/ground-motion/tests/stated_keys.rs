@@ -134,6 +134,8 @@ fn units_in_many_spellings() {
         ("Units: milli-g", "mg"),
         ("Accelerations are in g", "g"),
         ("Acceleration time history in g", "g"),
+        ("Acceleration Time Series (g)", "g"),
+        ("Acceleration Data (cm/sec^2)", "cm/s2"),
         ("Units: cm/s2 (gal)", "cm/s2"),
         ("\u{130}vme (cm/sn2)", "cm/s2"),
         ("Aceleraci\u{f3}n (cm/s2)", "cm/s2"),

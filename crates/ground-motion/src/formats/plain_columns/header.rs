@@ -2,8 +2,9 @@
 //! `t [s];a [g]`, `time_s acceleration_g`.
 
 use super::names::{
-    ACCELERATION, COUNTER, FOREIGN, LONG, MOTION, PROSE, TIME, are_of_spectrum, has_factor,
-    is_channel, is_component, is_spectral, is_time, motion_unit, plain, time_unit, unquoted,
+    ACCELERATION, COUNTER, FOREIGN, LONG, MOTION, PROSE, TIME, are_of_spectrum, before_unit,
+    has_factor, is_channel, is_component, is_spectral, is_time, motion_unit, plain, time_unit,
+    unquoted,
 };
 use super::{OTHERS, stated};
 use crate::error::GroundMotionError;
@@ -166,7 +167,10 @@ pub(super) enum Kind {
 
 impl Cells {
     fn parse(&self) -> Option<Header> {
-        if are_of_spectrum(&self.names, self.separator) {
+        // `Acceleration Time Series (g)` names no three columns.
+        let prose = |name: &String| PROSE.contains(&plain(before_unit(name)).as_str());
+        let is_prose = self.separator.is_none() && self.names.iter().any(prose);
+        if is_prose || are_of_spectrum(&self.names, self.separator) {
             return None;
         }
         let columns: Vec<Role> = self.names.iter().map(|c| role(c)).collect::<Option<_>>()?;

@@ -423,7 +423,7 @@ pub(super) fn are_of_spectrum(names: &[String], separator: Option<char>) -> bool
 }
 
 /// A name without the unit in brackets behind it.
-fn before_unit(name: &str) -> &str {
+pub(super) fn before_unit(name: &str) -> &str {
     let name = unquoted(name);
     name.split(['(', '[']).next().unwrap_or(name).trim_end()
 }

@@ -48,19 +48,52 @@ pub(crate) struct Finder {
     nodes: [f64; COEFFICIENTS],
     state: Vec<f64>,
     acceleration: Vec<f64>,
-    /// Forces of all levels at places of one step, as far as they were asked for there: what holds one level
-    /// depends on all that are stuck.
-    known: Vec<Known>,
-    /// Of `known`, those of the step in hand.
-    known_now: usize,
+    known: Known,
 }
 
-/// State and forces of all levels at a place of a step.
+/// States and forces of all levels at places of one step, as far as they were asked for there: what holds one
+/// level depends on all that are stuck.
 #[derive(Debug)]
 struct Known {
-    theta: f64,
-    state: Vec<f64>,
-    forces: Vec<f64>,
+    /// Places, of which `count` are those of the step in hand.
+    thetas: [f64; MOST_KNOWN],
+    count: usize,
+    /// State and forces at each of them, one after another; none for a level alone, which is asked for once.
+    values: Vec<f64>,
+    each: usize,
+}
+
+impl Known {
+    fn new(layout: Layout) -> Self {
+        let each = layout.motion() + layout.levels;
+        let places = if layout.levels > 1 { MOST_KNOWN } else { 0 };
+        Self {
+            thetas: [0.0; MOST_KNOWN],
+            count: 0,
+            values: vec![0.0; places * each],
+            each,
+        }
+    }
+
+    /// State and forces at a place, if they are known.
+    fn at(&self, theta: f64) -> Option<&[f64]> {
+        let place = self.thetas[..self.count]
+            .iter()
+            .position(|known| *known == theta)?;
+        Some(&self.values[place * self.each..][..self.each])
+    }
+
+    fn keep(&mut self, theta: f64, state: &[f64], forces: &[f64]) {
+        if self.values.len() < (self.count + 1) * self.each {
+            return;
+        }
+        let values = &mut self.values[self.count * self.each..][..self.each];
+        let (states, rest) = values.split_at_mut(state.len());
+        states.copy_from_slice(state);
+        rest.copy_from_slice(forces);
+        self.thetas[self.count] = theta;
+        self.count += 1;
+    }
 }
 
 /// Places of a step of which the forces are kept: those of a fit, and some at which a peak is looked at.
@@ -74,14 +107,13 @@ impl Finder {
             nodes: fit_nodes(),
             state: vec![0.0; layout.motion()],
             acceleration: vec![0.0; layout.dofs],
-            known: Vec::new(),
-            known_now: 0,
+            known: Known::new(layout),
         }
     }
 
     /// Forgets the forces of the step before: another step, or other contacts, have others.
     pub(crate) fn forget(&mut self) {
-        self.known_now = 0;
+        self.known.count = 0;
     }
 
     /// Collects the first event of every level and returns the earliest.
@@ -231,11 +263,11 @@ impl Finder {
         level: usize,
         (tau, step, theta): (f64, f64, f64),
     ) -> f64 {
-        let known = &self.known[..self.known_now];
-        if let Some(known) = known.iter().find(|known| known.theta == theta) {
-            self.state.copy_from_slice(&known.state);
-            context.dynamics.forces.copy_from_slice(&known.forces);
-            return known.forces[level];
+        if let Some(known) = self.known.at(theta) {
+            let (state, forces) = known.split_at(self.state.len());
+            self.state.copy_from_slice(state);
+            context.dynamics.forces.copy_from_slice(forces);
+            return forces[level];
         }
         for (i, y) in self.state.iter_mut().enumerate() {
             *y = value(method.polynomial(i), theta);
@@ -251,20 +283,8 @@ impl Finder {
             context.dynamics.accelerations(contacts, now, state, out);
         }
         let forces = &context.dynamics.forces;
-        // One level alone is asked for once.
-        if contacts.closed().len() > 1 && self.known_now < MOST_KNOWN {
-            if self.known_now == self.known.len() {
-                self.known.push(Known {
-                    theta,
-                    state: self.state.clone(),
-                    forces: forces.clone(),
-                });
-            }
-            let known = &mut self.known[self.known_now];
-            known.theta = theta;
-            known.state.copy_from_slice(&self.state);
-            known.forces.copy_from_slice(forces);
-            self.known_now += 1;
+        if contacts.closed().len() > 1 {
+            self.known.keep(theta, &self.state, forces);
         }
         forces[level]
     }

@@ -276,6 +276,8 @@ fn suggestions_of_what_can_be_meant() {
     let weight = help("mass = \"25 t\"", "weight = \"245 kN\"");
     assert!(weight.contains("add `mass"), "{weight}");
     assert!(!weight.contains("did you mean"), "{weight}");
+    let twice = help("mass = \"25 t\"", "mass = \"25 t\"\nmas = \"25 t\"");
+    assert!(twice.contains("did you mean `mass`"), "{twice}");
     let between = |name: &str| help("[\"a\", \"b\"]", &format!("[\"a\", \"{name}\"]"));
     assert!(between("B").starts_with("did you mean \"b\"? "));
     assert!(between("c").starts_with("buildings: a, b"));

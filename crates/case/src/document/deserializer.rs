@@ -725,10 +725,16 @@ impl<'r> Keys<'r> {
             kinds: "",
         };
         let known = || fields.iter().copied().filter(|k| *k != FREE);
-        // A key that is given already is not meant once more.
-        let absent = || known().filter(|k| !table.contains_key(*k));
+        // A key that is given already is meant once more if it begins alike: `stifness` beside `stiffness`,
+        // but not `weight` beside `height`.
+        let meant = |key: &str| {
+            let begins = |k: &&str| k.chars().next() == key.chars().next();
+            let absent = || known().filter(|k| !table.contains_key(*k));
+            suggestion::misspelt(key, known().filter(begins))
+                .or_else(|| suggestion::misspelt(key, absent()))
+        };
         let unknown = |(key, _): (&'r Key<'r>, _)| match keys.is_open() {
-            false => Some((key, suggestion::misspelt(key.get_ref(), absent()))),
+            false => Some((key, meant(key.get_ref()))),
             // Where any key may stand, one that is nearly another is a slip.
             true => {
                 let meant = suggestion::nearest_within(key.get_ref(), known(), 2);

@@ -6,8 +6,8 @@ use crate::text::in_brackets;
 mod words;
 
 use words::{
-    COUNTS, DURATIONS, FACTORS, FREQUENCIES, LAST_UNITS, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS,
-    QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS,
+    COUNTS, DURATIONS, FACTORS, FREQUENCIES, HERTZ, LAST_UNITS, OF_ALL, OF_ANOTHER, OF_VALUES,
+    PEAKS, QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS,
 };
 
 /// What stands under a key.
@@ -99,6 +99,11 @@ impl<'t> Entry<'t> {
         self.value
             .starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'))
     }
+}
+
+/// Whether a word behind a rate is its unit, or none stands there.
+pub(crate) fn is_rate_unit(unit: &str) -> bool {
+    HERTZ.contains(&unit)
 }
 
 /// Whether the key of an entry is that of a rate of sampling, of this record or of the one before it was

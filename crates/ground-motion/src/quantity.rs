@@ -75,27 +75,22 @@ pub(crate) struct NamedWithUnit<'t> {
 
 /// Words of lines that name a quantity other than that of the values: of the ground or the wave,
 /// or one value of a motion.
-const OF_SOMETHING_ELSE: [&str; 15] = [
-    "spectral",
-    "threshold",
-    "average",
-    "end",
-    "final",
-    "initial",
-    "max",
-    "maximum",
-    "min",
-    "minimum",
-    "peak",
-    "residual",
-    "shear",
-    "vs30",
-    "wave",
+const OF_SOMETHING_ELSE: [&str; 13] = [
+    "average", "end", "final", "initial", "max", "maximum", "min", "minimum", "peak", "residual",
+    "shear", "vs30", "wave",
 ];
+
+/// Words beside accelerations that are none over time.
+const OF_NO_RECORD: [&str; 5] = ["gravity", "pseudo", "spectral", "spectrum", "threshold"];
+
+/// Whether a word says that an acceleration beside it is none over time.
+pub(crate) fn is_of_no_record(word: &str) -> bool {
+    OF_NO_RECORD.contains(&word)
+}
 
 /// Whether a word says that a quantity beside it is not that of the values.
 pub(crate) fn of_something_else(word: &str) -> bool {
-    OF_SOMETHING_ELSE.contains(&word)
+    OF_SOMETHING_ELSE.contains(&word) || is_of_no_record(word)
 }
 
 /// The quantity and the unit of a line in lower case such as `el centro ns velocity cm/sec`,
@@ -103,7 +98,7 @@ pub(crate) fn of_something_else(word: &str) -> bool {
 pub(crate) fn named_with_unit(lower: &str) -> Option<NamedWithUnit<'_>> {
     let is_word = |c: char| c.is_ascii_alphanumeric();
     let words = || lower.split(|c| !is_word(c)).filter(|w| !w.is_empty());
-    if words().any(|w| OF_SOMETHING_ELSE.contains(&w)) {
+    if words().any(of_something_else) {
         return None;
     }
     let of = |word: &str| match word {

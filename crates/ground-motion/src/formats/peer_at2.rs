@@ -11,7 +11,7 @@ use crate::draft::{
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
-use crate::header_keys::{Meaning, keyed, meaning, unit_words};
+use crate::header_keys::{Meaning, is_rate_unit, keyed, meaning, unit_words};
 use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
 use crate::recording::Series;
@@ -195,8 +195,7 @@ fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
             .filter(|entry| meaning(entry) == Some(Meaning::Rate))
             .filter_map(|entry| {
                 let (rate, _, unit) = entry.number()?;
-                let hertz = ["", "hz", "sps"].contains(&unit);
-                (rate > 0.0 && hertz).then_some(StatedStep {
+                (rate > 0.0 && is_rate_unit(unit)).then_some(StatedStep {
                     line: i + 1,
                     step: 1.0 / rate,
                 })

@@ -238,3 +238,19 @@ pub(super) const OF_ANOTHER: [&str; 28] = [
 ];
 /// Last words of keys that are the unit of their value: `timestep_s`, `sample rate, hz`.
 pub(super) const LAST_UNITS: [&str; 8] = ["s", "sec", "secs", "seconds", "ms", "msec", "hz", "sps"];
+/// Units of rates, of which none is one, too.
+pub(super) const HERTZ: [&str; 13] = [
+    "",
+    "hz",
+    "hertz",
+    "sps",
+    "samples/s",
+    "samples/sec",
+    "samples/second",
+    "samples per second",
+    "muestras/s",
+    "campioni/s",
+    "1/s",
+    "1/sec",
+    "/s",
+];

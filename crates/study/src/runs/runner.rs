@@ -425,12 +425,13 @@ fn of_no_method(study: &Study, variable: &Variable) -> Option<String> {
     let key = path.of_method_key()?;
     let takers = methods_that_take(key);
     let of_methods = |v: &&Variable| matches!(&v.target, Target::Entry { path, .. } if path.of_method_key() == Some("method"));
-    let used: Vec<&str> = match study.variables.iter().find(of_methods).map(|v| &v.values) {
+    let methods = study.variables.iter().find(of_methods).map(|v| &v.values);
+    let used: Vec<&str> = match methods {
         Some(Values::Choices(names)) => names.iter().map(|n| n.trim_matches(['"', '\''])).collect(),
         _ => vec![&study.base.analysis.method.value],
     };
     // A key that the case itself gives is said of the case.
-    if !varies(study, "analysis.method") && study.base.analysis.places.contains_key(key) {
+    if methods.is_none() && study.base.analysis.places.contains_key(key) {
         return None;
     }
     let is_idle = !takers.is_empty() && !used.iter().any(|method| takers.contains(method));

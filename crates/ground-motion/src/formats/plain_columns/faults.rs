@@ -2,8 +2,8 @@
 
 use super::header::{Cells, Kind, Role, divided, kind, quantity, role};
 use super::names::{
-    ACCELERATION, MOTION, TIME, are_of_spectrum, has_factor, is_abscissa, is_channel, is_component,
-    is_spectral, motion_unit, plain, time_unit, unquoted,
+    ACCELERATION, TIME, are_of_spectrum, has_factor, is_abscissa, is_channel, is_component,
+    is_spectral, motion, motion_unit, plain, time_unit, unquoted,
 };
 use crate::header_keys::{Entry, keyed};
 use crate::quantity::{NamedWithUnit, Quantity, named_with_unit, of_something_else};
@@ -52,13 +52,13 @@ pub(super) fn fault_of(cells: &Cells) -> Option<(String, Fault)> {
                 .then_some(Fault::TimeUnit(name, unit));
         }
         let moves = ACCELERATION.contains(&known.as_str())
-            || MOTION.contains(&known.as_str())
+            || motion(&known).is_some()
             || name.contains(['(', '[']) && is_channel(&known);
         (moves && motion_unit(&unit).is_none()).then_some(Fault::MotionUnit(name, unit))
     });
     let bare = |name: &String| {
         let known = plain(name);
-        TIME.contains(&known.as_str()) || MOTION.contains(&known.as_str())
+        TIME.contains(&known.as_str()) || motion(&known).is_some()
     };
     // Names between blanks that have no unit may be words of a sentence, as may one alone.
     let with_unit = names.iter().zip(&roles).any(|(name, role)| {
@@ -158,9 +158,9 @@ fn of_spectrum(cells: &Cells) -> Option<Fault> {
 fn of_values(cells: &Cells) -> Option<Fault> {
     if let [name] = cells.names.as_slice() {
         let (known, unit) = divided(name).unwrap_or_else(|| (plain(name), String::new()));
-        let moves = MOTION.contains(&known.as_str()) || is_component(&known);
+        let moves = motion(&known).is_some() || is_component(&known);
         // A letter alone is no name of a quantity.
-        let says = moves && !unit.is_empty() || MOTION.contains(&known.as_str()) && known.len() > 1;
+        let says = moves && !unit.is_empty() || motion(&known).is_some() && known.len() > 1;
         if let Some(quantity) = quantity(name).filter(|_| says) {
             return Some(Fault::NoAcceleration(quantity, name.trim().to_owned()));
         }

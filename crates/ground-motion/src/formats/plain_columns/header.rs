@@ -2,13 +2,13 @@
 //! `t [s];a [g]`, `time_s acceleration_g`.
 
 use super::names::{
-    ACCELERATION, COUNTER, FOREIGN, LONG, MOTION, PROSE, TIME, are_of_spectrum, before_unit,
-    has_factor, is_channel, is_component, is_spectral, is_time, motion_unit, plain, time_unit,
+    ACCELERATION, COUNTER, FOREIGN, LONG, PROSE, TIME, are_of_spectrum, before_unit, has_factor,
+    is_channel, is_component, is_spectral, is_time, motion, motion_unit, plain, time_unit,
     unquoted,
 };
 use super::{OTHERS, stated};
 use crate::error::GroundMotionError;
-use crate::quantity::{Quantity, SeriesUnit};
+use crate::quantity::{Quantity, SeriesUnit, is_of_no_record};
 use crate::source::Source;
 use crate::text::Line;
 
@@ -210,9 +210,7 @@ impl Cells {
             let is_unit = time_unit(&unit).is_some() || motion_unit(&unit).is_some();
             let before = names.last_mut().filter(|name| {
                 let known = plain(name);
-                let motion =
-                    ACCELERATION.contains(&known.as_str()) || MOTION.contains(&known.as_str());
-                is_unit && known.len() > 1 && (motion || TIME.contains(&known.as_str()))
+                is_unit && known.len() > 1 && is_quantity(&known)
             });
             match before {
                 Some(name) => *name = format!("{} ({unit})", unquoted(name)),
@@ -405,10 +403,7 @@ pub(super) fn kind(cell: &str) -> Option<Kind> {
     if is_channel(&whole) {
         return Some(Kind::Component);
     }
-    let known = |name: &str| {
-        let all: [&[&str]; 3] = [&TIME, &ACCELERATION, &MOTION];
-        all.iter().any(|names| names.contains(&name))
-    };
+    let known = is_quantity;
     if let Some((name, _)) = cell.split_once(['(', '[']) {
         let name = plain(name);
         return (!known(&name) && !is_channel(&name)).then_some(Kind::Foreign);
@@ -515,6 +510,11 @@ pub(super) fn layout_agrees(
     Ok(())
 }
 
+/// Whether a name in lower case is that of times, accelerations, velocities or displacements.
+fn is_quantity(known: &str) -> bool {
+    TIME.contains(&known) || ACCELERATION.contains(&known) || motion(known).is_some()
+}
+
 /// What stands in the brackets of a cell.
 fn divided_at_brackets(cell: &str) -> Option<String> {
     let (_, rest) = unquoted(cell).split_once(['(', '['])?;
@@ -534,7 +534,7 @@ pub(super) fn divided(cell: &str) -> Option<(String, String)> {
     let unit = unit.trim();
     let known = plain(name);
     let takes = |names: &[&str]| names.contains(&known.as_str());
-    let may = takes(&LONG) || takes(&MOTION) || is_component(&known);
+    let may = takes(&LONG) || motion(&known).is_some() || is_component(&known);
     (may && !unit.is_empty()).then(|| (known, unit.to_owned()))
 }
 
@@ -545,16 +545,7 @@ pub(super) fn quantity(cell: &str) -> Option<Quantity> {
     }
     let (known, unit) = divided(cell).unwrap_or_else(|| (plain(cell), String::new()));
     let by_unit = motion_unit(&unit).map(|unit| unit.quantity);
-    let by_name = || {
-        let name = known.trim_start_matches("ground ");
-        match name.chars().next() {
-            _ if !MOTION.contains(&known.as_str()) => None,
-            Some('v' | 'h') if name != "verschiebung" => Some(Quantity::Velocity),
-            Some('g') => Some(Quantity::Velocity),
-            _ => Some(Quantity::Displacement),
-        }
-    };
-    by_unit.or_else(by_name)
+    by_unit.or_else(|| motion(&known))
 }
 
 /// Names between blanks; a unit in brackets belongs to the name before it.
@@ -598,7 +589,7 @@ pub(super) fn role(cell: &str) -> Option<Role> {
     if ACCELERATION.contains(&whole.as_str()) {
         return Some(Role::Acceleration(cell.to_owned(), None));
     }
-    if MOTION.contains(&whole.as_str()) || COUNTER.contains(&whole.as_str()) {
+    if motion(&whole).is_some() || COUNTER.contains(&whole.as_str()) {
         return Some(Role::Other);
     }
     if let Some((name, unit)) = cell.split_once(" in ") {
@@ -607,10 +598,7 @@ pub(super) fn role(cell: &str) -> Option<Role> {
     // `Time - s`, `Acceleration, g` in one cell.
     let apart = cell.rsplit_once(" - ").or_else(|| cell.rsplit_once(','));
     if let Some(found) = apart.and_then(|(name, unit)| {
-        let known = plain(name);
-        let known = known.as_str();
-        let named_so =
-            TIME.contains(&known) || ACCELERATION.contains(&known) || MOTION.contains(&known);
+        let named_so = is_quantity(&plain(name));
         named(name, unit.trim()).filter(|_| named_so)
     }) {
         return Some(found);
@@ -621,7 +609,7 @@ pub(super) fn role(cell: &str) -> Option<Role> {
             let known = plain(name);
             let takes = |names: &[&str]| names.contains(&known.as_str());
             let may = takes(&LONG)
-                || takes(&MOTION)
+                || motion(&known).is_some()
                 || is_component(&known)
                 || divider == "/" && takes(&ACCELERATION);
             if may { named(name, unit) } else { None }
@@ -638,7 +626,7 @@ fn of_unit(known: &str, name: &str, unit: &str) -> Option<Role> {
     if ACCELERATION.contains(&known) {
         return accelerates.then(|| Role::Acceleration(name.to_owned(), Some(unit)));
     }
-    if MOTION.contains(&known) {
+    if motion(known).is_some() {
         // `d (g)` is no displacement, `v (g)` may be the vertical component.
         return match accelerates {
             true if known == "v" => Some(Role::Acceleration(name.to_owned(), Some(unit))),
@@ -647,10 +635,9 @@ fn of_unit(known: &str, name: &str, unit: &str) -> Option<Role> {
         };
     }
     // A component or channel by its own name.
-    const NONE: [&str; 3] = ["gravity", "threshold", "spectral"];
     match accelerates {
         true if has_factor(name) => None,
-        true if known.split(' ').any(|word| NONE.contains(&word)) => None,
+        true if known.split(' ').any(is_of_no_record) => None,
         true => Some(Role::Acceleration(name.to_owned(), Some(unit))),
         false => Some(Role::Other),
     }

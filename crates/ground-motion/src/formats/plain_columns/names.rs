@@ -1,6 +1,6 @@
 //! What the names and units of columns mean, in the words of those who write them.
 
-use crate::quantity::SeriesUnit;
+use crate::quantity::{Quantity, SeriesUnit};
 
 pub(super) const TIME: [&str; 11] = [
     "t",
@@ -35,9 +35,13 @@ pub(super) const ACCELERATION: [&str; 18] = [
     "beschleunigung",
     "ivme",
 ];
-pub(super) const MOTION: [&str; 25] = [
+const VELOCITY: [&str; 13] = [
+    "hiz",
+    "v",
+    "vel",
+    "velocity",
+    "ground velocity",
     "ground vel",
-    "ground disp",
     "velocidad",
     "velocidade",
     "vitesse",
@@ -45,7 +49,13 @@ pub(super) const MOTION: [&str; 25] = [
     "velocita",
     "geschwindigkeit",
     "h\u{131}z",
-    "hiz",
+];
+const DISPLACEMENT: [&str; 12] = [
+    "d",
+    "disp",
+    "displacement",
+    "ground displacement",
+    "ground disp",
     "desplazamiento",
     "deslocamento",
     "d\u{e9}placement",
@@ -53,14 +63,6 @@ pub(super) const MOTION: [&str; 25] = [
     "verschiebung",
     "yer de\u{11f}i\u{15f}tirme",
     "deplasman",
-    "v",
-    "vel",
-    "velocity",
-    "ground velocity",
-    "d",
-    "disp",
-    "displacement",
-    "ground displacement",
 ];
 pub(super) const COUNTER: [&str; 14] = [
     "-",
@@ -184,6 +186,15 @@ pub(super) const LONG: [&str; 10] = [
     "ground acceleration",
     "ground accel",
 ];
+
+/// The velocity or displacement that a name in lower case is.
+pub(super) fn motion(known: &str) -> Option<Quantity> {
+    match known {
+        known if VELOCITY.contains(&known) => Some(Quantity::Velocity),
+        known if DISPLACEMENT.contains(&known) => Some(Quantity::Displacement),
+        _ => None,
+    }
+}
 
 /// Whether a name says that a column holds accelerations, and nothing else of it.
 pub(super) fn is_acceleration(name: &str) -> bool {

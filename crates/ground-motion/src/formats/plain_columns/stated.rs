@@ -20,22 +20,6 @@ const NO_UNIT: [&str; 12] = [
     "standard",
 ];
 
-/// Units of rates.
-const HERTZ: [&str; 13] = [
-    "",
-    "hz",
-    "hertz",
-    "sps",
-    "samples/s",
-    "samples/sec",
-    "samples/second",
-    "samples per second",
-    "muestras/s",
-    "campioni/s",
-    "1/s",
-    "1/sec",
-    "/s",
-];
 /// Words behind a step or a rate by which it is that of another stage of the record, or not the last one said.
 const OF_OTHER_STAGES: [&str; 8] = [
     "interpolat",
@@ -224,7 +208,7 @@ impl Stated {
                 "" => Some(1.0),
                 unit => names::time_unit(unit),
             };
-            let hertz = HERTZ.contains(&unit);
+            let hertz = header_keys::is_rate_unit(unit);
             let mut step = |seconds, is_rate| self.state_step(line, seconds, is_rate);
             match meaning {
                 // A rate under a key of a step says so.
@@ -255,7 +239,7 @@ impl Stated {
                     // `Low-pass filter, frequency = 25 Hz`, `Frequency (natural): 50 Hz`, `Rate: 5`.
                     let first = lower.trim_start_matches(|c: char| !c.is_alphanumeric());
                     let own = first.starts_with(entry.key)
-                        && inside.is_none_or(|unit| HERTZ.contains(&unit))
+                        && inside.is_none_or(|unit| header_keys::is_rate_unit(unit))
                         && !(entry.key == "rate" && unit.is_empty());
                     if hertz && alone && bare && own && found >= LEAST_RATE {
                         let value = 1.0 / found;
@@ -587,7 +571,6 @@ fn behind_word_of_unit(part: &str) -> Option<SeriesUnit> {
 /// The unit that ends a line on accelerations alone, without a number: `acceleration time history in g`,
 /// `acceleration data (cm/sec^2)`.
 fn in_at_the_end(bare: &str) -> Option<SeriesUnit> {
-    const OF_ANOTHER: [&str; 5] = ["spectral", "spectrum", "threshold", "gravity", "pseudo"];
     let bare = bare.trim_end_matches('.');
     let in_brackets = || {
         let (words, unit) = bare.strip_suffix([')', ']'])?.rsplit_once(['(', '['])?;
@@ -597,12 +580,9 @@ fn in_at_the_end(bare: &str) -> Option<SeriesUnit> {
     let unit = names::motion_unit(unit.strip_prefix("units of ").unwrap_or(unit))?;
     let is = |of: &dyn Fn(&str) -> bool| words.split(|c: char| !c.is_alphabetic()).any(of);
     let accelerates = is(&|word| word.starts_with("accel") || word == "acc");
-    let other = is(&|word| {
-        word.starts_with("vel")
-            || word.starts_with("disp")
-            || of_something_else(word)
-            || OF_ANOTHER.contains(&word)
-    }) || words.contains(|c: char| c.is_ascii_digit());
+    let other =
+        is(&|word| word.starts_with("vel") || word.starts_with("disp") || of_something_else(word))
+            || words.contains(|c: char| c.is_ascii_digit());
     (accelerates && !other).then_some(unit)
 }
 

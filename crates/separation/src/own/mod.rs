@@ -132,7 +132,7 @@ impl OwnRule {
         // A misspelled least width is none.
         let mut others = self.text.assumptions.clone();
         others.extend(self.unused.iter().map(|name| {
-            format!("the expression does not take \"{name}\", which is given: is the name right?")
+            format!("the expression does not take \"{name}\", which is given: check the name")
         }));
         Assumptions {
             displacement: says(

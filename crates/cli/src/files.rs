@@ -446,11 +446,16 @@ impl Replaced<'_> {
     /// # Errors
     /// As [`spared`](Self::spared).
     pub fn judged(&self, goes_on: bool) -> Result<Option<String>, Failure> {
+        // Looked at before the label: a result that comes meanwhile is none of somebody else.
+        let stood = holds_something(self.output);
         let Some(found) = Label::of(self.output) else {
+            if !stood {
+                return Ok(None);
+            }
             no_result_stands(self.output)?;
-            return match holds_something(self.output) && !goes_on {
-                true => foreign(self.output, self.named, "result"),
-                false => Ok(None),
+            return match goes_on {
+                true => Ok(None),
+                false => foreign(self.output, self.named, "result"),
             };
         };
         let (output, kind) = (self.output.display(), found.kind);

@@ -239,7 +239,7 @@ impl Stated {
                     // `Low-pass filter, frequency = 25 Hz`, `Frequency (natural): 50 Hz`, `Rate: 5`.
                     let first = lower.trim_start_matches(|c: char| !c.is_alphanumeric());
                     let own = first.starts_with(entry.key)
-                        && inside.is_none_or(|unit| header_keys::is_rate_unit(unit))
+                        && inside.is_none_or(header_keys::is_rate_unit)
                         && !(entry.key == "rate" && unit.is_empty());
                     if hertz && alone && bare && own && found >= LEAST_RATE {
                         let value = 1.0 / found;

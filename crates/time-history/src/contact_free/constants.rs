@@ -7,6 +7,7 @@ use super::block_ends::is_tall;
 use super::block_step::BlockStep;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
+use super::overdamped::Decay;
 use crate::bands::Bands;
 use crate::contact_episode::{FloorRows, ModalRow};
 use crate::rates::fastest_rate;
@@ -23,6 +24,8 @@ pub(crate) struct ContactFree {
     /// periods of the fastest modes, as it has of walls and frames with full matrices.
     pub swings: bool,
     pub modes: Vec<ModeLanes>,
+    /// How the modes die out, where one is damped beyond critical.
+    pub decays: Vec<Decay>,
     /// Floors and drifts as rows over the modes.
     pub rows: FloorRows,
     /// Floors from modes.
@@ -72,6 +75,7 @@ impl ContactFree {
         }
         let mut this = Self::with_step(system, step);
         this.add_rows();
+        this.decays = Decay::of_modes(system, step);
         this.fastest = fastest_rate(system.buildings());
         this.rows = FloorRows::new(&this, system);
         this.add_sections();
@@ -128,6 +132,7 @@ impl ContactFree {
             swings: system.buildings().iter().any(|b| b.stiffness().is_empty()),
             rows: FloorRows::default(),
             modes: vec![ModeLanes::default(); dofs.div_ceil(WIDTH)],
+            decays: Vec::new(),
             shapes: Vec::new(),
             inverse: Vec::new(),
             magnitudes: Vec::new(),

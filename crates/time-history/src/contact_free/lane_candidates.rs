@@ -41,8 +41,10 @@ pub(super) struct Interval {
 pub(super) struct BlockLook {
     /// Displacement and velocity, absolute acceleration and its rate, sample after sample.
     modes: [Vec<Lane>; 4],
-    /// Bounds of the fourth derivatives of displacement and absolute acceleration.
+    /// Bounds of the fourth derivatives of displacement and absolute acceleration, and what fast
+    /// decays depart by beside.
     fourth: [Vec<Lane>; 2],
+    rest: [Vec<Lane>; 2],
     /// Lane whose displacements and velocities are known.
     known: Option<usize>,
     motion: [[Lane; TIMES]; 2],
@@ -54,6 +56,7 @@ impl BlockLook {
         Self {
             modes: std::array::from_fn(|_| zeros(lanes * TIMES)),
             fourth: std::array::from_fn(|_| zeros(lanes)),
+            rest: std::array::from_fn(|_| zeros(lanes)),
             known: None,
             motion: [[Lane::ZERO; TIMES]; 2],
         }
@@ -83,10 +86,10 @@ impl BlockLook {
         let lane = candidate.lane;
         let floors = lane * WIDTH..constants.building.len().min((lane + 1) * WIDTH);
         let rows = &constants.rows;
-        let (size, fourth) = match candidate.quantity {
-            Quantity::Drift => (&rows.drift_size, &self.fourth[0]),
-            Quantity::Acceleration => (&rows.size, &self.fourth[1]),
-            Quantity::Displacement | Quantity::SectionForce => (&rows.size, &self.fourth[0]),
+        let (size, k) = match candidate.quantity {
+            Quantity::Drift => (&rows.drift_size, 0),
+            Quantity::Acceleration => (&rows.size, 1),
+            Quantity::Displacement | Quantity::SectionForce => (&rows.size, 0),
         };
         let (mut rest, mut of) = (0.0, None);
         let third = constants.step / 3.0;
@@ -98,7 +101,11 @@ impl BlockLook {
             if of != Some(building) {
                 let shapes = &constants.shapes[building];
                 let modes = shapes.first_mode..shapes.first_mode + shapes.modes;
-                rest = constants.step.powi(4) / 384.0 * sum_of_products(size, fourth, modes);
+                rest = constants.step.powi(4) / 384.0
+                    * sum_of_products(size, &self.fourth[k], modes.clone());
+                if !constants.decays.is_empty() {
+                    rest += sum_of_products(size, &self.rest[k], modes);
+                }
                 of = Some(building);
             }
             let [values, rates] = functions.each_ref().map(|f| f.map(|lane| lane[l]));
@@ -200,7 +207,7 @@ fn floors_of(constants: &ContactFree, lane: usize, modes: [&[Lane]; 2]) -> [[Lan
 
 /// Follows all modes over a block. The fourth derivatives swing freely between samples, so that
 /// `y'^2 + omega^2 y^2` of a derivative from the second on never grows, and
-/// `|y''| <= (omega + 2 zeta omega) (|y'| + omega |y|)`.
+/// `|y''| <= (omega + 2 zeta omega) (|y'| + omega |y|)`; beyond critical damping by their decay.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -215,10 +222,10 @@ fn follow(
 ) {
     let count = constants.modes.len();
     let [displacements, velocities, absolutes, rates] = &mut look.modes;
-    let [fourth, sixth] = &mut look.fourth;
     for (c, m) in constants.modes.iter().enumerate() {
         let mut state = [displacement[c], velocity[c], Lane::ZERO, Lane::ZERO];
-        let (mut of_displacement, mut of_acceleration) = (Lane::ZERO, Lane::ZERO);
+        let (mut largest, mut beside) = ([Lane::ZERO; 2], [Lane::ZERO; 2]);
+        let decay = constants.decays.get(c);
         for (s, start) in samples.iter().copied().enumerate() {
             let end = samples.get(s + 1).copied().unwrap_or(start);
             let ground = Ground {
@@ -238,16 +245,21 @@ fn follow(
                 let fourth = -(damping * third + stiffness * second);
                 let fifth = -(damping * fourth + stiffness * third);
                 let factor = omega + damping;
-                let bound = factor * (third.abs() + omega * second.abs());
-                of_displacement[l] = of_displacement[l].max(bound);
-                let bound = factor * (fifth.abs() + omega * fourth.abs());
-                of_acceleration[l] = of_acceleration[l].max(bound);
+                let of = [(second, third), (fourth, fifth)];
+                for (k, (y, rate)) in of.into_iter().enumerate() {
+                    let any = factor * (rate.abs() + omega * y.abs());
+                    let bound = decay.map_or((any, 0.0), |d| d.bound(l, (y, rate), any));
+                    largest[k][l] = largest[k][l].max(bound.0);
+                    beside[k][l] = beside[k][l].max(bound.1);
+                }
             }
             let place = s * count + c;
             (displacements[place], velocities[place]) = (q, p);
             (absolutes[place], rates[place]) = (absolute, rate);
             (state, _) = step_modes::<false>(m, state, ground);
         }
-        (fourth[c], sixth[c]) = (of_displacement, of_acceleration);
+        for k in 0..2 {
+            (look.fourth[k][c], look.rest[k][c]) = (largest[k], beside[k]);
+        }
     }
 }

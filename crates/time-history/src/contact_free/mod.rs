@@ -19,6 +19,7 @@ mod free_sample;
 mod lane_candidates;
 mod lanes;
 mod mode_step;
+mod overdamped;
 mod part;
 mod phase;
 mod sample_bound;

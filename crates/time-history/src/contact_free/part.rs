@@ -45,6 +45,8 @@ impl ContactFree {
             fastest: self.fastest,
             swings: self.swings,
             modes: modes(&self.modes, first, count),
+            // Bounds of samples and blocks.
+            decays: Vec::new(),
             rows: FloorRows {
                 floors: rows(&self.rows.floors),
                 drifts: rows(&self.rows.drifts),

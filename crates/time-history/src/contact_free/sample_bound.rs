@@ -7,12 +7,14 @@ use super::lanes::{Ground, Lane, Modal, WIDTH};
 use crate::polynomial::hermite_range;
 
 /// The modes at both ends of a sample: displacement and velocity, absolute acceleration and
-/// its rate; and bounds of the fourth derivatives of displacement and absolute acceleration.
+/// its rate; and bounds of the fourth derivatives of displacement and absolute acceleration, with
+/// what fast decays depart by beside.
 #[derive(Debug, Clone)]
 pub(super) struct SampleBound {
     start: [Vec<Lane>; 4],
     end: [Vec<Lane>; 4],
     fourth: [Vec<Lane>; 2],
+    rest: [Vec<Lane>; 2],
     step: f64,
 }
 
@@ -23,13 +25,14 @@ impl SampleBound {
             start: std::array::from_fn(|_| zeros()),
             end: std::array::from_fn(|_| zeros()),
             fourth: std::array::from_fn(|_| zeros()),
+            rest: std::array::from_fn(|_| zeros()),
             step: 0.0,
         }
     }
 
     /// Takes the sample that begins with these modes. A derivative `y` of a mode from the second
     /// on swings freely, so that `y'^2 + omega^2 y^2` never grows, and with it
-    /// `|y''| <= omega sqrt(1 + 4 zeta^2)` times its root.
+    /// `|y''| <= omega sqrt(1 + 4 zeta^2)` times its root; beyond critical damping by its decay.
     pub(super) fn take(&mut self, constants: &ContactFree, now: &Modal, ground: Ground) {
         self.step = constants.step;
         for (c, m) in constants.modes.iter().enumerate() {
@@ -63,8 +66,13 @@ impl SampleBound {
                 let fifth = -(damping * fourth + stiffness * third);
                 let factor = (stiffness + damping * damping).sqrt();
                 let root = |y: f64, rate: f64| factor * (rate * rate + stiffness * y * y).sqrt();
-                self.fourth[0][c][l] = root(second, third);
-                self.fourth[1][c][l] = root(fourth, fifth);
+                let of = [(second, third), (fourth, fifth)];
+                for (k, (y, rate)) in of.into_iter().enumerate() {
+                    let any = root(y, rate);
+                    let decay = constants.decays.get(c);
+                    let bound = decay.map_or((any, 0.0), |d| d.bound(l, (y, rate), any));
+                    (self.fourth[k][c][l], self.rest[k][c][l]) = bound;
+                }
             }
         }
     }
@@ -90,7 +98,12 @@ impl SampleBound {
             &self.end[2 * of + 1],
         ];
         let fourth = row.dot_magnitudes(&self.fourth[of]);
+        let rest = if constants.decays.is_empty() {
+            0.0
+        } else {
+            row.dot_magnitudes(&self.rest[of])
+        };
         let (least, most) = hermite_range(ends.map(|x| row.dot(x)), fourth, self.step);
-        most.max(-least) <= peak && most.is_finite()
+        most.max(-least) + rest <= peak && most.is_finite()
     }
 }

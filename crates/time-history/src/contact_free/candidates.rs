@@ -54,6 +54,9 @@ pub(super) struct Candidates {
     reached: Option<(usize, usize)>,
     bound: SampleBound,
     look: CloserLook,
+    /// Value and rate of every candidate of a sample at the end of the last fine step; of tall
+    /// buildings.
+    ends: Vec<[f64; 2]>,
     blocks: Option<Box<OfBlocks>>,
 }
 
@@ -99,6 +102,7 @@ impl Candidates {
             reached: None,
             bound: SampleBound::new(lanes),
             look: CloserLook::new(lanes, tall),
+            ends: vec![[0.0; 2]; if tall { capacity } else { 0 }],
             blocks: by_ends.then(|| Box::new(OfBlocks::new(lanes, put_off(3 * lanes)))),
         }
     }
@@ -115,6 +119,7 @@ impl Candidates {
             reached: None,
             bound: SampleBound::new(0),
             look: CloserLook::new(0, false),
+            ends: Vec::new(),
             blocks: None,
         }
     }
@@ -362,14 +367,20 @@ impl Candidates {
             };
             self.look.advance(constants, fine, ground);
             let from = sample as f64 * constants.step + part as f64 * fine.step;
-            for candidate in group.iter() {
+            for (number, candidate) in group.iter().enumerate() {
                 if !is_above(candidate, tracks) {
                     continue;
                 }
                 let (quantity, floor) = (candidate.quantity, candidate.floor);
-                let function = self.look.function(constants, quantity, floor);
                 let track = &mut tracks[quantity as usize];
                 let (c, l) = (floor / WIDTH, floor % WIDTH);
+                if let Some(last) = self.ends.get_mut(number) {
+                    let (of, peak) = ((quantity, floor), track.peak[c][l]);
+                    if !self.look.could_exceed(constants, of, last, peak) {
+                        continue;
+                    }
+                }
+                let function = self.look.function(constants, quantity, floor);
                 if let Some((theta, top)) = absolute_maximum(&function, track.peak[c][l]) {
                     track.peak[c][l] = top;
                     track.time[c][l] = from + theta * fine.step;

@@ -19,6 +19,8 @@ struct Point {
     restoring: [Vec<Lane>; 4],
     absolute: [Vec<Lane>; 4],
     absolute_known: bool,
+    /// Whether the first two of the modes' absolute accelerations are known.
+    restoring_known: bool,
 }
 
 /// Work space.
@@ -30,9 +32,32 @@ pub(super) struct CloserLook {
     fresh: bool,
     /// Lanes of floors whose displacements, or accelerations, are asked for.
     wanted: [Vec<bool>; 2],
-    /// Of tall buildings, where a few floors of all are looked at: all derivatives of the modes
-    /// at both ends, of displacements and of absolute accelerations, eight for every mode.
-    eights: Option<[Vec<Lane>; 2]>,
+    tall: Option<Box<Tall>>,
+}
+
+/// Of tall buildings, where a few floors of all are looked at, each where it could have a peak.
+#[derive(Debug, Clone)]
+struct Tall {
+    /// All derivatives of the modes at both ends, of displacements and of absolute accelerations,
+    /// eight for every mode; and whether they are those of the present step.
+    eights: [Vec<Lane>; 2],
+    gathered: [bool; 2],
+    /// Whether the present step is the first one.
+    first: bool,
+    /// What displacements, drifts and absolute accelerations depart from the cubic through values
+    /// and rates at both ends by, at most.
+    departures: [f64; 3],
+}
+
+impl Tall {
+    fn new(lanes: usize) -> Self {
+        Self {
+            eights: std::array::from_fn(|_| vec![Lane::ZERO; lanes * WIDTH]),
+            gathered: [false; 2],
+            first: true,
+            departures: [0.0; 3],
+        }
+    }
 }
 
 impl Point {
@@ -44,6 +69,7 @@ impl Point {
             restoring: std::array::from_fn(|_| zeros()),
             absolute: std::array::from_fn(|_| zeros()),
             absolute_known: false,
+            restoring_known: false,
         }
     }
 
@@ -51,7 +77,19 @@ impl Point {
     /// motion and its derivatives.
     fn derive(&mut self, constants: &ContactFree, ground: (f64, f64)) {
         derive(&constants.modes, ground, &mut self.modes);
-        self.absolute_known = false;
+        (self.absolute_known, self.restoring_known) = (false, false);
+    }
+
+    /// Absolute acceleration and its rate, of the modes alone.
+    fn restore(&mut self, constants: &ContactFree) {
+        if self.restoring_known {
+            return;
+        }
+        for k in 0..2 {
+            let (q, p) = (&self.modes[k], &self.modes[k + 1]);
+            restoring(&constants.modes, q, p, &mut self.restoring[k]);
+        }
+        self.restoring_known = true;
     }
 
     /// The same of absolute acceleration.
@@ -60,7 +98,7 @@ impl Point {
             let (q, p) = (&self.modes[k], &self.modes[k + 1]);
             restoring(&constants.modes, q, p, &mut self.restoring[k]);
         }
-        self.absolute_known = true;
+        (self.absolute_known, self.restoring_known) = (true, true);
     }
 
     /// What is to be transformed for the floors: their motion, and their absolute
@@ -109,14 +147,13 @@ fn derive(modes: &[ModeLanes], (ground, slope): (f64, f64), point: &mut [Vec<Lan
 
 impl CloserLook {
     pub(super) fn new(lanes: usize, tall: bool) -> Self {
-        let eights = || std::array::from_fn(|_| vec![Lane::ZERO; lanes * WIDTH]);
         Self {
             start: Point::new(lanes),
             end: Point::new(lanes),
             step: 0.0,
             fresh: false,
             wanted: [vec![false; lanes], vec![false; lanes]],
-            eights: tall.then(eights),
+            tall: tall.then(|| Box::new(Tall::new(lanes))),
         }
     }
 
@@ -160,10 +197,13 @@ impl CloserLook {
         self.step = fine.step;
         let [moving, absolute] = self.wanted.each_ref().map(Vec::as_slice);
         let shapes = &constants.shapes;
-        if let Some([eights, _]) = &mut self.eights {
-            let [a, b, c, d, _] = &self.start.modes;
-            let [e, f, g, h, _] = &self.end.modes;
-            gather_eights([a, b, c, d, e, f, g, h], eights);
+        if let Some(tall) = &mut self.tall {
+            (tall.gathered, tall.first) = ([false; 2], fresh);
+            departures(
+                constants,
+                (&self.start.modes, fine.step),
+                &mut tall.departures,
+            );
             return;
         }
         if !fresh {
@@ -186,15 +226,67 @@ impl CloserLook {
         }
     }
 
+    /// Whether a floor's function could exceed this value over the fine step, by its values and
+    /// rates at both ends: those at the end are left in `last`, which has those at the start from
+    /// the second step on. Where all floors are worked out together there is nothing to be spared.
+    pub(super) fn could_exceed(
+        &mut self,
+        constants: &ContactFree,
+        (quantity, floor): (Quantity, usize),
+        last: &mut [f64; 2],
+        value: f64,
+    ) -> bool {
+        let Some(tall) = &self.tall else {
+            return true;
+        };
+        let rows = &constants.rows;
+        let [displacement, drift, acceleration] = tall.departures;
+        let (row, departure) = match quantity {
+            Quantity::Displacement => (&rows.floors[floor], displacement),
+            Quantity::Drift => (&rows.drifts[floor], drift),
+            Quantity::Acceleration => (&rows.floors[floor], acceleration),
+            // Tall buildings have none.
+            Quantity::SectionForce => return true,
+        };
+        let values = |point: &mut Point| {
+            let [x, rate] = if quantity == Quantity::Acceleration {
+                point.restore(constants);
+                [&point.restoring[0], &point.restoring[1]]
+            } else {
+                [&point.modes[0], &point.modes[1]]
+            };
+            [row.dot(x), row.dot(rate)]
+        };
+        let [a, out] = if tall.first {
+            values(&mut self.start)
+        } else {
+            *last
+        };
+        let [b, back] = values(&mut self.end);
+        *last = [b, back];
+        let third = self.step / 3.0;
+        let hull = a.abs().max(b.abs());
+        let hull = hull
+            .max((a + third * out).abs())
+            .max((b - third * back).abs());
+        // What is no number is looked at.
+        let below = hull + departure <= value;
+        !below
+    }
+
     /// Absolute accelerations at both ends, where they are not known.
     fn derive_absolute(&mut self, constants: &ContactFree) {
-        if let Some([_, eights]) = &mut self.eights {
-            if !(self.start.absolute_known && self.end.absolute_known) {
-                self.start.derive_absolute(constants);
-                self.end.derive_absolute(constants);
+        if let Some(tall) = &mut self.tall {
+            if !tall.gathered[1] {
+                for point in [&mut self.start, &mut self.end] {
+                    if !point.absolute_known {
+                        point.derive_absolute(constants);
+                    }
+                }
                 let [a, b, c, d] = &self.start.restoring;
                 let [e, f, g, h] = &self.end.restoring;
-                gather_eights([a, b, c, d, e, f, g, h], eights);
+                gather_eights([a, b, c, d, e, f, g, h], &mut tall.eights[1]);
+                tall.gathered[1] = true;
             }
             return;
         }
@@ -209,9 +301,16 @@ impl CloserLook {
     }
 
     /// Displacement of a floor.
-    fn polynomial(&self, constants: &ContactFree, floor: usize) -> Polynomial {
-        if let Some([eights, _]) = &self.eights {
-            return self.through(floor_of_eight(&constants.shapes, eights, floor));
+    fn polynomial(&mut self, constants: &ContactFree, floor: usize) -> Polynomial {
+        if let Some(tall) = &mut self.tall {
+            if !tall.gathered[0] {
+                let [a, b, c, d, _] = &self.start.modes;
+                let [e, f, g, h, _] = &self.end.modes;
+                gather_eights([a, b, c, d, e, f, g, h], &mut tall.eights[0]);
+                tall.gathered[0] = true;
+            }
+            let eight = floor_of_eight(&constants.shapes, &tall.eights[0], floor);
+            return self.through(eight);
         }
         let at = |point: &Point| self.scaled(&point.floors, floor);
         septic(at(&self.start), at(&self.end))
@@ -262,8 +361,9 @@ impl CloserLook {
             }
             Quantity::Acceleration => {
                 self.derive_absolute(constants);
-                if let Some([_, eights]) = &self.eights {
-                    return self.through(floor_of_eight(&constants.shapes, eights, floor));
+                if let Some(tall) = &self.tall {
+                    let eight = floor_of_eight(&constants.shapes, &tall.eights[1], floor);
+                    return self.through(eight);
                 }
                 let at = |point: &Point| self.scaled(&point.absolute, floor);
                 septic(at(&self.start), at(&self.end))
@@ -293,6 +393,36 @@ fn gather_eights(values: [&Vec<Lane>; WIDTH], eights: &mut [Lane]) {
             *eight = Lane(values.map(|value| value[l]));
         }
     }
+}
+
+/// What floors' functions depart from their cubics by over a step of this length (s) from these
+/// modes on: `h^4 / 384` times a bound of their fourth derivatives, which swing freely
+/// ([`super::lane_candidates`]).
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn departures(constants: &ContactFree, (start, step): (&[Vec<Lane>; 5], f64), out: &mut [f64; 3]) {
+    let [_, _, seconds, thirds, fourths] = start;
+    let mut sums = [Lane::ZERO; 3];
+    let rows = &constants.rows;
+    for (c, m) in constants.modes.iter().enumerate() {
+        let (size, drift_size) = (&rows.size[c], &rows.drift_size[c]);
+        for l in 0..WIDTH {
+            let (damping, omega) = (m.damping[l], m.circular_frequency[l]);
+            let (second, third, fourth) = (seconds[c][l], thirds[c][l], fourths[c][l]);
+            let fifth = -(damping * fourth + omega * omega * third);
+            let factor = omega + damping;
+            let motion = factor * (third.abs() + omega * second.abs());
+            sums[0][l] += size[l] * motion;
+            sums[1][l] += drift_size[l] * motion;
+            sums[2][l] += size[l] * (factor * (fifth.abs() + omega * fourth.abs()));
+        }
+    }
+    let span = step.powi(4) / 384.0;
+    *out = sums.map(|sum| span * sum.0.iter().sum::<f64>());
 }
 
 /// Displacements and velocities of all modes after a step.

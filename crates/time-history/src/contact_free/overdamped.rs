@@ -122,7 +122,7 @@ mod tests {
                 let b = -(rate + slow * value) / (fast - slow);
                 let at = |t: f64, power: i32| {
                     let part =
-                        |c: f64, decay: f64| c * (-decay).powi(power - 2) * (-decay * t).exp();
+                        |c: f64, decay: f64| c * (-decay).powi(power - 2) * libm::exp(-decay * t);
                     part(a, slow) + part(b, fast)
                 };
                 let (x0, v0, x1, v1) = (at(0.0, 0), at(0.0, 1), at(1.0, 0), at(1.0, 1));

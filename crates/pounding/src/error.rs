@@ -3,7 +3,7 @@
 use pounding_gap_element::GapElementError;
 use pounding_ground_motion::GroundMotionError;
 use pounding_hysteresis::HysteresisError;
-use pounding_shear_building::{LateralStiffnessError, ShearBuildingError};
+use pounding_shear_building::{LateralStiffnessError, NameError, ShearBuildingError};
 use pounding_time_history::TimeHistoryError;
 
 use crate::help;
@@ -277,7 +277,7 @@ impl Error {
             Self::NoDamping { .. } => {
                 Some("damp it by `.damping(...)`, or say `.undamped()`".to_owned())
             }
-            Self::Name { .. } => Some("give it another name".to_owned()),
+            Self::Name { .. } => Some(NameError::HELP.to_owned()),
             Self::NoLevel { .. } => {
                 Some("name pairs of storeys by `.levels(...)`, or correct the storey heights".to_owned())
             }

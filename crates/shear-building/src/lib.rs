@@ -48,6 +48,6 @@ pub use isolator::{
 };
 pub use lateral::{LateralStiffness, LateralStiffnessError};
 pub use modes::Modes;
-pub use names::{NAMES, is_name};
+pub use names::{NAMES, NameError, NameFault, WALL, check_names, is_name};
 pub use stiffness::StiffnessMatrix;
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};

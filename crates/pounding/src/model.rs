@@ -235,15 +235,10 @@ impl Model {
     /// record. What stood under its name is untouched then.
     pub fn run_to_file(&self, path: impl AsRef<std::path::Path>) -> Result<Outcome, Error> {
         use pounding_results::{RunEnding, RunHead, RunWriter};
-        use pounding_time_history::{GridRecorder, IsolatedRun, TimeHistoryError, run_isolated};
+        use pounding_time_history::{GridRecorder, IsolatedRun, run_isolated};
 
-        if !(self.output_step.is_finite() && self.output_step > 0.0) {
-            return Err(Error::Run(TimeHistoryError::Option {
-                option: "output_step",
-                value: self.output_step,
-                reason: "it must be greater than zero",
-            }));
-        }
+        // What no recorder takes, before the size that it would give is asked for.
+        GridRecorder::new(self.output_step)?;
         let mut files = pounding_files::FileUse::new();
         for (role, file) in &self.files {
             files.reads(*role, file);

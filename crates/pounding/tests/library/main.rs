@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used)]
 
 mod own_models;
+mod recorders;
 mod systems_by_hand;
 mod words;
 

@@ -234,6 +234,9 @@ pub use pounding_hysteresis as hysteresis;
 pub use pounding_results as results;
 pub use pounding_separation as separation;
 pub use pounding_shear_building as shear_building;
+/// The crate whose matrices and vectors stand in [`shear_building`] and in [`Damping::Matrix`](prelude::Damping::Matrix),
+/// of the version that they are of.
+pub use pounding_shear_building::nalgebra;
 pub use pounding_time_history as time_history;
 
 /// What most programs need.

@@ -51,3 +51,6 @@ pub use modes::Modes;
 pub use names::{NAMES, NameError, NameFault, WALL, check_names, is_name};
 pub use stiffness::StiffnessMatrix;
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};
+
+/// The crate whose matrices and vectors this one takes and gives, of the version that they are of.
+pub use nalgebra;

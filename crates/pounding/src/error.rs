@@ -252,6 +252,13 @@ pub enum Error {
     FileUse(#[from] pounding_files::FileUseError),
 }
 
+#[cfg(feature = "toml")]
+impl From<pounding_case::CaseError> for Error {
+    fn from(error: pounding_case::CaseError) -> Self {
+        Self::Case(error.into())
+    }
+}
+
 impl Error {
     /// What to try, in words of this library; of a case file ([`Error::Case`]), by its keys.
     #[must_use]

@@ -61,6 +61,38 @@
 //! # }
 //! ```
 //!
+//! # A case file, changed by code
+//!
+//! A [`Case`](case::Case) is a case file as types, in SI units. [`Model::of_case`] makes a model of one, whatever
+//! code has changed in it:
+//!
+//! ```
+//! # use pounding::prelude::*;
+//! use std::path::Path;
+//!
+//! use pounding::case::Case;
+//!
+//! # fn main() -> Result<(), Error> {
+//! # let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+//! # std::env::set_current_dir(root).expect("the repository");
+//! let file = Path::new("examples/three_storey_pair/case.toml");
+//! # let text = std::fs::read_to_string(file).expect("the case");
+//! // The text, and the file that paths in it are relative to.
+//! let mut case = Case::parse(&text, file)?;
+//! let force = |case: &Case| -> Result<f64, Error> {
+//!     let outcome = Model::of_case(case)?.run()?;
+//!     Ok(outcome.gaps[0].levels[2].peak_force.value)
+//! };
+//! let before = force(&case)?;
+//! for level in &mut case.gaps[0].levels {
+//!     level.width = 0.030;
+//! }
+//! println!("{:.0} kN across 20 mm, {:.0} kN across 30 mm", before / 1e3, force(&case)? / 1e3);
+//! # assert_eq!(format!("{:.0} {:.0}", before / 1e3, force(&case)? / 1e3), "1271 1178");
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # Responses over time
 //!
 //! Recorders are served from the steps as they are taken, and change no bit of a run.

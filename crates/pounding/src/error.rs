@@ -275,7 +275,8 @@ impl Error {
                 "correct stiffness, masses and heights, with their units, or leave `.p_delta()` out".to_owned(),
             ),
             Self::Building(error) => help::of_building(error),
-            Self::LateralStiffness(_) | Self::Stopped { .. } => None,
+            Self::LateralStiffness(error) => Some(error.help().to_owned()),
+            Self::Stopped { .. } => None,
             Self::Twice { .. } => Some("give it once".to_owned()),
             Self::StiffnessOfStorey { .. } => Some(
                 "`Building::shear(...)` takes storeys, `Building::stiffness_matrix(...)` floors"

@@ -400,7 +400,7 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
         let (place, help) = match &e {
             ShearBuildingError::Unstable { .. } => (&b.name.span, Some(OVERTURNED.to_owned())),
             ShearBuildingError::UnstableMatrix { .. } => (at_matrix, Some(OVERTURNED.to_owned())),
-            ShearBuildingError::Length { .. } => (at_matrix, None),
+            ShearBuildingError::Length { .. } => (at_matrix, e.help()),
             ShearBuildingError::TooManyStoreys { .. } => (&b.name.span, e.help()),
             ShearBuildingError::Value { .. } => (&b.name.span, Some(WITH_UNIT.to_owned())),
             ShearBuildingError::Damping { .. } if b.lateral.is_some() => (

@@ -17,7 +17,8 @@ use crate::units::Time;
 /// Buildings in a row from the left, the gaps and links between them, a ground motion, and how
 /// it is all integrated.
 ///
-/// Everything is checked when it is [built](Self::build) or [run](Self::run).
+/// Everything is checked when it is [built](Self::build) or [run](Self::run). What a second call of a method
+/// does is said of [all builders](crate#what-a-second-call-does).
 #[derive(Debug, Clone)]
 pub struct Simulation {
     buildings: Vec<Building>,

@@ -2,6 +2,7 @@
 //! what is wrong is said with its place.
 #![allow(clippy::unwrap_used)]
 
+mod builders;
 mod changed_cases;
 mod own_models;
 mod recorders;

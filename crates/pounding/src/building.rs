@@ -36,7 +36,8 @@ pub struct Floor {
 }
 
 /// A building in the making: storeys from the bottom, or floors on a stiffness matrix;
-/// damping, laws.
+/// damping, laws. A setting that is given twice is that of
+/// [the last call](crate#what-a-second-call-does).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Building {
     name: String,

@@ -3,7 +3,7 @@
 use pounding_gap_element::GapElementError;
 use pounding_ground_motion::GroundMotionError;
 use pounding_hysteresis::HysteresisError;
-use pounding_shear_building::{LateralStiffnessError, ShearBuildingError};
+use pounding_shear_building::{LateralStiffnessError, NameError, ShearBuildingError};
 use pounding_time_history::TimeHistoryError;
 
 use crate::help;
@@ -252,6 +252,13 @@ pub enum Error {
     FileUse(#[from] pounding_files::FileUseError),
 }
 
+#[cfg(feature = "toml")]
+impl From<pounding_case::CaseError> for Error {
+    fn from(error: pounding_case::CaseError) -> Self {
+        Self::Case(error.into())
+    }
+}
+
 impl Error {
     /// What to try, in words of this library; of a case file ([`Error::Case`]), by its keys.
     #[must_use]
@@ -268,7 +275,8 @@ impl Error {
                 "correct stiffness, masses and heights, with their units, or leave `.p_delta()` out".to_owned(),
             ),
             Self::Building(error) => help::of_building(error),
-            Self::LateralStiffness(_) | Self::Stopped { .. } => None,
+            Self::LateralStiffness(error) => Some(error.help().to_owned()),
+            Self::Stopped { .. } => None,
             Self::Twice { .. } => Some("give it once".to_owned()),
             Self::StiffnessOfStorey { .. } => Some(
                 "`Building::shear(...)` takes storeys, `Building::stiffness_matrix(...)` floors"
@@ -277,7 +285,7 @@ impl Error {
             Self::NoDamping { .. } => {
                 Some("damp it by `.damping(...)`, or say `.undamped()`".to_owned())
             }
-            Self::Name { .. } => Some("give it another name".to_owned()),
+            Self::Name { .. } => Some(NameError::HELP.to_owned()),
             Self::NoLevel { .. } => {
                 Some("name pairs of storeys by `.levels(...)`, or correct the storey heights".to_owned())
             }

@@ -1,14 +1,11 @@
 //! Which floors of two neighbours face each other, across a gap or a link.
 
 use pounding_catalogue::suggestion;
-use pounding_shear_building::{ELEVATION_TOLERANCE, floor_without_partner, level_pairs};
+use pounding_shear_building::{ELEVATION_TOLERANCE, WALL, floor_without_partner, level_pairs};
 use pounding_time_history::{Floor, System};
 
 use crate::building::Building;
 use crate::error::Error;
-
-/// The name of a rigid wall at either end of the row.
-pub(crate) const WALL: &str = "wall";
 
 /// Which floors are meant.
 #[derive(Debug, Clone, PartialEq)]

@@ -25,7 +25,8 @@ enum Widths {
     Each(Vec<Length>),
 }
 
-/// A gap in the making: between a building and the next one on its right, or a wall.
+/// A gap in the making: between a building and the next one on its right, or a wall. A setting that is
+/// given twice is that of [the last call](crate#what-a-second-call-does).
 #[derive(Debug, Clone)]
 pub struct Gap {
     pub(crate) facing: Facing,
@@ -84,7 +85,7 @@ impl Gap {
         self
     }
 
-    /// An impact model of one's own.
+    /// An impact model of one's own, as [this one](crate#an-impact-model-of-ones-own).
     #[must_use]
     pub fn impact_model(mut self, model: Arc<dyn ImpactModel>) -> Self {
         self.model = Model::Own(model);

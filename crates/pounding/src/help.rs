@@ -16,6 +16,10 @@ pub(crate) const OF_SIZE: &str = "take a longer `.output_step(...)`, or a shorte
 pub(crate) fn of_building(error: &ShearBuildingError) -> Option<String> {
     match error {
         ShearBuildingError::Isolator { source, .. } => of_isolator(source),
+        ShearBuildingError::Value { .. } => Some(
+            "correct the value and its unit: `Mass::tonnes(25.0)`, `Stiffness::meganewtons_per_metre(3.46)` and `Length::metres(3.0)` are usual ones"
+                .to_owned(),
+        ),
         error => error.help(),
     }
 }

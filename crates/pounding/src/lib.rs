@@ -43,6 +43,14 @@
 //! All numbers of an [`Outcome`](prelude::Outcome) are SI; it implements `serde::Serialize`.
 //! The result file opens in h5py, xarray and MATLAB.
 //!
+//! # What a second call does
+//!
+//! A call that sets something replaces what stood there: of two `.damping(...)` the last counts, as of
+//! [`Gap::width`] and [`Gap::widths`], of [`Gap::model`] and [`Gap::impact_model`], of the levels of a gap or link, and of all
+//! that a [`Simulation`] has once, such as [`Simulation::ground_motion`] and [`Simulation::method`]. So a description can be
+//! kept, and varied in one thing. Storeys, floors, gaps, links and forces are added; so are laws, of which each
+//! storey takes one: a second one is an error.
+//!
 //! # With and without the neighbour
 //!
 //! [`Model::isolated`] takes gaps and links away, [`Model::without_gaps`] the gaps alone; modes and exact
@@ -57,6 +65,38 @@
 //! let (pounding, isolated) = (model.run()?, model.isolated().run()?);
 //! let roof = |outcome: &Outcome| outcome.buildings[0].storeys[2].displacement.value;
 //! assert!(roof(&pounding) < roof(&isolated));
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! # A case file, changed by code
+//!
+//! A [`Case`](case::Case) is a case file as types, in SI units. [`Model::of_case`] makes a model of one, whatever
+//! code has changed in it:
+//!
+//! ```
+//! # use pounding::prelude::*;
+//! use std::path::Path;
+//!
+//! use pounding::case::Case;
+//!
+//! # fn main() -> Result<(), Error> {
+//! # let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+//! # std::env::set_current_dir(root).expect("the repository");
+//! let file = Path::new("examples/three_storey_pair/case.toml");
+//! # let text = std::fs::read_to_string(file).expect("the case");
+//! // The text, and the file that paths in it are relative to.
+//! let mut case = Case::parse(&text, file)?;
+//! let force = |case: &Case| -> Result<f64, Error> {
+//!     let outcome = Model::of_case(case)?.run()?;
+//!     Ok(outcome.gaps[0].levels[2].peak_force.value)
+//! };
+//! let before = force(&case)?;
+//! for level in &mut case.gaps[0].levels {
+//!     level.width = 0.030;
+//! }
+//! println!("{:.0} kN across 20 mm, {:.0} kN across 30 mm", before / 1e3, force(&case)? / 1e3);
+//! # assert_eq!(format!("{:.0} {:.0}", before / 1e3, force(&case)? / 1e3), "1271 1178");
 //! # Ok(())
 //! # }
 //! ```
@@ -152,6 +192,145 @@
 //! # }
 //! ```
 //!
+//! # An impact model of one's own
+//!
+//! A law between floors is an [`ImpactModel`](gap_element::ImpactModel). This one is a bumper whose loss grows with the
+//! penetration and its rate, `F = k delta (1 + b v)`: a stiffness and a factor in s/m, one branch, nothing to remember.
+//! What it gives back does not depend on masses or stiffness: `m v dv / (1 + b v) = -k delta d(delta)`, integrated
+//! over a free collision, leaves `(1 + b v) / (1 - b w) = exp(b (v + w))` for the speeds `v` before and `w` after.
+//!
+//! ```
+//! use std::sync::Arc;
+//!
+//! use pounding::gap_element::{
+//!     AchievedRestitution, Bodies, ClosedForm, Collision, Force, GapElementError, ImpactModel, Memory,
+//!     ModelDescriptor, ModelParameters, Phase, SeparationRule, Transition, Verification, collide,
+//! };
+//! use pounding::prelude::*;
+//!
+//! /// Stiffness (N/m) and loss (s/m).
+//! #[derive(Debug)]
+//! struct Bumper {
+//!     stiffness: f64,
+//!     loss: f64,
+//! }
+//!
+//! /// What messages and results say of it. Parameters are for models that go by name.
+//! static DESCRIPTOR: ModelDescriptor = ModelDescriptor {
+//!     name: "bumper",
+//!     aliases: &[],
+//!     title: "Bumper with a loss by rate",
+//!     formula: "F = k delta (1 + b v)",
+//!     citation: "after Hunt and Crossley, J. Applied Mechanics 42 (1975) 440",
+//!     class: "own",
+//!     parameters: &[],
+//!     constants: &[],
+//!     separation_rules: &[SeparationRule::ZeroPenetration],
+//!     needs_approach_velocity: false,
+//!     needs_effective_mass: false,
+//!     achieved_restitution: AchievedRestitution::Varies,
+//!     recommended: false,
+//!     verification: Verification::Verified("the closed form of a free collision"),
+//!     example: &[],
+//!     traps: &[],
+//!     build: bumper,
+//! };
+//!
+//! fn bumper(_: &ModelParameters) -> Result<Box<dyn ImpactModel>, GapElementError> {
+//!     Ok(Box::new(Bumper { stiffness: 9.35e7, loss: 1.5 }))
+//! }
+//!
+//! impl ImpactModel for Bumper {
+//!     fn descriptor(&self) -> &'static ModelDescriptor {
+//!         &DESCRIPTOR
+//!     }
+//!
+//!     /// It never pulls: no collision ends faster than `1 / b`.
+//!     fn separation(&self) -> SeparationRule {
+//!         SeparationRule::ZeroPenetration
+//!     }
+//!
+//!     fn begin(&self, approach_velocity: f64, effective_mass: f64) -> Collision {
+//!         Collision { approach_velocity, effective_mass, ..Collision::default() }
+//!     }
+//!
+//!     /// With both derivatives, which implicit steps need.
+//!     fn force(&self, _: &Collision, _: &Memory, _: Phase, delta: f64, velocity: f64) -> Force {
+//!         let factor = 1.0 + self.loss * velocity;
+//!         Force {
+//!             value: self.stiffness * delta * factor,
+//!             by_penetration: self.stiffness * factor,
+//!             by_velocity: self.stiffness * delta * self.loss,
+//!         }
+//!     }
+//!
+//!     /// The force vanishes at closure; its sign is that of this factor.
+//!     fn raw_force(&self, _: &Collision, _: &Memory, _: Phase, _: f64, velocity: f64) -> f64 {
+//!         1.0 + self.loss * velocity
+//!     }
+//!
+//!     /// What the ledger counts as stored: the rest of the work is lost.
+//!     fn stored_energy(&self, _: &Collision, _: &Memory, _: Phase, delta: f64) -> f64 {
+//!         0.5 * self.stiffness * delta * delta
+//!     }
+//!
+//!     fn transitions(&self, _: Phase) -> &'static [Transition] {
+//!         &[]
+//!     }
+//!
+//!     fn closed_form(&self, _: f64, _: f64) -> Option<ClosedForm> {
+//!         None
+//!     }
+//!
+//!     fn smooth_at_closure(&self) -> bool {
+//!         true
+//!     }
+//! }
+//!
+//! # fn main() -> Result<(), Error> {
+//! // By itself first: two bodies, and the closed form.
+//! let model = bumper(&ModelParameters::default()).expect("a bumper");
+//! let bodies = Bodies {
+//!     mass_left: 25e3,
+//!     mass_right: Some(40e3),
+//!     velocity_left: 0.8,
+//!     velocity_right: 0.3,
+//! };
+//! let free = collide(&*model, &bodies).expect("a collision");
+//! let (v, w, b) = (0.5, 0.5 * free.restitution, 1.5_f64);
+//! assert!(((1.0 + b * v) / (1.0 - b * w) - (b * (v + w)).exp()).abs() < 1e-9);
+//! println!("restitution {:.3}", free.restitution);
+//! # assert_eq!(format!("{:.3}", free.restitution), "0.663");
+//!
+//! // Then between buildings.
+//! let storey = |mass, stiffness| Storey {
+//!     mass: Mass::tonnes(mass),
+//!     stiffness: Stiffness::meganewtons_per_metre(stiffness),
+//!     height: Length::metres(3.0),
+//! };
+//! let damping = Damping::StiffnessProportional { ratio: 0.05 };
+//! let light = Building::shear("light").storeys(3, storey(25.0, 3.46)).damping(damping.clone());
+//! let heavy = Building::shear("heavy").storeys(3, storey(1000.0, 2215.0)).damping(damping);
+//! let gap = Gap::between("light", "heavy")
+//!     .width(Length::millimetres(20.0))
+//!     .impact_model(Arc::from(model));
+//! # let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
+//! # std::env::set_current_dir(root).expect("the repository");
+//! let motion = GroundMotion::read("ground_motions/el_centro_1940_ns.csv")?;
+//! let outcome = Simulation::of([light, heavy]).gap(gap).ground_motion(motion).run()?;
+//! let roof = &outcome.gaps[0].levels[2];
+//! println!("{} impacts, {:.0} kN", roof.impacts, roof.peak_force.value / 1e3);
+//! # assert_eq!(format!("{} {:.0}", roof.impacts, roof.peak_force.value / 1e3), "27 1140");
+//! // No impact gives energy, and the ledger of the run closes.
+//! assert!(outcome.impacts.iter().all(|impact| impact.energy_dissipated > 0.0));
+//! assert!(outcome.energy.residual_ratio < 1e-9);
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! Laws with branches name the sign changes that end them ([`ImpactModel::transitions`](gap_element::ImpactModel::transitions));
+//! rigid ones give a [restitution](gap_element::ImpactModel::rigid_restitution) alone.
+//!
 //! # Walls, frames, matrices of other programs
 //!
 //! A building whose floors all act on one another has one [`LateralStiffness`](prelude::LateralStiffness)
@@ -234,6 +413,9 @@ pub use pounding_hysteresis as hysteresis;
 pub use pounding_results as results;
 pub use pounding_separation as separation;
 pub use pounding_shear_building as shear_building;
+/// The crate whose matrices and vectors stand in [`shear_building`] and in [`Damping::Matrix`](prelude::Damping::Matrix),
+/// of the version that they are of.
+pub use pounding_shear_building::nalgebra;
 pub use pounding_time_history as time_history;
 
 /// What most programs need.

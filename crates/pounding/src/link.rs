@@ -7,7 +7,8 @@ use crate::facing::{Facing, Levels};
 use crate::law::Law;
 
 /// A link in the making: joints, dampers or bumpers between floors of a building and of the
-/// next one on its right, or a wall, that follow a law.
+/// next one on its right, or a wall, that follow a law. A setting that is given twice is that of
+/// [the last call](crate#what-a-second-call-does).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Link {
     pub(crate) facing: Facing,

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+#[cfg(feature = "toml")]
+use pounding_case::Case;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use pounding_time_history::{Outcome, Recorder, RunOptions, System, run};
 
@@ -28,6 +30,11 @@ pub struct Model {
     #[cfg_attr(not(feature = "hdf5"), expect(dead_code))]
     pub(crate) files: Vec<(&'static str, std::path::PathBuf)>,
 }
+
+/// Comment at the end of the text of a case.
+#[cfg(feature = "toml")]
+const CHANGED: &str =
+    "# A program changed the case after this text was read: it does not say all of what was run.";
 
 /// Step of recorded responses unless another is asked for (s).
 pub(crate) const OUTPUT_STEP: f64 = 0.01;
@@ -73,7 +80,8 @@ impl Model {
         &self.title
     }
 
-    /// Text of the case file, empty for what was built by code.
+    /// Text of the case file, with a comment where [code has changed](Self::of_case) what it says; empty for
+    /// what was built by code.
     #[must_use]
     pub fn source(&self) -> &str {
         &self.source
@@ -206,11 +214,35 @@ impl Model {
     /// # Errors
     /// What is wrong in the file, with line and column.
     pub fn read(path: impl AsRef<std::path::Path>) -> Result<Self, Error> {
-        let case = pounding_case::Case::read(path.as_ref());
-        let case = case.map_err(pounding_assembly::AssemblyError::from)?;
-        let assembly = pounding_assembly::assemble(&case)?;
+        Self::assembled(&Case::read(path.as_ref())?)
+    }
+
+    /// A model of a case in memory, as it was read ([`Case::read`], [`Case::parse`]) or as code has
+    /// [changed it since](crate#a-case-file-changed-by-code), with its title, its text and the files that
+    /// it names. Its record is read, relative to the file that the case names as its own.
+    ///
+    /// What code has changed does not stand in the text of the case, which results hold: a comment at its
+    /// end then says so.
+    ///
+    /// # Errors
+    /// What cannot be, with line and column of the text where it stands, or stood before it was changed.
+    pub fn of_case(case: &Case) -> Result<Self, Error> {
+        let mut model = Self::assembled(case)?;
+        let read = Case::parse(&case.source, &case.file).map(|read| Case {
+            given_files: case.given_files.clone(),
+            ..read
+        });
+        if read.as_ref() != Ok(case) {
+            model.source = format!("{}\n\n{CHANGED}\n", case.source.trim_end());
+        }
+        Ok(model)
+    }
+
+    /// A model of a case whose text says all of it.
+    fn assembled(case: &Case) -> Result<Self, Error> {
+        let assembly = pounding_assembly::assemble(case)?;
         let told = assembly.warnings_of_buildings();
-        let mut files = vec![("case", path.as_ref().to_owned())];
+        let mut files = vec![("case", case.file.clone())];
         files.extend(case.files());
         Ok(Self {
             files,
@@ -219,8 +251,8 @@ impl Model {
             options: assembly.options,
             output_step: assembly.output_step,
             told,
-            title: case.title,
-            source: case.source,
+            title: case.title.clone(),
+            source: case.source.clone(),
         })
     }
 }
@@ -235,15 +267,10 @@ impl Model {
     /// record. What stood under its name is untouched then.
     pub fn run_to_file(&self, path: impl AsRef<std::path::Path>) -> Result<Outcome, Error> {
         use pounding_results::{RunEnding, RunHead, RunWriter};
-        use pounding_time_history::{GridRecorder, IsolatedRun, TimeHistoryError, run_isolated};
+        use pounding_time_history::{GridRecorder, IsolatedRun, run_isolated};
 
-        if !(self.output_step.is_finite() && self.output_step > 0.0) {
-            return Err(Error::Run(TimeHistoryError::Option {
-                option: "output_step",
-                value: self.output_step,
-                reason: "it must be greater than zero",
-            }));
-        }
+        // What no recorder takes, before the size that it would give is asked for.
+        GridRecorder::new(self.output_step)?;
         let mut files = pounding_files::FileUse::new();
         for (role, file) in &self.files {
             files.reads(*role, file);

@@ -1,14 +1,13 @@
 //! A row of buildings under a ground motion.
 
 use pounding_catalogue::suggestion;
-use pounding_shear_building::{NAMES, is_name};
+use pounding_shear_building::{NAMES, NameFault, WALL, check_names};
 use pounding_time_history::{
     Floor, FloorForce, ForceHistory, GroundAcceleration, MethodChoice, Outcome, RunOptions, System,
 };
 
 use crate::building::Building;
 use crate::error::Error;
-use crate::facing::WALL;
 use crate::gap::Gap;
 use crate::link::Link;
 use crate::model::{Model, OUTPUT_STEP};
@@ -18,7 +17,8 @@ use crate::units::Time;
 /// Buildings in a row from the left, the gaps and links between them, a ground motion, and how
 /// it is all integrated.
 ///
-/// Everything is checked when it is [built](Self::build) or [run](Self::run).
+/// Everything is checked when it is [built](Self::build) or [run](Self::run). What a second call of a method
+/// does is said of [all builders](crate#what-a-second-call-does).
 #[derive(Debug, Clone)]
 pub struct Simulation {
     buildings: Vec<Building>,
@@ -190,43 +190,22 @@ impl Simulation {
 
     /// Buildings and gaps are called by their names, and stand under them in results.
     fn check_names(&self) -> Result<(), Error> {
-        let mut seen = std::collections::BTreeSet::new();
-        for name in self.buildings.iter().map(Building::name) {
-            let reason = match name {
-                WALL => Some("it is that of the rigid wall"),
-                _ if !is_name(name) => Some(NAMES),
-                _ if !seen.insert(name) => Some("another building has it"),
-                _ => None,
-            };
-            if let Some(reason) = reason {
-                return Err(Error::Name {
-                    name: name.to_owned(),
-                    what: "building",
-                    reason,
-                });
-            }
-        }
         let gaps: Vec<String> = self.gaps.iter().map(Gap::name).collect();
         let links: Vec<String> = self.links.iter().map(Link::name).collect();
-        for (what, names, taken) in [
-            ("gap", gaps, "another gap has it: call one by `.named(...)`"),
-            (
-                "link",
-                links,
-                "another link has it: call one by `.named(...)`",
-            ),
-        ] {
-            let mut seen = std::collections::BTreeSet::new();
-            for name in names {
-                let reason = match seen.insert(name.clone()) {
-                    true if is_name(&name) => continue,
-                    true => NAMES,
-                    false => taken,
-                };
-                return Err(Error::Name { name, what, reason });
-            }
-        }
-        Ok(())
+        check_names("building", self.buildings.iter().map(Building::name))
+            .and_then(|()| check_names("gap", gaps.iter().map(String::as_str)))
+            .and_then(|()| check_names("link", links.iter().map(String::as_str)))
+            .map_err(|error| Error::Name {
+                reason: match (error.fault, error.what) {
+                    (NameFault::Form, _) => NAMES,
+                    (NameFault::Wall, _) => "it is that of the rigid wall",
+                    (NameFault::Taken, "gap") => "another gap has it: call one by `.named(...)`",
+                    (NameFault::Taken, "link") => "another link has it: call one by `.named(...)`",
+                    (NameFault::Taken, _) => "another building has it",
+                },
+                name: error.name,
+                what: error.what,
+            })
     }
 
     /// Refuses a second gap between the same neighbours.

@@ -16,7 +16,7 @@ use pounding_results::{
     Kind, RunEnding, RunHead, check_size, image, response_bytes, run_in_memory, write_run,
 };
 use pounding_time_history::{
-    Energy, GridRecorder, History, Impact, IsolatedRun, Outcome, Recorder, Summary,
+    Energy, GridRecorder, History, HistorySink, Impact, IsolatedRun, Outcome, Recorder, Summary,
     TimeHistoryError, in_parallel, run as integrate, run_isolated,
 };
 use pyo3::exceptions::PyKeyError;
@@ -70,7 +70,10 @@ impl Run {
             ))?;
         }
         let started = Instant::now();
-        let recorder = || GridRecorder::new(assembly.output_step).map_err(failed);
+        let recorder = || {
+            let sink = Fitting(History::default());
+            GridRecorder::into_sink(assembly.output_step, sink).map_err(failed)
+        };
         let mut recorder = wanted.histories.then(recorder).transpose()?;
         let (outcome, isolated) = std::thread::scope(|scope| {
             // Neither run depends on the other.
@@ -106,7 +109,7 @@ impl Run {
             isolated,
             warnings,
             wall_time: started.elapsed().as_secs_f64(),
-            history: recorder.map(|recorder| recorder.responses),
+            history: recorder.map(|recorder| recorder.responses.0),
             assembly,
         })
     }
@@ -153,6 +156,19 @@ impl Run {
         let (head, history) = (self.head(), self.history()?);
         let made = self.with_ending(|ending| run_in_memory(&head, history, ending));
         made.map_err(|e| Failure::computation(format!("no result in memory: {e}"), None).into())
+    }
+}
+
+/// Histories of which [`fit_in_memory`] has found that the memory of this machine holds them.
+struct Fitting(History);
+
+impl HistorySink for Fitting {
+    fn most_bytes(&self) -> f64 {
+        f64::INFINITY
+    }
+
+    fn take(&mut self, rows: &mut History) -> Result<(), TimeHistoryError> {
+        self.0.take(rows)
     }
 }
 

@@ -178,6 +178,12 @@ impl ShearBuildingError {
             Self::TooManyStoreys { .. } => {
                 "join storeys: several of them as one of their total height and mass, and of their stiffnesses in series"
             }
+            Self::Length { .. } => {
+                "give one value for each storey, the lowest first; of a matrix one row for each floor"
+            }
+            Self::Damping { .. } => {
+                "ratios are of critical damping, from 0 to below 1, usual are 0.02 to 0.05; factors and dashpots are zero or more, with one dashpot for each storey"
+            }
             Self::Modes { .. } => "correct masses and stiffnesses, with their units",
             Self::Isolator { source, .. } => return source.help(),
             _ => return None,

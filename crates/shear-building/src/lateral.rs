@@ -96,6 +96,21 @@ pub enum LateralStiffnessError {
     },
 }
 
+impl LateralStiffnessError {
+    /// What to try, where it is the same for a case file and for code.
+    #[must_use]
+    pub fn help(&self) -> &'static str {
+        match self {
+            Self::Length { .. } | Self::Value { .. } => {
+                "give one value for each storey, the lowest first, and greater than zero"
+            }
+            _ => {
+                "give the matrix of the floors as the frame program exports it: bottom floor first, all other coordinates condensed out"
+            }
+        }
+    }
+}
+
 /// Difference of entries that should be the same, over the largest entry, up to which
 /// their mean is taken.
 const LARGEST_ASYMMETRY: f64 = 1.0e-6;

@@ -48,6 +48,9 @@ pub use isolator::{
 };
 pub use lateral::{LateralStiffness, LateralStiffnessError};
 pub use modes::Modes;
-pub use names::{NAMES, is_name};
+pub use names::{NAMES, NameError, NameFault, WALL, check_names, is_name};
 pub use stiffness::StiffnessMatrix;
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};
+
+/// The crate whose matrices and vectors this one takes and gives, of the version that they are of.
+pub use nalgebra;

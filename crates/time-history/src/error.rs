@@ -265,6 +265,21 @@ pub enum TimeHistoryError {
         /// Its name in cases.
         name: &'static str,
     },
+    /// Responses on a grid of times that nothing would hold.
+    #[error(
+        "responses every {} s over {} s would take {} GB; {} GB are the most",
+        short(*step), short(*duration), short(bytes * 1e-9), short(most * 1e-9)
+    )]
+    ResponsesTooLarge {
+        /// Step of the grid (s).
+        step: f64,
+        /// Duration of the run (s).
+        duration: f64,
+        /// Their size (bytes).
+        bytes: f64,
+        /// What it may be (bytes).
+        most: f64,
+    },
     /// A recorder refused a step.
     #[error("recorder: {0}")]
     Recorder(String),
@@ -325,6 +340,9 @@ impl TimeHistoryError {
                 }
                 _ => "use a smaller `step`",
             },
+            Self::ResponsesTooLarge { .. } => {
+                "record at longer steps, or shorten the run; peaks and impacts do not depend on the step of a recorder"
+            }
             _ => return None,
         };
         Some(text.to_owned())

@@ -45,7 +45,7 @@ pub use isolated_run::{IsolatedRun, run_isolated};
 pub use methods::Information;
 pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
-pub use recorder::{GridRecorder, History, HistorySink, Recorder, StepView};
+pub use recorder::{GridRecorder, History, HistorySink, MAXIMUM_RESPONSES, Recorder, StepView};
 pub use relative_displacement::{RelativeDisplacement, isolated_demand, isolated_demand_beside};
 #[cfg(feature = "serde")]
 pub use summary::Summary;

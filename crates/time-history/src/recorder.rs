@@ -198,6 +198,15 @@ fn append_elements(
 
 /// A sink for responses.
 pub trait Recorder {
+    /// Called once before all else with the duration of the run (s).
+    ///
+    /// # Errors
+    /// A run that the recorder could not record; it does not begin.
+    fn prepare(&mut self, duration: f64) -> Result<(), TimeHistoryError> {
+        let _ = duration;
+        Ok(())
+    }
+
     /// Called once with the responses at time zero, a single row.
     ///
     /// # Errors
@@ -371,8 +380,20 @@ impl History {
     }
 }
 
+/// Responses of a run at most (bytes before compression): what a disk may have room for.
+pub const MAXIMUM_RESPONSES: f64 = 1.0e11;
+
+/// The same in memory: a grid that asks for more is one of a wrong step.
+const MOST_IN_MEMORY: f64 = 1.0e10;
+
 /// What takes responses some rows at a time, in order of time.
 pub trait HistorySink {
+    /// Bytes of rows that it takes of one run at most: [`GridRecorder`] refuses a run that would have
+    /// more of them. [`MAXIMUM_RESPONSES`] unless a sink says otherwise, as one may that keeps none.
+    fn most_bytes(&self) -> f64 {
+        MAXIMUM_RESPONSES
+    }
+
     /// Takes the next rows, at least one. What it leaves of them is dropped.
     ///
     /// # Errors
@@ -381,6 +402,10 @@ pub trait HistorySink {
 }
 
 impl HistorySink for History {
+    fn most_bytes(&self) -> f64 {
+        MOST_IN_MEMORY
+    }
+
     fn take(&mut self, rows: &mut History) -> Result<(), TimeHistoryError> {
         self.append(rows);
         Ok(())
@@ -388,6 +413,10 @@ impl HistorySink for History {
 }
 
 impl<S: HistorySink + ?Sized> HistorySink for &mut S {
+    fn most_bytes(&self) -> f64 {
+        (**self).most_bytes()
+    }
+
     fn take(&mut self, rows: &mut History) -> Result<(), TimeHistoryError> {
         (**self).take(rows)
     }
@@ -401,9 +430,15 @@ const BLOCK_BYTES: usize = 4 << 20;
 /// Gives responses on an even grid of times, from zero to the end of the run, to a sink: to a
 /// [`History`] in memory, or to what writes them to a file. One records one run: rows of a second
 /// would come behind those of the first.
+///
+/// A run with so many times that its rows would be more than the sink takes
+/// ([`HistorySink::most_bytes`]: 10 GB in memory) ends before its first step with
+/// [`TimeHistoryError::ResponsesTooLarge`].
 #[derive(Debug, Clone)]
 pub struct GridRecorder<S = History> {
     step: f64,
+    /// Of the run (s), once it is known.
+    duration: f64,
     /// Responses taken.
     count: usize,
     /// What takes them: of the last rows not before the run has ended.
@@ -432,6 +467,7 @@ impl<S: HistorySink> GridRecorder<S> {
         if step.is_finite() && step > 0.0 {
             Ok(Self {
                 step,
+                duration: 0.0,
                 count: 0,
                 responses: sink,
                 block: History::default(),
@@ -441,9 +477,24 @@ impl<S: HistorySink> GridRecorder<S> {
             Err(TimeHistoryError::Option {
                 option: "output_step",
                 value: step,
-                reason: "it must be greater than zero",
+                reason: "it must be greater than zero, and finite",
             })
         }
+    }
+
+    /// Refuses a run whose rows, of so many bytes each, the sink does not take.
+    fn check_size(&self, row: usize) -> Result<(), TimeHistoryError> {
+        let bytes = self.duration / self.step * row as f64;
+        let most = self.responses.most_bytes();
+        if bytes <= most {
+            return Ok(());
+        }
+        Err(TimeHistoryError::ResponsesTooLarge {
+            step: self.step,
+            duration: self.duration,
+            bytes,
+            most,
+        })
     }
 
     /// Gives the sink what it has not been given yet.
@@ -458,10 +509,17 @@ impl<S: HistorySink> GridRecorder<S> {
 }
 
 impl<S: HistorySink> Recorder for GridRecorder<S> {
+    fn prepare(&mut self, duration: f64) -> Result<(), TimeHistoryError> {
+        self.duration = duration;
+        Ok(())
+    }
+
     fn begin(&mut self, _system: &System, start: &History) -> Result<(), TimeHistoryError> {
+        let mut first = start.clone();
+        let bytes = first.bytes();
+        self.check_size(bytes)?;
         self.count = 1;
-        self.block.append(&mut start.clone());
-        let bytes = self.block.bytes();
+        self.block.append(&mut first);
         self.rows = BLOCK_ROWS;
         while self.rows > 1 && self.rows * bytes > BLOCK_BYTES {
             self.rows /= 2;

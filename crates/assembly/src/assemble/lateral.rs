@@ -39,9 +39,7 @@ pub(super) fn stiffness(
         let named = file.map_or_else(String::new, |f| format!("{}: ", f.value.display()));
         let message = format!("building {}: {named}{e}", building.name.value);
         let help = match lateral.value {
-            Lateral::Stiffness(_) | Lateral::Flexibility(_) => {
-                "give the matrix of the floors as the frame program exports it: bottom floor first, all other coordinates condensed out"
-            }
+            Lateral::Stiffness(_) | Lateral::Flexibility(_) => e.help(),
             _ => "correct the rigidities: they are so far apart that the matrix of the floors is round-off",
         };
         case.error(place.clone(), message, Some(help.to_owned()))

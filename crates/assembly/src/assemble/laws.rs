@@ -10,7 +10,7 @@ use pounding_catalogue::DefinitionError;
 use pounding_hysteresis::{
     HysteresisError, LawDescriptor, LawParameters, build, find, yield_deformation,
 };
-use pounding_shear_building::{ShearBuilding, StoreyLaw};
+use pounding_shear_building::{ShearBuilding, StoreyLaw, WALL};
 use pounding_time_history::{Floor, LinkedPair, System};
 
 use super::foundation;
@@ -86,7 +86,7 @@ pub(super) fn add_link(case: &Case, link: &Link, system: &mut System) -> Result<
     };
     let names = link.between.map(|side| match side {
         Side::Building(b) => case.buildings[b].name.value.clone(),
-        Side::Wall => "wall".to_owned(),
+        Side::Wall => WALL.to_owned(),
     });
     if let Some(motion) = &link.foundations {
         foundation::add_link(link, names, motion.value, laws, system)?;

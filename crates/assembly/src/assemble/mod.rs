@@ -22,7 +22,7 @@ use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
 };
 use pounding_ground_motion::Accelerogram;
-use pounding_shear_building::{ContactLine, ShearBuilding, ShearBuildingError};
+use pounding_shear_building::{ContactLine, ShearBuilding, ShearBuildingError, WALL};
 use pounding_time_history::{
     Floor, LevelMotion, RunOptions, System, TimeHistoryError, Warning, more_pairs,
 };
@@ -290,7 +290,7 @@ fn with_gaps(
         }
         let names = gap.between.map(|side| match side {
             Side::Building(b) => case.buildings[b].name.value.clone(),
-            Side::Wall => "wall".to_owned(),
+            Side::Wall => WALL.to_owned(),
         });
         let first = system.levels().len();
         let added = system.add_gap_with_tolerance(&gap.name, names, pairs, gap.elevation_tolerance);
@@ -400,7 +400,7 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
         let (place, help) = match &e {
             ShearBuildingError::Unstable { .. } => (&b.name.span, Some(OVERTURNED.to_owned())),
             ShearBuildingError::UnstableMatrix { .. } => (at_matrix, Some(OVERTURNED.to_owned())),
-            ShearBuildingError::Length { .. } => (at_matrix, None),
+            ShearBuildingError::Length { .. } => (at_matrix, e.help()),
             ShearBuildingError::TooManyStoreys { .. } => (&b.name.span, e.help()),
             ShearBuildingError::Value { .. } => (&b.name.span, Some(WITH_UNIT.to_owned())),
             ShearBuildingError::Damping { .. } if b.lateral.is_some() => (

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use pounding_catalogue::wording::counted;
-use pounding_shear_building::MAXIMUM_STOREYS;
+use pounding_shear_building::{MAXIMUM_STOREYS, WALL};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -144,7 +144,7 @@ impl BuildingTable {
     /// The name, if it can be one.
     pub(super) fn name(&self, reader: &Reader<'_>) -> Option<Located<String>> {
         let name = check_name(reader, self.name.clone().located()?, "building")?;
-        if name.value == "wall" {
+        if name.value == WALL {
             return reader.refuse(
                 name.span,
                 "a building cannot be called \"wall\"",

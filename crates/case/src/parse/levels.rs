@@ -4,7 +4,9 @@ use std::fmt;
 use std::ops::Range;
 
 use pounding_catalogue::suggestion;
-use pounding_shear_building::{ELEVATION_TOLERANCE, decimal, floor_without_partner, level_pairs};
+use pounding_shear_building::{
+    ELEVATION_TOLERANCE, WALL, decimal, floor_without_partner, level_pairs,
+};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, SeqAccess, Unexpected, Visitor};
@@ -257,7 +259,7 @@ pub(super) fn sides(
 ) -> Option<([Side; 2], [String; 2])> {
     let mut sides = Vec::new();
     for name in &given.value.0 {
-        let side = if name.value == "wall" {
+        let side = if name.value == WALL {
             Side::Wall
         } else {
             match buildings.iter().position(|b| *b == name.value) {
@@ -596,7 +598,7 @@ fn hit_column(
 ) -> Option<Facing> {
     let names = sides.between.map(|side| match side {
         Side::Building(building) => sides.buildings[building].name.value.as_str(),
-        Side::Wall => "wall",
+        Side::Wall => WALL,
     });
     let hit = names[side];
     let Some(columns) = sides.columns else {

@@ -2,7 +2,11 @@
 //! what is wrong is said with its place.
 #![allow(clippy::unwrap_used)]
 
+mod builders;
+mod changed_cases;
 mod own_models;
+mod recorders;
+mod systems_by_hand;
 mod words;
 
 use std::ops::ControlFlow;
@@ -977,6 +981,8 @@ fn a_damping_matrix_from_rows() {
     };
     let rows = [vec![1.5e5, -5e4], vec![-5e4, 5e4]];
     let typed = of(Damping::from_rows(&rows).unwrap());
+    let matrix = pounding::nalgebra::DMatrix::from_row_slice(2, 2, &rows.concat());
+    assert_eq!(of(Damping::Matrix { matrix }), typed);
     let dashpots = of(Damping::Dashpots {
         coefficients: vec![1e5, 5e4],
     });

@@ -205,6 +205,83 @@ fn errors_of_models_and_isolators_are_in_our_words() {
     }
 }
 
+/// Masses, stiffnesses, heights and every kind of damping.
+#[test]
+fn errors_of_buildings_are_in_our_words() {
+    let refuse = |building: Building| {
+        let simulation = Simulation::of([building]).ground_motion(el_centro());
+        in_our_words(&simulation.build().unwrap_err())
+    };
+    let sound = crate::storey(25.0, 3.46);
+    for wrong in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        let mass = Mass::tonnes(wrong);
+        let stiffness = Stiffness::meganewtons_per_metre(wrong);
+        let height = Length::metres(wrong);
+        for storey in [
+            Storey { mass, ..sound },
+            Storey { stiffness, ..sound },
+            Storey { height, ..sound },
+        ] {
+            let help = refuse(Building::shear("b").storeys(2, storey).undamped());
+            assert!(help.contains("`Mass::tonnes(25.0)`"), "{help}");
+        }
+    }
+    let (alpha, beta, ratio) = (0.1, -1.0, 5.0);
+    for damping in [
+        Damping::Rayleigh { alpha, beta },
+        Damping::RayleighRatio {
+            ratio,
+            modes: [1, 2],
+        },
+        Damping::RayleighRatio {
+            ratio: 0.05,
+            modes: [1, 3],
+        },
+        Damping::StiffnessProportional { ratio },
+        Damping::MassProportional { ratio },
+        Damping::Modal {
+            ratios: vec![ratio],
+        },
+        Damping::Modal {
+            ratios: vec![0.05; 3],
+        },
+        Damping::Dashpots {
+            coefficients: vec![1e5],
+        },
+        Damping::Dashpots {
+            coefficients: vec![1e5, -1e5],
+        },
+        Damping::from_rows(&[vec![1e5]]).unwrap(),
+        Damping::Isolated {
+            superstructure: Box::new(Damping::Modal { ratios: vec![] }),
+            isolators: -1.0,
+        },
+    ] {
+        let help = refuse(Building::shear("b").storeys(2, sound).damping(damping));
+        assert!(help.contains("0.02 to 0.05"), "{help}");
+    }
+    let walls = [
+        LateralStiffness::cantilever(&[3.0; 2], &[6e9], None),
+        LateralStiffness::cantilever(&[3.0; 2], &[6e9, 0.0], None),
+        LateralStiffness::from_rows(&[]),
+        LateralStiffness::from_rows(&[vec![1.0, -1.0], vec![-1.0, 1.0]]),
+    ];
+    for wall in walls {
+        in_our_words(&wall.unwrap_err().into());
+    }
+    let wall = LateralStiffness::cantilever(&[3.0; 2], &[6e9; 2], None).unwrap();
+    let floor = Floor {
+        mass: Mass::tonnes(40.0),
+        height: Length::metres(3.0),
+    };
+    let help = refuse(
+        Building::stiffness_matrix("w", wall)
+            .floor(floor)
+            .undamped(),
+    );
+    assert!(help.contains("one row for each floor"), "{help}");
+}
+
 #[test]
 fn results_that_cannot_be_written_are_in_our_words() {
     let model = pair().duration(Time::seconds(1.0)).build().unwrap();

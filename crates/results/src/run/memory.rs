@@ -36,12 +36,15 @@ pub fn write_run(
 /// The same as a file that lives in memory alone, for whoever reads it there.
 ///
 /// # Errors
-/// What HDF5 says, for example that there is no memory.
+/// Names of the system that cannot stand in it ([`System::check_names`](pounding_time_history::System::check_names)),
+/// and what HDF5 says, for example that there is no memory.
 pub fn run_in_memory(
     head: &RunHead<'_>,
     history: &History,
     ending: &RunEnding<'_>,
 ) -> Result<File> {
+    let names = head.system.check_names();
+    names.map_err(|e| hdf5::Error::from(e.to_string()))?;
     static COUNT: AtomicU64 = AtomicU64::new(0);
     // HDF5 tells open files apart by their names.
     let name = format!("run in memory {}", COUNT.fetch_add(1, Ordering::Relaxed));

@@ -19,6 +19,7 @@ use std::path::{Path, PathBuf};
 use hdf5::Group;
 use pounding_files::{PartFile, PlaceTaken, checksum};
 use pounding_ground_motion::Accelerogram;
+use pounding_shear_building::NameError;
 use pounding_time_history::{Energy, History, HistorySink, Outcome, System, TimeHistoryError};
 use sha2::{Digest, Sha256};
 
@@ -68,7 +69,8 @@ pub struct WriteError {
     pub path: PathBuf,
     /// What the file system or HDF5 said.
     pub reason: String,
-    /// What to do where the file stands whole under another name.
+    /// What to do where neither folder nor disk is at fault: where the file stands whole under another
+    /// name, and of names that cannot stand in it.
     pub aside: Option<String>,
 }
 
@@ -103,13 +105,18 @@ impl<'a> RunWriter<'a> {
     /// Begins a result file.
     ///
     /// # Errors
-    /// [`WriteError`] if the file cannot be written.
+    /// [`WriteError`] if the file cannot be written, or names of the system cannot stand in it
+    /// ([`System::check_names`]).
     pub fn begin(path: &Path, head: &RunHead<'a>) -> std::result::Result<Self, WriteError> {
         let failed = |reason: String| WriteError {
             path: path.to_owned(),
             reason,
             aside: None,
         };
+        head.system.check_names().map_err(|e| WriteError {
+            aside: Some(NameError::HELP.to_owned()),
+            ..failed(e.to_string())
+        })?;
         let part = PartFile::beside(path).map_err(|e| failed(e.to_string()))?;
         let (file, tables) = begin(part.path(), head).map_err(|e| failed(reason_of(&e)))?;
         Ok(Self {
@@ -189,6 +196,11 @@ impl<'a> RunWriter<'a> {
 }
 
 impl HistorySink for RunWriter<'_> {
+    /// [`check_size`] counts the numbers that stand in the file, which are not quite those of the rows.
+    fn most_bytes(&self) -> f64 {
+        f64::INFINITY
+    }
+
     fn take(&mut self, rows: &mut History) -> std::result::Result<(), TimeHistoryError> {
         self.tables.take(rows).map_err(|e| {
             let failure = self.failure.insert(reason_of(&e));

@@ -1,9 +1,7 @@
 //! How large the result of a run gets.
 
+pub use pounding_time_history::MAXIMUM_RESPONSES;
 use pounding_time_history::{System, short};
-
-/// Responses of a run at most (bytes before compression): what a disk may have room for.
-pub const MAXIMUM_RESPONSES: f64 = 1.0e11;
 
 /// Numbers of one sample of the responses in the file.
 pub(super) fn numbers(system: &System) -> usize {

@@ -108,6 +108,9 @@ fn integrate(
     progress: &mut dyn FnMut(f64),
 ) -> Result<Outcome, TimeHistoryError> {
     let duration = options.check(system)?;
+    for recorder in recorders.iter_mut() {
+        recorder.prepare(duration)?;
+    }
     let outcome = follow(system, (options, duration), recorders, progress);
     let ended = recorders.iter_mut().try_for_each(|r| r.end());
     outcome.and_then(|outcome| ended.map(|()| outcome))

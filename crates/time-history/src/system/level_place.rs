@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use pounding_shear_building::are_level;
+use pounding_shear_building::{WALL, are_level};
 
 use super::links::LinkedMotion;
 
@@ -78,7 +78,7 @@ impl fmt::Display for LevelPlace {
 }
 
 fn or_wall(side: Option<impl ToString>) -> String {
-    side.map_or_else(|| "wall".to_owned(), |x| x.to_string())
+    side.map_or_else(|| WALL.to_owned(), |x| x.to_string())
 }
 
 #[cfg(test)]

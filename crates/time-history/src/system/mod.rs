@@ -5,6 +5,7 @@ mod level_place;
 mod level_response;
 mod links;
 mod motions;
+mod names;
 mod place;
 mod sections;
 mod terms;

@@ -92,6 +92,35 @@ proptest! {
     }
 }
 
+/// Numbers of a file come back as they stood there where the unit is the same.
+#[test]
+fn numbers_of_files_come_back() {
+    let sign = |i: i32| if i % 2 == 0 { 1.0e-5 } else { -1.0e-5 };
+    let numbers: Vec<String> = (10..4000)
+        .map(|i| format!("{:.5}", f64::from(i * 7919 % 4001 + 10) * sign(i)))
+        .map(|number| number.trim_end_matches('0').to_owned())
+        .collect();
+    let text = numbers.join("\n") + "\n";
+    for unit in [
+        AccelerationUnit::StandardGravity,
+        AccelerationUnit::MilliGravity,
+        AccelerationUnit::Gal,
+        AccelerationUnit::FootPerSecondSquared,
+        AccelerationUnit::MetrePerSecondSquared,
+    ] {
+        let options = ReadOptions {
+            unit: Some(unit),
+            time_step: Some(0.01),
+            layout: Some("a".to_owned()),
+            ..keep()
+        };
+        let read = read_all_bytes("a.txt", text.as_bytes(), &options).unwrap();
+        let written = Written::of_series(&read.series[0]).unwrap();
+        let (again, _) = write_plain_columns(&written, &[Column::Value], Some(unit));
+        assert_eq!(again, text, "{unit:?}");
+    }
+}
+
 /// A record that is written twice tells of both times.
 #[test]
 fn history_grows() {

@@ -164,10 +164,18 @@ fn readable(series: &Written) -> Result<(), GroundMotionError> {
     })
 }
 
-/// One SI unit of a quantity in the unit that a file shall have.
-fn factor(quantity: Quantity, unit: Option<AccelerationUnit>) -> (f64, &'static str) {
+/// The unit that a file shall have, in SI, and its symbol.
+fn unit_of(quantity: Quantity, unit: Option<AccelerationUnit>) -> (f64, &'static str) {
     match (quantity, unit) {
-        (Quantity::Acceleration, Some(unit)) => (1.0 / unit.in_si(), unit.symbol()),
+        (Quantity::Acceleration, Some(unit)) => (unit.in_si(), unit.symbol()),
         (quantity, _) => (1.0, quantity.si_symbol()),
     }
+}
+
+/// A value (SI) in a unit of so much in SI: of fifteen digits if these read back as the same value, as those of a
+/// file in that unit do, so that they are written as they stood there.
+fn in_unit(value: f64, unit: f64) -> f64 {
+    let exact = value / unit;
+    let short: Option<f64> = format!("{exact:.14e}").parse().ok();
+    short.filter(|x| x * unit == value).unwrap_or(exact)
 }

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use crate::unit::AccelerationUnit;
-use crate::writers::{Written, factor, number, time};
+use crate::writers::{Written, in_unit, number, time, unit_of};
 
 /// A column of a plain file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -24,14 +24,14 @@ pub fn write_plain_columns(
     columns: &[Column],
     unit: Option<AccelerationUnit>,
 ) -> (String, &'static str) {
-    let (factor, symbol) = factor(series.quantity, unit);
+    let (one, symbol) = unit_of(series.quantity, unit);
     let mut text = String::with_capacity(28 * series.samples.len());
     for (i, a) in series.samples.iter().enumerate() {
         for (k, column) in columns.iter().enumerate() {
             let blank = if k == 0 { "" } else { " " };
             let value = match column {
                 Column::Time => time(i, series.time_step),
-                Column::Value => a * factor,
+                Column::Value => in_unit(*a, one),
             };
             let _ = write!(text, "{blank}{}", number(value));
         }

@@ -80,6 +80,17 @@ const OF_SOMETHING_ELSE: [&str; 13] = [
     "shear", "vs30", "wave",
 ];
 
+/// Parts of words for a spectrum, in the languages of the agencies.
+const OF_SPECTRA: [&str; 4] = ["spectr", "spektr", "spettr", "pseudo"];
+/// Parts of words by which a record was brought to one.
+const MATCHED: [&str; 2] = ["match", "compatible"];
+
+/// Whether a line in lower case speaks of a spectrum, and not as of one that a record was matched to.
+pub(crate) fn speaks_of_spectrum(lower: &str) -> bool {
+    let has = |words: &[&str]| words.iter().any(|w| lower.contains(w));
+    has(&OF_SPECTRA) && !has(&MATCHED)
+}
+
 /// Words beside accelerations that are none over time.
 const OF_NO_RECORD: [&str; 5] = ["gravity", "pseudo", "spectral", "spectrum", "threshold"];
 

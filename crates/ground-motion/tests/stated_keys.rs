@@ -512,3 +512,119 @@ fn keys_of_at2() {
     let series = read("ACCELERATION TIME SERIES", ", UNITS=GAL").unwrap();
     assert_eq!(series[0].unit, "cm/s2");
 }
+
+/// Rows of times and of so many values, the first of which is as of `read`.
+fn table(header: &str, columns: usize, separator: &str) -> String {
+    let rows: String = (0..40)
+        .map(|i| {
+            let t = 0.01 * f64::from(i);
+            let more: String = (0..columns)
+                .map(|k| format!("{separator}{:.4}", 0.3 * (52.36 * t + 0.5 * k as f64).sin()))
+                .collect();
+            format!("{t:.2}{more}\n")
+        })
+        .collect();
+    format!("{header}\n{rows}")
+}
+
+/// A motion has both signs, a spectrum has one.
+#[test]
+fn titles_of_spectra() {
+    let rows: String = (1..60)
+        .map(|i| {
+            format!(
+                "{:.2} {:.4}\n",
+                0.02 * f64::from(i),
+                (0.2 * f64::from(i)).sin().abs()
+            )
+        })
+        .collect();
+    for title in [
+        "Elastic response spectrum",
+        "# Design spectrum EC8",
+        "Fourier spectrum",
+        "Espectro de respuesta el\u{e1}stico",
+        "Elastic response spectrum, 5% damping",
+    ] {
+        let text = format!("{title}\nT(s) a(g)\n{rows}");
+        let error = read_with(&text, &ReadOptions::default()).unwrap_err();
+        let said = error.to_string();
+        assert!(
+            said.starts_with("file.txt:1:1: ") && said.contains("speaks of a spectrum"),
+            "{said}"
+        );
+        assert!(error.help().unwrap().contains("skip_lines"), "{title}");
+        let options = ReadOptions {
+            skip_lines: 1,
+            ..ReadOptions::default()
+        };
+        assert!(read_with(&text, &options).is_ok(), "{title}");
+    }
+    // Records that speak of one.
+    for title in [
+        "Record matched to the response spectrum of EC8",
+        "Spectrum-compatible record",
+        "Target spectrum: EC8, type 1",
+        "Elastic response spectrum",
+    ] {
+        let text = table(&format!("{title}\nt (s) a (g)"), 1, " ");
+        assert!(read_with(&text, &ReadOptions::default()).is_ok(), "{title}");
+    }
+    for title in [
+        "# Matched to a design spectrum",
+        "# Step: fitted to spectrum.csv",
+    ] {
+        let text = format!("{title}\nT(s) a(g)\n{rows}");
+        assert!(read_with(&text, &ReadOptions::default()).is_ok(), "{title}");
+    }
+}
+
+/// Columns of something else below count and step.
+#[test]
+fn columns_of_something_else() {
+    let rows = |columns: usize| -> String {
+        let row = |i: usize| {
+            let values = (0..columns).map(|k| format!("{:.4} ", (0.7 * (i + 3 * k) as f64).sin()));
+            values.collect::<String>() + "\n"
+        };
+        (0..40).map(row).collect()
+    };
+    for (names, columns) in [
+        ("Displacement Force", 2),
+        ("Load Deflection", 2),
+        ("Displacement (mm) Force (kN)", 2),
+        ("Shear Moment Drift Rotation", 4),
+        ("Step Force Displacement Drift", 4),
+        ("Force", 1),
+        ("Force (kN)", 1),
+    ] {
+        for counts in [
+            format!("NPTS= {}, DT= .01 SEC, UNITS G", 40 * columns),
+            "# npts: 40\n# dt: 0.01\n# units: g".to_owned(),
+        ] {
+            for layout in [None, Some("a".to_owned())] {
+                let options = ReadOptions {
+                    layout,
+                    ..ReadOptions::default()
+                };
+                let text = format!("{counts}\n{names}\n{}", rows(columns));
+                let said = read_with(&text, &options).unwrap_err().to_string();
+                assert!(said.contains("names no acceleration"), "{text}: {said}");
+            }
+        }
+    }
+    let text = format!("# dt: 0.01\n# units: g\nVelocity Displacement\n{}", rows(2));
+    let said = read_with(&text, &ReadOptions::default())
+        .unwrap_err()
+        .to_string();
+    assert!(said.contains("\"Velocity\" is a velocity"), "{said}");
+    // Titles, and names of sensors.
+    for title in [
+        "Kobe (1995) Takatori (0)",
+        "Storey shear of the record",
+        "Distance 12 km",
+    ] {
+        let text = format!("# dt: 0.01\n# units: g\n# {title}\n{}", rows(1));
+        assert!(read_with(&text, &ReadOptions::default()).is_ok(), "{title}");
+    }
+}

@@ -13,7 +13,7 @@ use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::header_keys::{Meaning, is_rate_unit, keyed, meaning, unit_words};
 use crate::number::{self, Bare};
-use crate::quantity::{Quantity, SeriesUnit, named_with_unit};
+use crate::quantity::{Quantity, SeriesUnit, named_with_unit, speaks_of_spectrum};
 use crate::recording::Series;
 use crate::row_widths::RowWidths;
 use crate::source::Source;
@@ -597,10 +597,9 @@ fn may_change_unit(rest: &str) -> bool {
 /// Whether a line in lower case on the unit of the values says that they are a spectrum. Records
 /// may be matched to one.
 fn is_of_spectrum(lower: &str) -> bool {
-    let of_record = [OF_VALUES[0], OF_VALUES[1], "match", "compatible"];
     lower.contains("units")
-        && ["spectr", "pseudo"].iter().any(|w| lower.contains(w))
-        && !of_record.iter().any(|w| lower.contains(w))
+        && speaks_of_spectrum(lower)
+        && !OF_VALUES.iter().any(|w| lower.contains(w))
 }
 
 /// Unit from the header's text: that of the line that names the quantity of the values, such as

@@ -3,7 +3,7 @@
 use super::header::{Cells, Kind, Role, divided, kind, quantity, role};
 use super::names::{
     ACCELERATION, TIME, are_of_spectrum, has_factor, is_abscissa, is_channel, is_component,
-    is_spectral, motion, motion_unit, plain, time_unit, unquoted,
+    is_of_no_motion, is_spectral, motion, motion_unit, plain, time_unit, unquoted,
 };
 use crate::header_keys::{Entry, keyed};
 use crate::quantity::{NamedWithUnit, Quantity, named_with_unit, of_something_else};
@@ -90,6 +90,30 @@ pub(super) fn fault_of(cells: &Cells) -> Option<(String, Fault)> {
         Fault::NoAcceleration(quantity, name)
     };
     said(fault)
+}
+
+/// Names of columns without times, `Displacement Force`, of which each is that of a velocity, a displacement, the
+/// number of a row or no motion at all.
+pub(super) fn of_no_acceleration(cells: &Cells) -> Option<Fault> {
+    let names = &cells.names;
+    // A letter alone may be a direction.
+    let moves = |name: &&String| {
+        let is_word = unquoted(name).chars().count() > 1;
+        is_word && role(name) == Some(Role::Other)
+    };
+    if !names
+        .iter()
+        .all(|name| is_of_no_motion(name) || moves(&name))
+    {
+        return None;
+    }
+    let other = names.iter().find(|name| is_of_no_motion(name));
+    if let Some(name) = other {
+        return Some(Fault::Foreign(unquoted(name).to_owned()));
+    }
+    let moving = |name: &String| Some((quantity(name)?, unquoted(name).to_owned()));
+    let (quantity, name) = names.iter().filter(|_| names.len() > 1).find_map(moving)?;
+    Some(Fault::NoAcceleration(quantity, name))
 }
 
 /// An acceleration whose name has a factor or a sign: with its unit in brackets, or beside times.

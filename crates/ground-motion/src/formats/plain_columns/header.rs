@@ -227,7 +227,7 @@ impl Cells {
     }
 
     /// Whether the rows have as many cells as there are names.
-    fn fits(&self, row: &Line<'_>) -> bool {
+    pub(super) fn fits(&self, row: &Line<'_>) -> bool {
         let separator = separator_of_rows(self.separator, row);
         let filled = row_cells(row, separator).len();
         // Tabs at the end of a line are cut off with its blanks.

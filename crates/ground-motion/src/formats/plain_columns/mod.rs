@@ -34,7 +34,7 @@ use survey::{Arrangement, Head, Survey};
 use thousands::Thousands;
 
 use super::pounding_csv::Keys;
-use crate::quantity::SeriesUnit;
+use crate::quantity::{SeriesUnit, speaks_of_spectrum};
 
 const COMMENTS: [&[u8]; 6] = [b"#", b"%", b"*", b"!", b"//", b"$"];
 /// Names of columns that are not accelerations.
@@ -108,6 +108,31 @@ fn header(source: &Source<'_>) -> Option<Header> {
     names.iter().rev().find_map(|cells| cells.header_of(&first))
 }
 
+/// What to do about a spectrum.
+const NO_SPECTRUM: &str = "give the acceleration over the time, not a spectrum; if the line says nothing of the values, take it out, or pass it over by `skip_lines`";
+
+/// Refuses values of which none is below zero under a title that speaks of a spectrum: a motion has both signs,
+/// the ordinates of a spectrum have one.
+fn is_no_spectrum(source: &Source<'_>, series: &[Series]) -> Result<(), GroundMotionError> {
+    let mut values = series.iter().flat_map(|s| &s.samples);
+    let title = before(source).find(|line| {
+        let lower = line.lower();
+        !stated::is_history(&lower) && speaks_of_spectrum(&lower)
+    });
+    let Some(title) = title.filter(|_| values.all(|a| *a >= 0.0)) else {
+        return Ok(());
+    };
+    Err(source.error(
+        title.number,
+        0,
+        format!(
+            "the line \"{}\" speaks of a spectrum, and no value is below zero, as of a spectrum: they are no record",
+            title.text().trim().chars().take(60).collect::<String>()
+        ),
+        NO_SPECTRUM,
+    ))
+}
+
 /// A line that names columns and could not be used.
 struct Faulty {
     line: usize,
@@ -122,12 +147,21 @@ fn fault(source: &Source<'_>, header: Option<&Header>) -> Option<Faulty> {
     let after = header.map_or(0, |h| h.line);
     let stated = header.is_some_and(|h| h.columns.iter().any(accelerates));
     let is_other = |f: &Faulty| matches!(f.fault, Fault::NoAcceleration(..));
-    header::name_lines(before(source))
+    let row = rows(source).next();
+    let lines = header::name_lines(before(source));
+    let last = lines.last().map_or(0, |cells| cells.line);
+    lines
         .iter()
         .filter(|cells| cells.line != after)
         .filter_map(|cells| {
-            let (text, fault) = faults::fault_of(cells)?;
             let line = cells.line;
+            let of_rows = || {
+                let fits = row.as_ref().is_some_and(|row| cells.fits(row));
+                let alone = cells.names.len() == 1 && line == last;
+                faults::of_no_acceleration(cells).filter(|_| fits && cells.names.len() > 1 || alone)
+            };
+            let of_rows = of_rows().map(|fault| (cells.text.clone(), fault));
+            let (text, fault) = of_rows.or_else(|| faults::fault_of(cells))?;
             let of_names = matches!(
                 fault,
                 Fault::Column(..) | Fault::MotionUnit(..) | Fault::TimeUnit(..)
@@ -167,7 +201,7 @@ impl Faulty {
                 format!(
                     "the header \"{text}\" is that of a spectrum, of which \"{name}\" is one column: it holds no record"
                 ),
-                "give the acceleration over the time, not a spectrum; if the line says nothing of the values, take it out, or pass it over by `skip_lines`",
+                NO_SPECTRUM,
             ),
             Fault::Foreign(name) => (
                 format!("the header \"{text}\" names no acceleration: \"{name}\" is none"),
@@ -259,6 +293,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         (series, _) => series?,
     };
     let mut series = series;
+    is_no_spectrum(source, &series)?;
     let is_one = series.len() == 1;
     for one in &mut series {
         said.keys.report(&mut one.origin);

@@ -81,7 +81,7 @@ pub(super) const COUNTER: [&str; 14] = [
     "record no",
 ];
 /// Words of names of columns that hold no motion.
-pub(super) const FOREIGN: [&str; 34] = [
+pub(super) const FOREIGN: [&str; 36] = [
     "force",
     "forces",
     "load",
@@ -99,6 +99,8 @@ pub(super) const FOREIGN: [&str; 34] = [
     "volts",
     "voltage",
     "current",
+    "curvature",
+    "deflection",
     "gyro",
     "rotation",
     "angle",
@@ -437,6 +439,16 @@ pub(super) fn are_of_spectrum(names: &[String], separator: Option<char>) -> bool
 pub(super) fn before_unit(name: &str) -> &str {
     let name = unquoted(name);
     name.split(['(', '[']).next().unwrap_or(name).trim_end()
+}
+
+/// Whether a name is that of something else than motion by a word of it or by its unit: `force`, `load (kN)`.
+pub(super) fn is_of_no_motion(cell: &str) -> bool {
+    let name = before_unit(cell).to_lowercase();
+    let unit = unquoted(cell)
+        .split_once(['(', '['])
+        .map(|(_, unit)| unit.trim_end_matches([')', ']']));
+    let mut words = name.split(|c: char| !c.is_alphabetic());
+    words.any(|word| FOREIGN.contains(&word)) || unit.is_some_and(is_foreign_unit)
 }
 
 /// Whether a unit is that of something else than motion: counts, volts, forces.

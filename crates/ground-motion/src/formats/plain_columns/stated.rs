@@ -76,9 +76,7 @@ impl Stated {
                 continue;
             }
             let lower = lower(&line);
-            let bare = lower.trim_start_matches(|c: char| !c.is_ascii_alphanumeric());
-            let key = bare.split([':', '=']).next().unwrap_or_default().trim();
-            if HISTORY.contains(&key) {
+            if is_history(&lower) {
                 continue;
             }
             if header != Some(line.number) {
@@ -521,6 +519,13 @@ fn unit_of(lower: &str) -> Unit {
         }
         _ => Unit::None,
     }
+}
+
+/// Whether a line in lower case has a key of our CSV that tells how a record was made from another one.
+pub(super) fn is_history(lower: &str) -> bool {
+    let bare = lower.trim_start_matches(|c: char| !c.is_ascii_alphanumeric());
+    let key = bare.split([':', '=']).next().unwrap_or_default().trim();
+    HISTORY.contains(&key)
 }
 
 /// Whether a line states a number under a key, `# dt: 0.01`, and so names no columns.

@@ -260,8 +260,9 @@ impl SeriesUnit {
         Some(match plain.as_str() {
             "g" | "g's" => Self::G,
             "g/10" => Self::TENTH_G,
-            "%g" => Self::PERCENT_G,
-            "mg" => Self::MILLI_G,
+            "%g" | "percentg" => Self::PERCENT_G,
+            "mg" | "g/1000" | "millig" | "milli-g" => Self::MILLI_G,
+            "micro-g" | "microg" => Self::MICRO_G,
             "m/s2" => Self::M_S2,
             "cm/s2" | "cms/s2" | "gal" | "gals" => Self::CM_S2,
             "mm/s2" => Self::MM_S2,
@@ -279,6 +280,136 @@ impl SeriesUnit {
             _ => return None,
         })
     }
+}
+
+/// A number of units of acceleration, as a header states a unit: `0.001 g`, `x 10^-3 g`, `1/1000 g`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Multiple {
+    /// The unit that they are; `None`: one that is not known, or behind which the number stands, `g x 1000`, so
+    /// that the values may be multiplied or to be multiplied by it.
+    pub unit: Option<SeriesUnit>,
+    /// Whether they may be the strength of a motion: `0.1 g`.
+    pub may_be_level: bool,
+}
+
+impl Multiple {
+    /// Units that a number of others may be.
+    const KNOWN: [SeriesUnit; 9] = [
+        SeriesUnit::G,
+        SeriesUnit::TENTH_G,
+        SeriesUnit::PERCENT_G,
+        SeriesUnit::MILLI_G,
+        SeriesUnit::MICRO_G,
+        SeriesUnit::M_S2,
+        SeriesUnit::CM_S2,
+        SeriesUnit::MM_S2,
+        SeriesUnit::NM_S2,
+    ];
+    /// Largest unit (m/s2) that is too weak for the strength of a motion.
+    const NO_LEVEL: f64 = 0.0101;
+
+    /// The number and the unit of a text that has both.
+    pub(crate) fn parse(text: &str) -> Option<Self> {
+        let plain = in_signs(text);
+        let accelerates = |text: &str| {
+            SeriesUnit::parse(text).filter(|unit| unit.quantity == Quantity::Acceleration)
+        };
+        let times = ['x', '*'];
+        let signed = plain.strip_prefix(times);
+        if let Some((number, is_bare, rest)) = leading_factor(signed.unwrap_or(&plain)) {
+            let unit = accelerates(rest.strip_prefix(times).unwrap_or(rest))?;
+            let level = number * unit.in_si(pounding_catalogue::STANDARD_GRAVITY);
+            return Some(Self {
+                unit: Self::known(number, unit),
+                may_be_level: is_bare && signed.is_none() && level > Self::NO_LEVEL,
+            });
+        }
+        let (unit, number) = plain.rsplit_once(['x', '*', '/'])?;
+        let is_number = leading_factor(number).is_some_and(|(_, _, rest)| rest.is_empty());
+        (is_number && accelerates(unit).is_some()).then_some(Self {
+            // `g/10`.
+            unit: accelerates(&plain),
+            may_be_level: false,
+        })
+    }
+
+    fn known(number: f64, one: SeriesUnit) -> Option<SeriesUnit> {
+        let gravity = pounding_catalogue::STANDARD_GRAVITY;
+        let near = |a: f64, b: f64, part: f64| (a / b - 1.0).abs() < part;
+        let same = |unit: &&SeriesUnit| {
+            unit.of_gravity == one.of_gravity && near(number * one.factor, unit.factor, 1.0e-9)
+        };
+        // `9.81 m/s2` is g.
+        let is_gravity = !one.of_gravity && near(number * one.factor, gravity, 0.002);
+        match is_gravity {
+            true => Some(SeriesUnit::G),
+            false if number == 1.0 => Some(one),
+            false => Self::KNOWN.iter().find(same).copied(),
+        }
+    }
+}
+
+/// A text without blanks and brackets, in lower case, with plain signs for those of multiplication and powers.
+fn in_signs(text: &str) -> String {
+    const DIGITS: [char; 10] = [
+        '\u{2070}', '\u{b9}', '\u{b2}', '\u{b3}', '\u{2074}', '\u{2075}', '\u{2076}', '\u{2077}',
+        '\u{2078}', '\u{2079}',
+    ];
+    let mut plain = String::with_capacity(text.len());
+    let mut raised = false;
+    for c in text.to_lowercase().replace("**", "^").chars() {
+        let digit = DIGITS.iter().position(|d| *d == c);
+        let is_raised = digit.is_some() || c == '\u{207b}';
+        if is_raised && !raised {
+            plain.push('^');
+        }
+        raised = is_raised;
+        match (digit, c) {
+            (Some(digit), _) => plain.extend(char::from_digit(digit as u32, 10)),
+            (_, '\u{207b}' | '\u{2212}') => plain.push('-'),
+            (_, '\u{d7}') => plain.push('x'),
+            (_, '\u{b7}') => plain.push('*'),
+            (_, ' ' | '\t' | '(' | ')' | '{' | '}') => {}
+            (_, c) => plain.push(c),
+        }
+    }
+    plain
+}
+
+/// The number that a text without blanks starts with, `0.001`, `1e-3`, `1/1000`, `10^-3` or `10-3`, whether it is
+/// one of digits alone, and what follows.
+fn leading_factor(text: &str) -> Option<(f64, bool, &str)> {
+    let digits = |text: &str| {
+        let end = text.find(|c: char| !(c.is_ascii_digit() || c == '.'));
+        end.unwrap_or(text.len())
+    };
+    let (number, rest) = text.split_at(digits(text));
+    let number: f64 = number.parse().ok()?;
+    let power = |text: &str| -> Option<(i32, usize)> {
+        let sign = usize::from(text.starts_with(['-', '+']));
+        let end = sign + digits(&text[sign..]);
+        Some((text[..end].parse().ok()?, end))
+    };
+    let ten = number == 10.0;
+    let raised = rest
+        .strip_prefix('^')
+        .or(rest.starts_with('-').then_some(rest));
+    if let Some(behind) = raised.filter(|_| ten)
+        && let Some((power, end)) = power(behind)
+    {
+        return Some((10.0_f64.powi(power), false, &behind[end..]));
+    }
+    if let Some(behind) = rest.strip_prefix('e')
+        && let Some((power, end)) = power(behind)
+    {
+        return Some((number * 10.0_f64.powi(power), false, &behind[end..]));
+    }
+    if let Some(behind) = rest.strip_prefix('/')
+        && let Ok(divisor) = behind[..digits(behind)].parse::<f64>()
+    {
+        return Some((number / divisor, false, &behind[digits(behind)..]));
+    }
+    Some((number, true, rest))
 }
 
 impl From<AccelerationUnit> for SeriesUnit {

@@ -149,6 +149,18 @@ fn what_follows_the_unit() {
         ("G (8F10.5)", 9.80665),
         ("G, 3 POINTS", 9.80665),
         ("G, BASELINE CORRECTED", 9.80665),
+        ("G / 1000", 9.80665e-3),
+        ("MILLI-G", 9.80665e-3),
+        ("0.001 G", 9.80665e-3),
+        ("X 0.001 G", 9.80665e-3),
+        ("1/1000 G", 9.80665e-3),
+        ("10^-3 G, 3 POINTS", 9.80665e-3),
+        ("10**-3 G", 9.80665e-3),
+        ("1E-03 G, BASELINE CORRECTED", 9.80665e-3),
+        ("0.1 G", 0.980665),
+        ("1 G", 9.80665),
+        ("9.81 M/S2", 9.80665),
+        ("0.01 M/S2", 0.01),
         ("CM/S/S (GAL)", 0.01),
         ("CM / SEC / SEC", 0.01),
         ("CM/SEC**2", 0.01),
@@ -158,7 +170,6 @@ fn what_follows_the_unit() {
         assert!((peak / (0.2 * unit) - 1.0).abs() < 1e-12, "{words}: {peak}");
     }
     for words in [
-        "G / 1000",
         "G * 1E-3",
         "G x 1000",
         "G X10",
@@ -338,4 +349,38 @@ fn units_beside_the_quantity() {
             "{line}"
         );
     }
+}
+
+/// Factors of units that are not known, wherever they stand, whatever unit is given.
+#[test]
+fn units_with_factors() {
+    let counts = "NPTS= 3, DT= .01 SEC";
+    let series = "ACCELERATION TIME SERIES IN UNITS OF";
+    for (lines, place) in [
+        (format!("{series} 1000 G\n{counts}"), "f:3:1: "),
+        (format!("{series} G*0.001\n{counts}"), "f:3:1: "),
+        (format!("{series} G\n{counts}\nUNITS: G*1000"), "f:5:1: "),
+        (format!("{series} G\n{counts}\nUNITS: 0.001 G"), "f:5:1: "),
+        (format!("{series} G\n{counts}, UNITS= 1/1000 G"), "f:4:1: "),
+    ] {
+        for unit in [None, Some(AccelerationUnit::StandardGravity)] {
+            let options = ReadOptions {
+                unit,
+                ..ReadOptions::default()
+            };
+            let error = read_bytes("f", with_header(&lines).as_bytes(), &options).unwrap_err();
+            let text = error.to_string();
+            assert!(text.starts_with(place), "{lines}: {text}");
+        }
+    }
+    // The strength of a motion is no unit.
+    let level = format!("ACCELERATION TIME SERIES (0.1 G)\n{counts}");
+    let error = read(&with_header(&level), None).unwrap_err();
+    assert!(
+        matches!(error, GroundMotionError::MissingUnit { .. }),
+        "{error}"
+    );
+    let milli = format!("ACCELERATION TIME SERIES (0.001 G)\n{counts}");
+    let record = read(&with_header(&milli), None).unwrap();
+    assert!((record.peak().value - 0.2e-3 * 9.80665).abs() < 1e-12);
 }

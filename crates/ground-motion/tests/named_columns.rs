@@ -240,7 +240,7 @@ fn units_in_a_line_of_their_own() {
     for (line, word) in [
         ("Units: counts", "\"counts\""),
         ("Units: V", "\"v\""),
-        ("Units: 0.001 g", "\"0.001 g\""),
+        ("Units: 1000 g", "\"1000 g\""),
         ("El Centro velocity", "is a velocity"),
         ("Ground velocity", "is a velocity"),
         ("Corrected velocity", "is a velocity"),

@@ -579,6 +579,81 @@ fn titles_of_spectra() {
     }
 }
 
+/// A number of units is read where it is a known one.
+#[test]
+fn multiples_of_units() {
+    let in_names = [
+        ("0.001 g", "mg"),
+        ("x 0.001 g", "mg"),
+        ("\u{d7} 0.001 g", "mg"),
+        ("0.001*g", "mg"),
+        ("1/1000 g", "mg"),
+        ("10^-3 g", "mg"),
+        ("10\u{207b}\u{b3} g", "mg"),
+        ("10-3 g", "mg"),
+        ("10**-3 g", "mg"),
+        ("1e-3 g", "mg"),
+        ("x 10^-2 g", "%g"),
+        ("1/10 g", "g/10"),
+        ("0.01 m/s2", "cm/s2"),
+        ("0.001 m/s\u{b2}", "mm/s2"),
+        ("milli-g", "mg"),
+        ("percent g", "%g"),
+        ("micro-g", "micro-g"),
+    ];
+    for (words, unit) in in_names {
+        is_read(&format!("# dt = 0.01 s\n# Units: {words}"), 0.01, unit);
+        is_read(&format!("dt = 0.01 s\nAcceleration in {words}"), 0.01, unit);
+        let names = format!("Time (s);Acc ({words})");
+        let series = read_with(&table(&names, 1, ";"), &ReadOptions::default());
+        let series = series.unwrap_or_else(|e| panic!("{names}: {e}"));
+        assert_eq!(series[0].unit, unit, "{names}");
+        let peak = series[0]
+            .samples
+            .iter()
+            .fold(0.0_f64, |m, a| m.max(a.abs()));
+        assert!(
+            (peak / series[0].unit_in_si - 0.3).abs() < 1e-3,
+            "{names}: {peak}"
+        );
+    }
+    // Under a key it is no strength of a motion.
+    for (words, unit) in [
+        ("0.1 g", "g/10"),
+        ("0.01g", "%g"),
+        ("1.0 g", "g"),
+        ("9.81 m/s2", "g"),
+    ] {
+        is_read(&format!("# dt = 0.01 s\n# Units: {words}"), 0.01, unit);
+        let names = format!("Time (s);Acc ({words})");
+        let said = read_with(&table(&names, 1, ";"), &ReadOptions::default()).unwrap_err();
+        assert!(said.to_string().contains("is not known"), "{names}: {said}");
+        refused(
+            &format!("dt = 0.01 s\nAcceleration in {words}"),
+            "does not state the unit",
+        );
+    }
+    for words in [
+        "1000 g",
+        "g x 0.001",
+        "g*0.001",
+        "g * 10^-3",
+        "cm/s2 x 10",
+        "10 cm/s2",
+        "g/981",
+    ] {
+        let key = format!("# dt = 0.01 s\n# Units: {words}");
+        refused(&key, "that is stated here is none of acceleration");
+        // `10 cm/s2` may be the strength of the motion.
+        let bare = words.starts_with(|c: char| c.is_ascii_digit());
+        let told = match bare {
+            true => "does not state the unit",
+            false => "is not known",
+        };
+        refused(&format!("dt = 0.01 s\nAcceleration ({words})"), told);
+    }
+}
+
 /// Columns of something else below count and step.
 #[test]
 fn columns_of_something_else() {

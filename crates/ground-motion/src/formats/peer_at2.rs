@@ -13,7 +13,7 @@ use crate::formats::Format;
 use crate::fortran::Layout;
 use crate::header_keys::{Meaning, is_rate_unit, keyed, meaning, unit_words};
 use crate::number::{self, Bare};
-use crate::quantity::{Quantity, SeriesUnit, named_with_unit, speaks_of_spectrum};
+use crate::quantity::{Multiple, Quantity, SeriesUnit, named_with_unit, speaks_of_spectrum};
 use crate::recording::Series;
 use crate::row_widths::RowWidths;
 use crate::source::Source;
@@ -35,6 +35,14 @@ struct Header {
     count: usize,
     steps: Vec<StatedStep>,
     text: Vec<String>,
+}
+
+impl Header {
+    /// Whether this program wrote the file, which says so in its first line.
+    fn is_own(&self) -> bool {
+        let own = [RAW, OTHER].map(Some);
+        own.contains(&self.text.first().map(String::as_str))
+    }
 }
 
 fn is_counts(line: &Line<'_>) -> bool {
@@ -359,14 +367,12 @@ const NO_DIRECTION: [&str; 13] = [
 /// The component that ends the second line, `EVENT, STATION, 180`: what stands in brackets behind
 /// it is not of its name. Of files that this program wrote it is all that stands there.
 fn component(header: &Header) -> String {
-    let own = [RAW, OTHER].map(Some);
-    let is_own = own.contains(&header.text.first().map(String::as_str));
     // The line of the count has commas of its own.
     let second = header.text.get(1).filter(|_| header.line != 2);
     let Some((_, field)) = second.and_then(|line| line.rsplit_once(',')) else {
         return String::new();
     };
-    if is_own {
+    if header.is_own() {
         return field.trim().to_owned();
     }
     let name = field.split('(').next().unwrap_or(field).trim();
@@ -475,10 +481,10 @@ const OF_VALUES: [&str; 2] = ["time series", "time history"];
 /// A unit and what stands behind it on its line.
 type UnitAndRest<'t> = (SeriesUnit, &'t str);
 
-/// The unit that a text in lower case states: `in units of g`, `the units are (g)`,
+/// What stands where a text in lower case states a unit: `in units of g`, `the units are (g)`,
 /// `units of cm / sec / sec`, `unit: g`, `units g`.
-fn unit_in(lower: &str) -> Option<UnitAndRest<'_>> {
-    lower.split("unit").skip(1).find_map(|after| {
+fn behind_units(lower: &str) -> impl Iterator<Item = &str> {
+    lower.split("unit").skip(1).filter_map(|after| {
         let after = after.strip_prefix('s').unwrap_or(after);
         let bare = after.trim_start();
         let word = bare
@@ -487,17 +493,34 @@ fn unit_in(lower: &str) -> Option<UnitAndRest<'_>> {
             .or_else(|| bare.strip_prefix([':', '=']))
             .or_else(|| after.starts_with([' ', '\t']).then_some(bare))?;
         let word = word.trim_start_matches([' ', '(', ':', '=', '\n']);
-        let word = word.split('\n').next().unwrap_or(word);
-        // Blanks may stand within it.
-        let ends = [
-            &[',', ')', ';', '\t', '|'][..],
-            &[' ', ',', ')', ';', '\t', '|'],
-        ];
-        ends.into_iter().find_map(|ends| {
-            let unit = &word[..word.find(ends).unwrap_or(word.len())];
-            let unit = unit.trim_end_matches('.');
-            Some((SeriesUnit::parse(unit)?, &word[unit.len()..]))
-        })
+        word.split('\n').next()
+    })
+}
+
+/// What may end a unit, in which blanks may stand.
+const UNIT_ENDS: [char; 5] = [',', ')', ';', '\t', '|'];
+
+/// The unit that a text in lower case states.
+fn unit_in(lower: &str) -> Option<UnitAndRest<'_>> {
+    behind_units(lower).find_map(|word| {
+        let whole = &word[..word.find(UNIT_ENDS).unwrap_or(word.len())];
+        let first = whole.split(' ').next().unwrap_or(whole);
+        let parts = [whole, first].map(|unit| unit.trim_end_matches('.'));
+        let found = |of: fn(&str) -> Option<SeriesUnit>| {
+            let mut parts = parts.into_iter();
+            parts.find_map(|unit| Some((of(unit)?, &word[unit.len()..])))
+        };
+        found(SeriesUnit::parse).or_else(|| found(|unit| Multiple::parse(unit)?.unit))
+    })
+}
+
+/// A unit with a factor that a line in lower case states, and of which it is not known what the values are
+/// multiplied by: `in units of g*1000`, `units of 1000 g`.
+fn factor_of_unit(lower: &str) -> Option<&str> {
+    behind_units(lower).find_map(|word| {
+        let unit = &word[..word.find(UNIT_ENDS).unwrap_or(word.len())];
+        let multiple = Multiple::parse(unit)?;
+        multiple.unit.is_none().then_some(unit)
     })
 }
 
@@ -602,6 +625,9 @@ fn is_of_spectrum(lower: &str) -> bool {
         && !OF_VALUES.iter().any(|w| lower.contains(w))
 }
 
+/// What to do about a factor beside a unit.
+const FACTOR_REMEDY: &str = "write the unit of the values alone, `ACCELERATION TIME SERIES IN UNITS OF G`, and scale the record by `scale` if it has a factor";
+
 /// Unit from the header's text: that of the line that names the quantity of the values, such as
 /// `ACCELERATION TIME SERIES IN UNITS OF G`, before those of others.
 fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionError> {
@@ -643,12 +669,15 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
                 .strip_prefix('(')
                 .or_else(|| rest.strip_prefix("in "))?;
             let word = rest.trim_start();
-            let end = word.find([' ', ',', ')', ';', '\t']);
-            let (unit, rest) = word.split_at(end.unwrap_or(word.len()));
-            Some((
-                i + 1,
-                (SeriesUnit::parse(unit.trim_end_matches('.'))?, rest),
-            ))
+            let whole = &word[..word.find(UNIT_ENDS).unwrap_or(word.len())];
+            let first = whole.split(' ').next().unwrap_or(whole);
+            let multiple = || {
+                let multiple = Multiple::parse(whole).filter(|m| !m.may_be_level)?;
+                Some((multiple.unit?, &word[whole.len()..]))
+            };
+            let unit = SeriesUnit::parse(first.trim_end_matches('.'))
+                .map(|unit| (unit, &word[first.len()..]));
+            Some((i + 1, unit.or_else(multiple)?))
         });
         units.extend(behind);
     }
@@ -674,7 +703,7 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
                 number::shown(rest.trim().to_ascii_uppercase().as_bytes()),
                 unit.symbol
             ),
-            "what follows the unit may change it: write the unit of the values alone, `ACCELERATION TIME SERIES IN UNITS OF G`, and scale the record by `scale` if it has a factor",
+            &format!("what follows the unit may change it: {FACTOR_REMEDY}"),
         ));
     }
     if let [(first, (unit, _)), rest @ ..] = units.as_slice()
@@ -690,13 +719,29 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
             "header lines contradict one another: a line such as `ACCELERATION TIME SERIES IN UNITS OF G` must say the unit of the values",
         ));
     }
+    let scaled = lower.iter().enumerate().find_map(|(i, line)| {
+        let is_title = i == 1 && header.is_own();
+        Some((i + 1, factor_of_unit(line).filter(|_| !is_title)?))
+    });
+    if let Some((line, unit)) = scaled {
+        return Err(source.error(
+            line,
+            0,
+            format!(
+                "the unit \"{}\" that is stated here is not known",
+                number::shown(unit.to_ascii_uppercase().as_bytes())
+            ),
+            FACTOR_REMEDY,
+        ));
+    }
     if let Some((first, (unit, _))) = units.first() {
         // `Units: cm/s2` below `IN UNITS OF G`.
         let keys = lower.iter().enumerate().filter_map(|(i, line)| {
             let entry = keyed(line)
                 .into_iter()
                 .find(|entry| unit_words(entry.key))?;
-            Some((i + 1, SeriesUnit::parse(entry.value)?))
+            let multiple = || Multiple::parse(entry.value)?.unit;
+            Some((i + 1, SeriesUnit::parse(entry.value).or_else(multiple)?))
         });
         if let Some((line, other)) = keys.into_iter().find(|(_, other)| other != unit) {
             return Err(source.error(

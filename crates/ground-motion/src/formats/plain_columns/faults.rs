@@ -6,7 +6,7 @@ use super::names::{
     is_of_no_motion, is_spectral, motion, motion_unit, plain, time_unit, unquoted,
 };
 use crate::header_keys::{Entry, keyed};
-use crate::quantity::{NamedWithUnit, Quantity, named_with_unit, of_something_else};
+use crate::quantity::{Multiple, NamedWithUnit, Quantity, named_with_unit, of_something_else};
 
 /// Why a line that names columns is not the header of an acceleration.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +70,12 @@ pub(super) fn fault_of(cells: &Cells) -> Option<(String, Fault)> {
         && !roles
             .iter()
             .any(|r| matches!(r, Some(Role::Acceleration(..))));
+    // `Acceleration (g x 1000)`: the unit is stated, and why it is not used is what to say.
+    if let ([_], Some(Fault::MotionUnit(_, unit))) = (names.as_slice(), &unknown_unit)
+        && Multiple::parse(unit).is_some_and(|m| !m.may_be_level)
+    {
+        return unknown_unit.and_then(said);
+    }
     if names.len() < 2 || !(with_unit || all_named || unknown_unit.is_some()) {
         return None;
     }

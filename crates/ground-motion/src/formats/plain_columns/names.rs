@@ -1,6 +1,6 @@
 //! What the names and units of columns mean, in the words of those who write them.
 
-use crate::quantity::{Quantity, SeriesUnit};
+use crate::quantity::{Multiple, Quantity, SeriesUnit};
 
 pub(super) const TIME: [&str; 11] = [
     "t",
@@ -249,7 +249,6 @@ pub(in crate::formats) fn motion_unit(text: &str) -> Option<SeriesUnit> {
     });
     let plain = symbols(&plain);
     match plain.as_str() {
-        "g/1000" | "milli g" | "milli-g" | "millig" => return Some(SeriesUnit::MILLI_G),
         "gs" | "gravity" => return Some(SeriesUnit::G),
         _ => {}
     }
@@ -261,7 +260,12 @@ pub(in crate::formats) fn motion_unit(text: &str) -> Option<SeriesUnit> {
     }
     // SeriesUnit takes stops out, which are none of a unit of a header.
     let known = |text: &str| SeriesUnit::parse(text).filter(|_| !text.contains('.'));
-    known(&spaced.unwrap_or_else(|| plain.clone())).or_else(|| known(&plain.replacen('_', "/", 1)))
+    known(&spaced.unwrap_or_else(|| plain.clone()))
+        .or_else(|| known(&plain.replacen('_', "/", 1)))
+        .or_else(|| {
+            let multiple = Multiple::parse(without_in(text));
+            multiple.filter(|m| !m.may_be_level)?.unit
+        })
 }
 
 /// A unit in lower case with symbols for its words, `cm/s2` of `centimeters per second squared`, and for the

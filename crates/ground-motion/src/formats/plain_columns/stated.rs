@@ -7,7 +7,7 @@ use crate::draft::{Draft, DraftPeak, NamedQuantity, Printed, StatedDuration, not
 use crate::error::{GroundMotionError, bound};
 use crate::header_keys::{self, Entry, Meaning, is_of_rate, keyed, meaning, unit_words};
 use crate::number;
-use crate::quantity::{Quantity, SeriesUnit, named_with_unit, of_something_else};
+use crate::quantity::{Multiple, Quantity, SeriesUnit, named_with_unit, of_something_else};
 use crate::source::Source;
 use crate::stated_step::STEP_TOLERANCE;
 use crate::text::Line;
@@ -628,17 +628,20 @@ fn spelled_twice(value: &str) -> Option<SeriesUnit> {
 /// The unit behind a key; units of the times may stand beside it.
 fn value_of(value: &str) -> Unit {
     let value = value.trim().trim_end_matches(['.', ';', ',']);
-    if let Some(unit) = names::motion_unit(value) {
-        return Unit::Known(unit);
-    }
     let quoted = value.trim_matches(['"', '\'', '<', '>']).trim();
     // The bracket of the whole line.
-    let quoted = match quoted.contains('(') {
-        true => quoted,
-        false => quoted.trim_end_matches(')'),
-    };
-    if let Some(unit) = spelled_twice(quoted) {
+    let value = [('(', ')'), ('[', ']'), ('{', '}')]
+        .iter()
+        .filter(|(opening, _)| !quoted.contains(*opening))
+        .fold(quoted, |value, (_, closing)| {
+            value.trim_end_matches(*closing)
+        });
+    if let Some(unit) = names::motion_unit(value).or_else(|| spelled_twice(value)) {
         return Unit::Known(unit);
+    }
+    if let Some(multiple) = Multiple::parse(value) {
+        let unknown = || Unit::Unknown(value.to_owned());
+        return multiple.unit.map_or_else(unknown, Unit::Known);
     }
     let joined = value.replace(' ', "");
     let word = value.split_whitespace().count() <= 1;

@@ -159,6 +159,13 @@ pub(crate) fn not_applied(line: usize, factor: f64) -> String {
     )
 }
 
+/// What to say of samples that a header says to have been left out.
+pub(crate) fn decimated(line: usize, of: f64) -> String {
+    format!(
+        "line {line}: a decimation by {of} is stated: the time step of the header is taken for that of the samples as they stand"
+    )
+}
+
 /// The values of a row, of rows that have more than one: one value a row has nothing to fill.
 pub(crate) fn several(values: usize) -> Option<usize> {
     Some(values).filter(|n| *n > 1)

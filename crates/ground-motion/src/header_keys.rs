@@ -6,8 +6,9 @@ use crate::text::in_brackets;
 mod words;
 
 use words::{
-    COUNTS, DURATIONS, FACTORS, FREQUENCIES, HERTZ, LAST_UNITS, OF_ALL, OF_ANOTHER, OF_VALUES,
-    PEAKS, QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS,
+    BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS, COUNTS, DURATIONS,
+    FACTORS, FREQUENCIES, HERTZ, LAST_UNITS, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES,
+    RATES, STEPS, STEPS_BY_UNIT, UNITS,
 };
 
 /// What stands under a key.
@@ -127,9 +128,7 @@ pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
     let plain = entry.words();
     let plain = plain.as_str();
     // `Original dt` is that of another record.
-    let whole = without_marks(entry.key);
-    let mut words = whole.split(|c: char| !c.is_alphanumeric());
-    if words.any(|word| OF_ANOTHER.contains(&word)) {
+    if is_of_another(entry.key) {
         return None;
     }
     let is = |keys: &[&str]| keys.contains(&plain);
@@ -159,6 +158,57 @@ pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
     } else {
         return None;
     })
+}
+
+/// Whether words of a key speak of the record before it was processed, or of something else.
+pub(crate) fn is_of_another(key: &str) -> bool {
+    let plain = without_marks(key);
+    let mut words = plain.split(|c: char| !c.is_alphanumeric());
+    words.any(|word| OF_ANOTHER.contains(&word))
+}
+
+/// The factors of the values, other than one, that a line in lower case states: under keys, in a part of the
+/// line, `npts= 300, scale factor 0.5`, or in words, `values multiplied by 1000`.
+pub(crate) fn factors(lower: &str) -> Vec<f64> {
+    let stated = |entries: Vec<Entry<'_>>| -> Vec<f64> {
+        let of_factor = |entry: &&Entry<'_>| meaning(entry) == Some(Meaning::Factor);
+        let found = entries.iter().filter(of_factor);
+        found.filter_map(|e| Some(e.number()?.0)).collect()
+    };
+    let mut found = stated(keyed(lower));
+    if found.is_empty() {
+        let parts = lower.split(SEPARATORS);
+        let parts = parts.filter(|part| !part.contains([':', '=']));
+        found = parts.flat_map(|part| stated(keyed(part))).collect();
+    }
+    if found.is_empty() {
+        let inverse = number_behind(lower, &BEFORE_DIVISORS).map(|divisor| 1.0 / divisor);
+        found.extend(number_behind(lower, &BEFORE_FACTORS).or(inverse));
+    }
+    found.retain(|factor| *factor != 1.0 && factor.is_finite());
+    found
+}
+
+/// Of how many samples a line in lower case says that one was kept: `decimation factor: 2`, `decimated by 2`.
+pub(crate) fn decimation(lower: &str) -> Option<f64> {
+    number_behind(lower, &BEFORE_DECIMATIONS).filter(|of| *of > 1.0)
+}
+
+/// The number right behind the first words that are followed by one.
+fn number_behind(lower: &str, words: &[&str]) -> Option<f64> {
+    let number = |word: &&str| {
+        let (_, mut rest) = lower.split_once(*word)?;
+        while let Some(behind) = BEFORE_NUMBERS.iter().find_map(|w| rest.strip_prefix(w)) {
+            rest = behind;
+        }
+        let unsigned = rest.trim_start_matches(['.', '-', '+']);
+        let starts = unsigned.starts_with(|c: char| c.is_ascii_digit());
+        let (number, _) = number::first_in(rest).filter(|_| starts)?;
+        let percent = rest.trim_start_matches(|c: char| !matches!(c, ' ' | '%'));
+        let percent = percent.trim_start().starts_with('%');
+        Some(if percent { 0.01 * number } else { number })
+    };
+    words.iter().find_map(number)
 }
 
 /// Whether a key is that of the unit of the values: `units`, `acceleration unit`, `y-unit`,

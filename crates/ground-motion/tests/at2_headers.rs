@@ -384,3 +384,83 @@ fn units_with_factors() {
     let record = read(&with_header(&milli), None).unwrap();
     assert!((record.peak().value - 0.2e-3 * 9.80665).abs() < 1e-12);
 }
+
+/// Factors and decimations are told wherever they stand, but in titles that this program wrote.
+#[test]
+fn factors_and_decimations_in_words() {
+    let unit = "ACCELERATION TIME SERIES IN UNITS OF G";
+    let counts = "NPTS= 3, DT= .01 SEC";
+    let warnings = |text: &str, options: &ReadOptions| {
+        let record = read_bytes("f", text.as_bytes(), options);
+        let record = record.unwrap_or_else(|e| panic!("{text}: {e}"));
+        let mut warnings = record.origin().unwrap().warnings.clone();
+        warnings.retain(|w| w.starts_with("line "));
+        warnings
+    };
+    let given = ReadOptions {
+        time_step: Some(0.01),
+        ..ReadOptions::default()
+    };
+    for (words, factor) in [
+        ("VALUES MULTIPLIED BY 1000", "1000"),
+        ("ACCELERATIONS ARE MULTIPLIED BY 1000.", "1000"),
+        ("SCALE FACTOR 0.5", "0.5"),
+        ("SCALE FACTOR= 0.5", "0.5"),
+        ("SCALED BY A FACTOR OF 2.0", "2"),
+        ("SCALED BY 50 %", "0.5"),
+        ("VALUES DIVIDED BY 1000", "0.001"),
+        ("VALUES X 1000", "1000"),
+    ] {
+        let told = format!("a factor of {factor} is stated");
+        for (lines, line) in [
+            (format!("{words}\n{unit}\n{counts}"), 3),
+            (format!("{unit}\n{counts}, {words}"), 4),
+        ] {
+            let found = warnings(&with_header(&lines), &ReadOptions::default());
+            let told = format!("line {line}: {told}");
+            assert!(
+                found.iter().any(|w| w.starts_with(&told)),
+                "{lines}: {found:?}"
+            );
+        }
+        let title = at2(&format!("QUAKE, STATION {words}, 180"));
+        let found = warnings(&title, &ReadOptions::default());
+        assert!(
+            found.iter().any(|w| w.contains(&told)),
+            "{title}: {found:?}"
+        );
+        let own = title.replace(
+            "PEER STRONG MOTION DATABASE RECORD",
+            "MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2",
+        );
+        let found = warnings(&own, &ReadOptions::default());
+        assert!(found.is_empty(), "{own}: {found:?}");
+    }
+    for words in [
+        "MULTIPLIED BY 1",
+        "SCALED TO 0.3 G PGA",
+        "DECIMATION FACTOR= 1",
+        "DECIMATED TO 100 HZ",
+        "ORIGINAL DT= .005 SEC",
+        "ORIGINAL NPTS= 6",
+    ] {
+        let lines = format!("{words}\n{unit}\n{counts}");
+        let found = warnings(&with_header(&lines), &ReadOptions::default());
+        assert!(found.is_empty(), "{words}: {found:?}");
+    }
+    for words in [
+        "DECIMATED BY 2",
+        "RECORD DECIMATED BY A FACTOR OF 2",
+        "DECIMATION FACTOR= 2",
+    ] {
+        for lines in [
+            format!("{words}\n{unit}\n{counts}"),
+            format!("{unit}\n{counts}, {words}"),
+        ] {
+            let found = warnings(&with_header(&lines), &ReadOptions::default());
+            let told = |w: &String| w.contains("a decimation by 2 is stated");
+            assert!(found.iter().any(told), "{lines}: {found:?}");
+            assert!(warnings(&with_header(&lines), &given).is_empty(), "{lines}");
+        }
+    }
+}

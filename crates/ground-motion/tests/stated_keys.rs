@@ -527,6 +527,39 @@ fn table(header: &str, columns: usize, separator: &str) -> String {
     format!("{header}\n{rows}")
 }
 
+/// Samples that were left out: the step is that of the header alone, or borne out by times or the user.
+#[test]
+fn decimations() {
+    let told = "a decimation by 2 is stated";
+    for line in [
+        "Decimation factor: 2",
+        "Decimated by 2",
+        "decimation = 2",
+        "Decimated by a factor of 2 from 200 Hz",
+    ] {
+        let header = format!("# {line}\n# dt = 0.01 s\n# Units: g");
+        let warnings = is_read(&header, 0.01, "g");
+        assert!(
+            warnings.iter().any(|w| w.contains(told)),
+            "{line}: {warnings:?}"
+        );
+        let text = table(&format!("# {line}\nt (s),a (g)"), 1, ",");
+        let series = read_with(&text, &ReadOptions::default()).unwrap();
+        assert!(series[0].origin.warnings.is_empty(), "{line}");
+    }
+    for line in [
+        "Decimation factor: 1",
+        "Decimation: none",
+        "Decimated to 100 Hz",
+    ] {
+        let header = format!("# {line}\n# dt = 0.01 s\n# Units: g");
+        assert!(is_read(&header, 0.01, "g").is_empty(), "{line}");
+    }
+    // On its line the step may be that before it.
+    let header = "# dt = 0.005 s, decimated by 2\n# Units: g";
+    refused(header, "does not state its time step");
+}
+
 /// A motion has both signs, a spectrum has one.
 #[test]
 fn titles_of_spectra() {
@@ -577,6 +610,25 @@ fn titles_of_spectra() {
         let text = format!("{title}\nT(s) a(g)\n{rows}");
         assert!(read_with(&text, &ReadOptions::default()).is_ok(), "{title}");
     }
+}
+
+/// Counts of all numbers of rows with times, velocities and displacements.
+#[test]
+fn counts_of_all_numbers() {
+    for header in [
+        "NPTS: 160\nt (s),a (g),v (cm/s),d (cm)",
+        "NPTS= 160, DT= .01\nt (s),a (g),v (cm/s),d (cm)",
+        "# NPTS: 160\n# units: g\nt,a,v,d",
+    ] {
+        let series = read_with(&table(header, 3, ","), &ReadOptions::default()).unwrap();
+        assert_eq!((series.len(), series[0].samples.len()), (1, 40), "{header}");
+        let warnings = &series[0].origin.warnings;
+        let told = "line 1: the header says 160 samples, which are all numbers of the rows";
+        assert!(warnings.iter().any(|w| w.starts_with(told)), "{warnings:?}");
+    }
+    let header = "NPTS: 120\nt (s),a (g),v (cm/s),d (cm)";
+    let said = read_with(&table(header, 3, ","), &ReadOptions::default());
+    assert!(said.unwrap_err().to_string().contains("120 samples"));
 }
 
 /// A number of units is read where it is a known one.
@@ -651,6 +703,56 @@ fn multiples_of_units() {
             false => "is not known",
         };
         refused(&format!("dt = 0.01 s\nAcceleration ({words})"), told);
+    }
+}
+
+#[test]
+fn keys_without_blanks() {
+    for (header, step, unit) in [
+        ("N,40\ndt,0.01\nunits,g", 0.01, "g"),
+        ("N 40\ndt 0.01\nunits g", 0.01, "g"),
+        ("NPTS,40\nDT,0.01\nUNITS,G", 0.01, "g"),
+        ("dt=0.01\n(UNITS: G)", 0.01, "g"),
+        ("dt=0.01\n[UNITS=cm/s2]", 0.01, "cm/s2"),
+        ("[dt=0.01]\n[units=g]", 0.01, "g"),
+        ("{dt=0.01;units=g}", 0.01, "g"),
+        ("DELTA=0.01\nNPTS=40\nunits=g", 0.01, "g"),
+        ("DELTA=5.0e-03, NPTS=40, units=g", 0.005, "g"),
+        ("DELTA=0.05\nNPTS=40\ndt=0.01\nunits=g", 0.01, "g"),
+    ] {
+        assert!(is_read(header, step, unit).is_empty(), "{header}");
+    }
+    let of_another = "N=41\ndt=0.01\nunits=g";
+    let warnings = is_read(of_another, 0.01, "g");
+    assert!(
+        warnings[0].starts_with("line 1: N is 41 here"),
+        "{warnings:?}"
+    );
+    // Storeys.
+    assert!(is_read("n=5\ndt=0.01\nunits=g", 0.01, "g").is_empty());
+    for header in ["DELTA=0.01\nunits=g", "delta: 0.35\nNPTS=40\nunits=g"] {
+        refused(header, "under \"delta\" has no unit, and may be a distance");
+    }
+}
+
+/// Factors above columns with times are told, as those above one series are.
+#[test]
+fn factors_above_columns() {
+    for line in [
+        "Values multiplied by 1000",
+        "Scale factor: 0.5",
+        "# record scaled by 0.5",
+        "# El Centro, scale factor 0.5",
+    ] {
+        let text = table(&format!("{line}\nt (s),a (g)"), 1, ",");
+        let series = read_with(&text, &ReadOptions::default()).unwrap();
+        let warnings = &series[0].origin.warnings;
+        assert!(
+            warnings
+                .iter()
+                .any(|w| w.starts_with("line 1: a factor of")),
+            "{line}: {warnings:?}"
+        );
     }
 }
 

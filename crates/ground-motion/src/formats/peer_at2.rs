@@ -6,12 +6,14 @@ use crate::accelerogram::Processing;
 use crate::cut_numbers::Forms;
 use crate::direction::Direction;
 use crate::draft::{
-    Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, not_applied, several,
+    Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, decimated, not_applied, several,
 };
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
-use crate::header_keys::{Meaning, is_rate_unit, keyed, meaning, unit_words};
+use crate::header_keys::{
+    Meaning, decimation, factors, is_of_another, is_rate_unit, keyed, meaning, unit_words,
+};
 use crate::number::{self, Bare};
 use crate::quantity::{Multiple, Quantity, SeriesUnit, named_with_unit, speaks_of_spectrum};
 use crate::recording::Series;
@@ -180,7 +182,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         Some(first) if first == RAW => Processing::Raw,
         _ => Processing::Corrected,
     };
-    keys(&mut draft, &header);
+    keys(&mut draft, source, &header);
     draft.component = component(&header);
     draft.quantities = quantities(&header.text);
     let all = header.text.join(" ");
@@ -214,26 +216,30 @@ fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
     header.text.iter().enumerate().flat_map(of_line)
 }
 
-/// States durations and factors of the header to a draft.
-fn keys(draft: &mut Draft, header: &Header) {
+/// States durations, factors and decimations of the header to a draft.
+fn keys(draft: &mut Draft, source: &Source<'_>, header: &Header) {
     for (i, line) in header.text.iter().enumerate() {
-        for entry in keyed(&line.to_ascii_lowercase()) {
+        let lower = line.to_ascii_lowercase();
+        for entry in keyed(&lower) {
             let Some((value, _, unit)) = entry.number() else {
                 continue;
             };
-            match meaning(&entry) {
-                Some(Meaning::Duration) if value > 0.0 && ["", "s", "sec"].contains(&unit) => {
-                    draft.other_durations.push(StatedDuration {
-                        seconds: value,
-                        line: Some(i + 1),
-                    });
-                }
-                Some(Meaning::Factor) if value != 1.0 => {
-                    draft.warnings.push(not_applied(i + 1, value))
-                }
-                _ => {}
+            let lasts = meaning(&entry) == Some(Meaning::Duration);
+            if lasts && value > 0.0 && ["", "s", "sec"].contains(&unit) {
+                draft.other_durations.push(StatedDuration {
+                    seconds: value,
+                    line: Some(i + 1),
+                });
             }
         }
+        // The title of a file that this program wrote is a name.
+        if i == 1 && header.is_own() {
+            continue;
+        }
+        let told = factors(&lower).into_iter().map(|x| not_applied(i + 1, x));
+        draft.warnings.extend(told);
+        let of = decimation(&lower).filter(|_| source.options.time_step.is_none());
+        draft.warnings.extend(of.map(|of| decimated(i + 1, of)));
     }
 }
 
@@ -405,13 +411,17 @@ fn quantities(text: &[String]) -> Vec<NamedQuantity> {
     text.iter().enumerate().filter_map(named).collect()
 }
 
-/// What stands behind each `KEY =` or `KEY:` of a line in lower case.
+/// What stands behind each `KEY =` or `KEY:` of a line in lower case, but for those of the record before it was
+/// processed, `ORIGINAL DT=`.
 fn behind<'t>(lower: &'t str, key: &'t str) -> impl Iterator<Item = &'t str> {
     lower.match_indices(key).filter_map(move |(at, _)| {
-        let is_word = !lower[..at].ends_with(|c: char| c.is_ascii_alphanumeric());
+        let before = &lower[..at];
+        let is_word = !before.ends_with(|c: char| c.is_ascii_alphanumeric());
+        let word = before.split_whitespace().next_back();
+        let is_own = !word.is_some_and(is_of_another);
         let rest = lower[at + key.len()..].trim_start();
         let rest = rest.strip_prefix(['=', ':'])?;
-        is_word.then(|| rest.trim_start())
+        (is_word && is_own).then(|| rest.trim_start())
     })
 }
 

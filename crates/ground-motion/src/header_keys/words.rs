@@ -166,6 +166,30 @@ pub(super) const FACTORS: [&str; 20] = [
     "amplitude factor",
     "gain",
 ];
+/// Words before a factor of the values.
+pub(super) const BEFORE_FACTORS: [&str; 8] = [
+    "multiplied by",
+    "multiply by",
+    "scaled by",
+    "scale factor",
+    "scaling factor",
+    "values x",
+    "values *",
+    "values times",
+];
+/// Words before a number by which the values were divided.
+pub(super) const BEFORE_DIVISORS: [&str; 1] = ["divided by"];
+/// Words before the number of samples of which one was kept.
+pub(super) const BEFORE_DECIMATIONS: [&str; 5] = [
+    "decimated by",
+    "downsampled by",
+    "decimation factor",
+    "decimation ratio",
+    "decimation",
+];
+/// What may stand between such words and their number.
+pub(super) const BEFORE_NUMBERS: [&str; 9] =
+    [" ", "\t", "=", ":", "a ", "the ", "of ", "by ", "factor "];
 /// Keys of a unit.
 pub(super) const UNITS: [&str; 12] = [
     "unidade",

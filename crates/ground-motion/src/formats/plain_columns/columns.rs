@@ -329,6 +329,7 @@ pub(super) fn columns(
         }
         draft.component.clone_from(name);
         draft.channel = series.len() + 1;
+        warnings.append(&mut draft.warnings);
         draft.warnings = warnings;
         // Times from zero may be counted anew, from one that the file states.
         if first_time.is_some_and(|time| time != 0.0) || draft.first_time.is_none() {

@@ -78,7 +78,7 @@ fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
         .filter(|l| !l.is_blank() && l.fields().next().is_some() && !is_comment(l))
         .skip_while(|l| {
             let words = !l.fields().any(|(_, field)| starts_a_number(field));
-            words || l.is_text() || is_key(l) || header::parse(l).is_some()
+            words || l.is_text() || is_key(l) || is_letter_n(l) || header::parse(l).is_some()
         })
 }
 
@@ -92,6 +92,18 @@ fn is_key(line: &Line<'_>) -> bool {
                 .is_some_and(|b| b.is_ascii_alphabetic() || !b.is_ascii())
     });
     named && line.bytes.iter().any(|b| b"=:".contains(b))
+}
+
+/// Whether a line is the letter N with a count, `N,300`.
+fn is_letter_n(line: &Line<'_>) -> bool {
+    let mut fields = line.fields().map(|(_, field)| field);
+    fields
+        .next()
+        .is_some_and(|key| key.eq_ignore_ascii_case(b"n"))
+        && fields
+            .next()
+            .is_some_and(|n| n.iter().all(u8::is_ascii_digit))
+        && fields.next().is_none()
 }
 
 /// The lines before the first row, comments among them.

@@ -3,7 +3,9 @@
 //! says nothing, and held against what the user and the rows say.
 
 use super::{faults, header, names};
-use crate::draft::{Draft, DraftPeak, NamedQuantity, Printed, StatedDuration, not_applied};
+use crate::draft::{
+    Draft, DraftPeak, NamedQuantity, Printed, StatedDuration, decimated, not_applied,
+};
 use crate::error::{GroundMotionError, bound};
 use crate::header_keys::{self, Entry, Meaning, is_of_rate, keyed, meaning, unit_words};
 use crate::number;
@@ -33,6 +35,10 @@ const OF_OTHER_STAGES: [&str; 8] = [
 ];
 /// Rate (Hz) below which a frequency is none of sampling.
 const LEAST_RATE: f64 = 20.0;
+/// Step (s) from which on a `delta` without a unit is none beside a count: one of a distance in degrees.
+const LONGEST_DELTA: f64 = 0.1;
+/// Number from which on one under the letter N is no count of storeys or piles.
+const LEAST_COUNT: f64 = 20.0;
 
 /// Something that a line states.
 struct At<T> {
@@ -52,12 +58,18 @@ pub(super) struct Stated {
     unit: Option<At<SeriesUnit>>,
     steps: Vec<At<Step>>,
     counts: Vec<At<usize>>,
+    /// Numbers under the letter N, which may be counts.
+    letters: Vec<At<usize>>,
     peaks: Vec<At<(Printed, SeriesUnit)>>,
     durations: Vec<At<f64>>,
     /// What the values are, in words.
     quantities: Vec<At<(Quantity, String)>>,
     /// Factors that are not applied.
     factors: Vec<At<f64>>,
+    /// Of how many samples one was kept.
+    decimations: Vec<At<f64>>,
+    /// A `delta` without a unit: a step (s), or a distance.
+    delta: Option<At<f64>>,
     /// Step (s) of a frequency that may be the rate of sampling: it counts where nothing else does.
     frequency: Option<At<f64>>,
 }
@@ -90,6 +102,13 @@ impl Stated {
             && source.options.time_step.is_none()
         {
             stated.state_step(line, value, true);
+        }
+        // As the headers of SAC have it.
+        if stated.steps.is_empty()
+            && !stated.counts.is_empty()
+            && let Some(At { line, value }) = stated.delta.take_if(|d| d.value < LONGEST_DELTA)
+        {
+            stated.state_step(line, value, false);
         }
         Ok(stated)
     }
@@ -164,16 +183,13 @@ impl Stated {
                 }
             }
         }
-        let multiplied = ["multiplied by ", "multiply by "]
-            .iter()
-            .find_map(|words| number::first_in(lower.split_once(words)?.1));
-        let keyed_factor = entries.iter().any(|e| meaning(e) == Some(Meaning::Factor));
-        if let Some((factor, _)) = multiplied.filter(|(x, _)| *x != 1.0 && !keyed_factor) {
-            self.factors.push(At {
-                line,
-                value: factor,
-            });
-        }
+        let at = |value| At { line, value };
+        self.factors
+            .extend(header_keys::factors(lower).into_iter().map(at));
+        self.decimations
+            .extend(header_keys::decimation(lower).map(at));
+        self.letters
+            .extend(letter_n(&entries).map(|value| At { line, value }));
         let alone = entries.len() == 1;
         for entry in entries {
             let Some(meaning) = meaning(&entry) else {
@@ -215,6 +231,9 @@ impl Stated {
                     None if hertz => step(1.0 / found, true),
                     None => {}
                 },
+                Meaning::StepByUnit if entry.key == "delta" && unit.is_empty() => {
+                    self.delta = Some(At { line, value: found });
+                }
                 // An interval of a second and more is that of a window.
                 Meaning::StepByUnit => {
                     let rest = entry.value[digits.len()..].trim();
@@ -266,7 +285,6 @@ impl Stated {
                     let value = unit.map(|unit| (printed, unit));
                     self.peaks.extend(value.map(|value| At { line, value }));
                 }
-                Meaning::Factor if found != 1.0 => self.factors.push(At { line, value: found }),
                 _ => {}
             }
         }
@@ -308,7 +326,18 @@ impl Stated {
         found: Option<f64>,
     ) -> Result<Option<f64>, GroundMotionError> {
         let Some(first) = self.steps.first() else {
-            return Ok(found);
+            return match (&self.delta, found.or(source.options.time_step)) {
+                (Some(delta), None) => Err(source.error(
+                    delta.line,
+                    0,
+                    format!(
+                        "the record does not state its time step: {} under \"delta\" has no unit, and may be a distance",
+                        delta.value
+                    ),
+                    "if it is the time step, write its unit or another key, `dt: 0.01 s`; or give `time_step`, `--time-step` with `pounding motion`",
+                )),
+                _ => Ok(found),
+            };
         };
         let same = |step: f64| {
             let near = move |s: &&At<Step>| {
@@ -352,7 +381,12 @@ impl Stated {
                         > STEP_TOLERANCE * first.value.seconds
                 };
                 match self.steps.iter().find(differs) {
-                    None => Ok(Some(first.value.seconds)),
+                    None => {
+                        for At { line, value } in &self.decimations {
+                            source.warn(&decimated(*line, *value));
+                        }
+                        Ok(Some(first.value.seconds))
+                    }
                     Some(other) => Err(source.error(
                         other.line,
                         0,
@@ -404,12 +438,22 @@ impl Stated {
     }
 
     fn count(&self, draft: &mut Draft, numbers: usize) {
-        let own = self
-            .counts
-            .iter()
-            .filter(|c| c.value != numbers || c.value == draft.samples.len());
-        for count in own {
-            if draft.header_count.is_none() {
+        let found = draft.samples.len();
+        for count in &self.letters {
+            if ![found, numbers].contains(&count.value) {
+                draft.warnings.push(format!(
+                    "line {}: N is {} here, but {found} samples are read",
+                    count.line, count.value
+                ));
+            }
+        }
+        for count in &self.counts {
+            if count.value == numbers && count.value != found {
+                draft.warnings.push(format!(
+                    "line {}: the header says {numbers} samples, which are all numbers of the rows: {found} samples are read",
+                    count.line
+                ));
+            } else if draft.header_count.is_none() {
                 draft.header_count = Some(count.value);
                 draft.row.get_or_insert(1);
             } else {
@@ -526,6 +570,14 @@ pub(super) fn is_history(lower: &str) -> bool {
     let bare = lower.trim_start_matches(|c: char| !c.is_ascii_alphanumeric());
     let key = bare.split([':', '=']).next().unwrap_or_default().trim();
     HISTORY.contains(&key)
+}
+
+/// The number under the letter N alone, `n=300`, where it may count samples.
+fn letter_n(entries: &[Entry<'_>]) -> Option<usize> {
+    let entry = entries.iter().find(|entry| entry.key == "n")?;
+    let (found, digits, _) = entry.number()?;
+    let alone = entry.value.trim() == digits && found.fract() == 0.0 && found >= LEAST_COUNT;
+    alone.then_some(found as usize)
 }
 
 /// Whether a line states a number under a key, `# dt: 0.01`, and so names no columns.

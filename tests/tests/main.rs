@@ -14,6 +14,7 @@ mod long_rows;
 mod loose_tolerance;
 mod moreau_jean;
 mod observers;
+mod periods_of_steps;
 mod properties;
 mod random_rows;
 mod reference_cases;

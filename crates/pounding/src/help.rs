@@ -147,7 +147,7 @@ pub(crate) fn of_run(error: &TimeHistoryError) -> Option<String> {
     let text = match error {
         TimeHistoryError::TooManySteps { limit, .. } => of_limit(limit),
         TimeHistoryError::UnstableStep { .. } => {
-            "choose a smaller `step`, or take `MethodChoice::EventDriven`, `Adaptive` or `Newmark`; check stiffness, damping and masses there for a wrong unit"
+            "choose a smaller `step`, or take `MethodChoice::EventDriven`, `Adaptive` or `Newmark` with beta 0.25 and gamma 0.5; check stiffness, damping and masses there for a wrong unit"
         }
         TimeHistoryError::StepTooSmall { .. } => {
             "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or take `MethodChoice::Adaptive`; floors that hold together without any clearance between two walls have no unique contact forces: leave some; a `relative_tolerance` below 1e-10, or a restitution of almost zero, may ask for more than numbers hold: take larger ones"
@@ -236,7 +236,7 @@ pub(crate) fn warning(warning: &Warning) -> String {
         Warning::EnergyFromContacts { .. } => {
             text.replace("method = \"adaptive\"", "`MethodChoice::Adaptive`")
         }
-        Warning::CoarseStep { .. } => {
+        Warning::CoarseStep { .. } | Warning::LongerPeriod { .. } => {
             text.replace("method = \"event_driven\"", "`MethodChoice::EventDriven`")
         }
         Warning::DampingInIsolator { .. } => {

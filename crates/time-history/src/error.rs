@@ -1,6 +1,6 @@
 //! What can go wrong, with where and when.
 
-use crate::estimate::{MAXIMUM_STEPS, SHORTEST_CONTACT, StepLimit, short};
+use crate::estimate::{MAXIMUM_STEPS, SHORTEST_CONTACT, StepLimit, short, short_below};
 use crate::warnings::APPROACH_VELOCITY;
 
 /// Failure of a system's definition or of a run.
@@ -101,10 +101,12 @@ pub enum TimeHistoryError {
     },
     /// A step with which an explicit method is unstable.
     #[error(
-        "steps of {} s are unstable with the classical Runge-Kutta method: {limit}, with which they may be {} s at most",
-        short(*step), short(*longest)
+        "steps of {} s are unstable with {scheme}: {limit}, with which they may be {} s at most",
+        short(*step), short_below(*longest)
     )]
     UnstableStep {
+        /// The method, in words, with its parameters.
+        scheme: String,
         /// Step (s), after the division of the time steps of ground motions.
         step: f64,
         /// Longest stable step (s).
@@ -292,7 +294,7 @@ impl TimeHistoryError {
         let text = match self {
             Self::TooManySteps { limit, .. } => limit.remedy(),
             Self::UnstableStep { .. } => {
-                "choose a smaller `step`, or use method = \"event_driven\", \"adaptive\" or \"newmark\"; check stiffness, damping and masses there for a wrong unit"
+                "choose a smaller `step`, or use method = \"event_driven\", \"adaptive\" or \"newmark\" with beta = 0.25 and gamma = 0.5; check stiffness, damping and masses there for a wrong unit"
             }
             Self::StepTooSmall { .. } => {
                 "check stiffness and masses at that level for a wrong unit; with a fixed-step method choose a smaller `step`, or use method = \"adaptive\"; floors that hold together without any clearance between two walls have no unique contact forces: leave some; a `relative_tolerance` below 1e-10, or a restitution of almost zero, may ask for more than numbers hold: take larger ones"

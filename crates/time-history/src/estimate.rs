@@ -23,9 +23,10 @@ pub(crate) const SERIES: f64 = 0.35;
 /// Product of rate and step up to which the pair of order 8 is stable, about.
 const STABLE: f64 = 6.0;
 
-/// Product of rate and step up to which the classical method of order 4 is stable on the imaginary axis, of
-/// what swings without damping; on the real one, of what only creeps, it is 2.79.
-const STABLE_CLASSICAL: f64 = 2.83;
+/// Product of rate and step up to which the classical method of order 4 is stable whatever the damping: on the
+/// imaginary axis, of what swings without it, it is 2.83, on the real one, of what only creeps, 2.79, and least, 2.615,
+/// of what is damped to about half of critical.
+const STABLE_CLASSICAL: f64 = 2.615;
 
 /// Duration (s) longer than that of any ground motion: eleven days.
 const LONGEST_DURATION: f64 = 1.0e6;
@@ -127,7 +128,7 @@ impl StepEstimate {
             MethodChoice::EventDriven { .. } | MethodChoice::Adaptive { .. } => {
                 let series = exact && matches!(method, MethodChoice::EventDriven { .. });
                 let longest = if series { SERIES } else { STABLE };
-                shortest(system, system.buildings().iter(), (longest, rate_at_most))
+                shortest(system, system.buildings().iter(), (longest, WITH_DAMPING))
             }
             MethodChoice::Newmark { step, .. }
             | MethodChoice::HhtAlpha { step, .. }
@@ -161,14 +162,30 @@ impl StepEstimate {
     }
 }
 
+/// Rates (1/s) of a building, and of a storey or link that follows a law.
+type RatesOf = (fn(&Arc<ShearBuilding>) -> f64, fn(&System, &Element) -> f64);
+
+/// What laws ask for from rest, damping included.
+const WITH_DAMPING: RatesOf = (|b| fastest_rate(std::slice::from_ref(b)), rate_from_rest);
+/// The most that laws may ask for, damping included.
+const AT_MOST: RatesOf = (|b| fastest_rate(std::slice::from_ref(b)), rate_at_most);
+/// What swings, without damping, of which implicit methods may have any.
+const FREQUENCIES: RatesOf = (
+    |b| {
+        let frequencies = b.modes().circular_frequency.iter();
+        frequencies.copied().fold(0.0, f64::max)
+    },
+    |system, element| swinging(system, element, element.law.steepest_stiffness()),
+);
+
 /// Steps whose product with the fastest rate, of a building or of a storey or link that follows a law,
 /// is `longest`.
 fn shortest<'s>(
     system: &System,
     buildings: impl Iterator<Item = &'s Arc<ShearBuilding>>,
-    (longest, of_law): (f64, fn(&System, &Element) -> f64),
+    (longest, (of_building, of_law)): (f64, RatesOf),
 ) -> (f64, StepLimit) {
-    let rates = buildings.map(|b| (fastest_rate(std::slice::from_ref(b)), b.name()));
+    let rates = buildings.map(|b| (of_building(b), b.name()));
     let fastest = rates.max_by(|a, b| a.0.total_cmp(&b.0));
     let (rate, building) = fastest.unwrap_or((0.0, ""));
     let limit = StepLimit::Period {
@@ -181,9 +198,26 @@ fn shortest<'s>(
     }
 }
 
-/// Refuses steps (s) of the classical method of order 4 that are unstable: laws whose force is bounded
-/// keep their motion bounded then, and forces beyond what they can carry pass for an answer.
-pub(crate) fn is_stable(system: &System, step: f64) -> Result<(), TimeHistoryError> {
+/// Refuses steps that are unstable. With the classical method of order 4 those of laws: where their force is
+/// bounded they keep their motion bounded, and forces beyond what they can carry pass for an answer; elastic
+/// motion grows beyond all bounds, and the run ends with an error by itself. With Newmark's, where its parameters
+/// set a limit (Hughes, The Finite Element Method, 1987, section 9.1), any.
+pub(crate) fn is_stable(system: &System, method: &MethodChoice) -> Result<(), TimeHistoryError> {
+    let (step, scheme, laws_alone, limit) = match *method {
+        MethodChoice::RungeKutta4 { step } => (
+            step,
+            "the classical Runge-Kutta method".to_owned(),
+            true,
+            (STABLE_CLASSICAL, AT_MOST),
+        ),
+        MethodChoice::Newmark { step, beta, gamma } if 2.0 * beta < gamma - 1.0e-12 => (
+            step,
+            format!("Newmark's method of beta {beta} and gamma {gamma}"),
+            false,
+            ((0.5 * gamma - beta).sqrt().recip(), FREQUENCIES),
+        ),
+        _ => return Ok(()),
+    };
     let further = system.ground_motions().iter();
     let samples = further.map(|m| m.acceleration.time_step);
     let samples = samples.chain([system.ground().time_step]);
@@ -191,14 +225,14 @@ pub(crate) fn is_stable(system: &System, step: f64) -> Result<(), TimeHistoryErr
     let step = samples.fold(step, |step, sample| {
         sample / (sample / step - 1.0e-9).ceil().max(1.0)
     });
-    // Elastic motion grows beyond all bounds, and the run ends with an error by itself.
-    let bounded = |b: &&Arc<ShearBuilding>| b.laws().iter().any(Option::is_some);
-    let buildings = system.buildings().iter().filter(bounded);
-    let (longest, limit) = shortest(system, buildings, (STABLE_CLASSICAL, rate_in_action));
+    let asked = |b: &&Arc<ShearBuilding>| !laws_alone || b.laws().iter().any(Option::is_some);
+    let buildings = system.buildings().iter().filter(asked);
+    let (longest, limit) = shortest(system, buildings, limit);
     if step <= longest {
         return Ok(());
     }
     Err(TimeHistoryError::UnstableStep {
+        scheme,
         step,
         longest,
         limit,
@@ -221,27 +255,28 @@ fn by_element(
     (rate > 0.0).then(|| (longest / rate, limit))
 }
 
-/// The most that a law may ask for. A damper whose force is a power of the velocity is as steep as at
-/// rest there alone, where floors that it holds may stay.
+/// What a law asks for from rest.
+fn rate_from_rest(system: &System, element: &Element) -> f64 {
+    rate_with(system, element, element.law.initial_stiffness())
+}
+
+/// The most that a law may ask for: a bumper where it is closed.
 fn rate_at_most(system: &System, element: &Element) -> f64 {
-    let stiffness = element.law.initial_stiffness();
-    rate_with(system, element, stiffness, element.law.initial_damping())
+    rate_with(system, element, element.law.steepest_stiffness())
 }
 
-/// What a law asks for while it acts: a bumper where it is closed, and no power of the velocity at rest.
-fn rate_in_action(system: &System, element: &Element) -> f64 {
-    let damping = match element.law.is_linear() {
-        true => element.law.initial_damping(),
-        false => 0.0,
-    };
-    rate_with(system, element, element.law.steepest_stiffness(), damping)
+/// A damper whose force is a power of the velocity counts as steep as it is at rest, where floors that it holds
+/// come to every time they turn.
+fn rate_with(system: &System, element: &Element, stiffness: f64) -> f64 {
+    let damping = element.law.initial_damping();
+    let own = (damping * yielding(system, element)).max(element.law.relaxation_rate());
+    swinging(system, element, stiffness).max(own)
 }
 
-fn rate_with(system: &System, element: &Element, stiffness: f64, damping: f64) -> f64 {
+/// The circular frequency of a floor on a storey or link of this stiffness (N/m) beyond what the matrices have.
+fn swinging(system: &System, element: &Element, stiffness: f64) -> f64 {
     let added = (stiffness - element.carried).max(0.0);
-    let yields = yielding(system, element);
-    let own = (damping * yields).max(element.law.relaxation_rate());
-    (added * yields).sqrt().max(own)
+    (added * yielding(system, element)).sqrt()
 }
 
 /// Acceleration of the deformation of a storey or link by a unit of its force (1/kg).
@@ -285,6 +320,12 @@ pub(crate) fn contacts_last(system: &System) -> Result<(), TimeHistoryError> {
         }
     }
     Ok(())
+}
+
+/// Three significant digits, not above the value.
+pub(crate) fn short_below(x: f64) -> String {
+    let unit = libm::pow(10.0, libm::log10(x).floor() - 2.0);
+    short((x / unit).floor() * unit)
 }
 
 /// Three significant digits, without zeros at the end.

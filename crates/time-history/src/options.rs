@@ -173,9 +173,7 @@ impl RunOptions {
         let duration = self.duration.unwrap_or_else(|| system.record_duration());
         positive("duration", duration)?;
         StepEstimate::new(system, &self.method, duration).check(duration)?;
-        if let MethodChoice::RungeKutta4 { step } = self.method {
-            is_stable(system, step)?;
-        }
+        is_stable(system, &self.method)?;
         Ok(duration)
     }
 

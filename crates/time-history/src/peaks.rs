@@ -14,7 +14,9 @@ use crate::polynomial::{
 };
 use crate::system::{SectionForce, SectionPlace, System};
 
+mod accelerations;
 mod branches;
+mod low_order;
 
 /// Peaks of all storeys, and of the levels in contact.
 #[derive(Debug)]
@@ -42,6 +44,8 @@ pub(crate) struct Peaks {
     height: Vec<f64>,
     /// Largest accelerations of a step, with their places, of floors and then of sums of them.
     largest: Vec<(f64, f64)>,
+    /// Accelerations at the nodes of a fit, of the same.
+    samples: Vec<Polynomial>,
 }
 
 /// Peaks of a storey with a law, or of a level of a link.
@@ -71,6 +75,7 @@ impl Peaks {
             at: [f64::NAN; 3],
             height: buildings.iter().flat_map(|b| b.height()).copied().collect(),
             largest: Vec::new(),
+            samples: Vec::new(),
         }
     }
 
@@ -201,8 +206,11 @@ impl Peaks {
         for index in 0..self.elements.len() {
             self.element(context, method, index, place);
         }
-        if method.information().implicit && !self.elements.is_empty() {
+        let information = method.information();
+        if information.implicit && !self.elements.is_empty() {
             self.accelerations_between_branches(context, method, place);
+        } else if !information.adaptive {
+            self.accelerations_within(context, method, place);
         }
     }
 
@@ -397,6 +405,25 @@ impl Peaks {
         a
     }
 
+    /// The same of a sum over degrees of freedom.
+    fn sum_of_accelerations(
+        &self,
+        context: &Context<'_, '_>,
+        method: &dyn Method,
+        row: &SectionForce,
+        place: (f64, f64),
+    ) -> Polynomial {
+        let dofs = context.dynamics.layout.dofs;
+        let mut sum = Polynomial::default();
+        for (i, weight) in row.terms() {
+            let a = self.acceleration_polynomial(context, method, (i, dofs + i), place);
+            for (sum, c) in sum.iter_mut().zip(a) {
+                *sum += weight * c;
+            }
+        }
+        sum
+    }
+
     /// A response that is a sum of absolute accelerations: where it may be at its maximum by the
     /// interpolant, the equations of motion give the value.
     fn acceleration_row(
@@ -406,14 +433,8 @@ impl Peaks {
         row: &SectionForce,
         (tau, step): (f64, f64),
     ) {
-        let (dofs, system) = (context.dynamics.layout.dofs, context.dynamics.system);
-        let mut sum = Polynomial::default();
-        for (i, weight) in row.terms() {
-            let a = self.acceleration_polynomial(context, method, (i, dofs + i), (tau, step));
-            for (sum, c) in sum.iter_mut().zip(a) {
-                *sum += weight * c;
-            }
-        }
+        let system = context.dynamics.system;
+        let sum = self.sum_of_accelerations(context, method, row, (tau, step));
         let floor = self.of_section(row.place).value * NEAR;
         let Some((theta, _)) = absolute_maximum(&sum, floor) else {
             return;

@@ -28,6 +28,8 @@ const YIELD_DRIFT_RATIO: f64 = 5.0e-6;
 const GROUND_ACCELERATION: f64 = 3.0;
 /// Drift ratio beyond which buildings are no longer what the case says.
 const DRIFT_RATIO: f64 = 0.1;
+/// Part by which fixed steps of an implicit method may lengthen a fundamental period, or shorten it.
+const LENGTHENING: f64 = 0.01;
 /// Steps in a contact with which fixed steps follow it to a per cent or so.
 const STEPS_IN_CONTACT: f64 = 20.0;
 /// Approach velocity (m/s) at which a contact is looked at before the run.
@@ -193,6 +195,17 @@ pub enum Warning {
         approach_velocity: f64,
         /// Whether that velocity is taken from the run, not assumed.
         met: bool,
+    },
+    /// Fixed steps of an implicit method that a building is too fast for.
+    LongerPeriod {
+        /// Name of the building.
+        building: String,
+        /// Fundamental period (s).
+        period: f64,
+        /// Step (s).
+        step: f64,
+        /// Period by these steps over its own, less one (-).
+        lengthening: f64,
     },
     /// A run of very many steps.
     ManySteps {
@@ -374,6 +387,24 @@ impl fmt::Display for Warning {
                 short(*approach_velocity),
                 contact / step,
                 short(1e3 * rounded_down(contact / STEPS_IN_CONTACT)),
+            ),
+            Self::LongerPeriod {
+                building,
+                period,
+                step,
+                lengthening,
+            } => write!(
+                f,
+                "{building}: steps of {} ms make its fundamental period of {} s {:.1} % {} than it should; use a step of {} ms, or method = \"event_driven\"",
+                short(1e3 * step),
+                short(*period),
+                100.0 * lengthening.abs(),
+                if *lengthening > 0.0 {
+                    "longer, so that it swings ever later"
+                } else {
+                    "shorter, so that it swings ever earlier"
+                },
+                short(1e3 * rounded_down(step * (LENGTHENING / lengthening.abs()).sqrt())),
             ),
             Self::ManySteps { steps, limit } => write!(
                 f,
@@ -653,7 +684,44 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
     if steps * system.degrees_of_freedom() as f64 > LONG_RUN {
         warnings.push(Warning::ManySteps { steps, limit });
     }
+    warnings.extend(longer_period(system, &options.method));
     warnings
+}
+
+/// The building whose fundamental period the steps of an implicit method change most, if it is much. To the
+/// second order of step times circular frequency a period grows by `beta / 2 - 1 / 24 - d / 4 + d^2 / 8` times its
+/// square with Newmark's parameters, where `d = gamma - 1 / 2`, and by `1 / 12 - alpha / 4 - 3 alpha^2 / 8` times it
+/// with that of Hilber, Hughes and Taylor (from the eigenvalues of both; Hughes, The Finite Element Method, 1987,
+/// section 9.3, draws them).
+fn longer_period(system: &System, method: &MethodChoice) -> Option<Warning> {
+    let (step, weight) = match *method {
+        MethodChoice::Newmark { step, beta, gamma } => {
+            let over = gamma - 0.5;
+            (
+                step,
+                0.5 * beta - 1.0 / 24.0 - 0.25 * over + 0.125 * over * over,
+            )
+        }
+        MethodChoice::HhtAlpha { step, alpha } => {
+            (step, 1.0 / 12.0 - 0.25 * alpha - 0.375 * alpha * alpha)
+        }
+        _ => return None,
+    };
+    let step = step.min(system.ground().time_step);
+    let of = |building: &Arc<ShearBuilding>| {
+        let period = building.modes().period[0];
+        let angle = 2.0 * PI * step / period;
+        (weight * angle * angle, period)
+    };
+    let fastest = system.buildings().iter().map(|b| (of(b), b.name()));
+    let ((lengthening, period), building) =
+        fastest.max_by(|a, b| a.0.0.abs().total_cmp(&b.0.0.abs()))?;
+    (lengthening.abs() > LENGTHENING).then(|| Warning::LongerPeriod {
+        building: building.to_owned(),
+        period,
+        step,
+        lengthening,
+    })
 }
 
 /// Period lengthening, less one, below which soil is as good as a fixed base.

@@ -1,17 +1,19 @@
-//! Peaks of implicit methods beside histories of the same run at finer times: the branches of laws
-//! change within their steps, so that a peak may stand anywhere in one.
+//! Peaks of methods of fixed steps beside histories of the same run at finer times: a peak may stand anywhere
+//! in a step, by the equations of motion, and with implicit methods where laws change their branch.
 
 use pounding_hysteresis::LawParameters;
 use pounding_time_history::{
     GridRecorder, History, MethodChoice, Outcome, Peak, Recorder, RunOptions, System, run,
 };
 
-use super::setup::{el_centro, newmark, with_gaps, with_links, yielding_pair};
+use std::sync::Arc;
+
+use super::setup::{building, el_centro, newmark, with_gaps, with_links, yielding_pair};
 
 const HHT_ALPHA: fn(f64) -> MethodChoice = |step| MethodChoice::HhtAlpha { step, alpha: -0.1 };
 
 fn recorded(system: &System, method: MethodChoice) -> (Outcome, History) {
-    let mut recorder = GridRecorder::new(1.0e-3).unwrap();
+    let mut recorder = GridRecorder::new(3.7e-4).unwrap();
     let options = RunOptions {
         method,
         duration: Some(8.0),
@@ -20,6 +22,42 @@ fn recorded(system: &System, method: MethodChoice) -> (Outcome, History) {
     let recorders: &mut [&mut dyn Recorder] = &mut [&mut recorder];
     let outcome = run(system, &options, recorders, &mut |_| {}).unwrap();
     (outcome, recorder.responses)
+}
+
+/// The largest part by which accelerations of a history exceed their peaks.
+fn accelerations_exceed(outcome: &Outcome, history: &History) -> f64 {
+    let storeys = outcome.buildings.iter().flat_map(|b| &b.storeys);
+    let peaks: Vec<Peak> = storeys.map(|s| s.acceleration_absolute).collect();
+    exceeds(&peaks, history, &history.acceleration_absolute)
+}
+
+/// Buildings without laws, some of whose periods are as short as seven steps: with Newmark's method the
+/// accelerations at the ends of steps lay 1.3 % below those of the history.
+#[test]
+fn no_acceleration_exceeds_its_peak() {
+    let light = building("light", (3, 25.0e3, 2.0e7), None);
+    let heavy = building("heavy", (3, 6.0e4, 1.0e8), None);
+    let pair = System::new(vec![Arc::new(light), Arc::new(heavy)], el_centro());
+    let runge_kutta_4 = |step| MethodChoice::RungeKutta4 { step };
+    for (name, system, methods) in [
+        (
+            "apart",
+            pair.clone(),
+            [newmark(0.02), HHT_ALPHA(0.02), runge_kutta_4(0.01)],
+        ),
+        (
+            "in contact",
+            with_gaps(pair),
+            [newmark(2.0e-3), HHT_ALPHA(2.0e-3), runge_kutta_4(1.0e-3)],
+        ),
+    ] {
+        for method in methods {
+            let (outcome, history) = recorded(&system, method);
+            let worst = accelerations_exceed(&outcome, &history);
+            println!("{name} {method:?}: {worst:.1e}");
+            assert!(worst < 1.0e-9, "{name} {method:?}: {worst:e}");
+        }
+    }
 }
 
 /// The largest part by which a history exceeds the peaks.
@@ -65,7 +103,6 @@ fn no_history_exceeds_its_peak() {
         ] {
             let (outcome, history) = recorded(&system, method);
             let storeys = || outcome.buildings.iter().flat_map(|b| &b.storeys);
-            let accelerations: Vec<Peak> = storeys().map(|s| s.acceleration_absolute).collect();
             let shears: Vec<Peak> = storeys().map(|s| s.storey_shear).collect();
             let links = outcome.links.iter().flat_map(|link| &link.levels);
             let forces: Vec<Peak> = links.map(|level| level.force).collect();
@@ -82,10 +119,7 @@ fn no_history_exceeds_its_peak() {
                 .filter_map(own)
                 .collect();
             for (what, worst) in [
-                (
-                    "accelerations",
-                    exceeds(&accelerations, &history, &history.acceleration_absolute),
-                ),
+                ("accelerations", accelerations_exceed(&outcome, &history)),
                 ("shears", exceeds(&shears, &history, &history.storey_shear)),
                 (
                     "forces of links",

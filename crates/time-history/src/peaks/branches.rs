@@ -65,8 +65,7 @@ impl Peaks {
         method: &dyn Method,
         place: (f64, f64),
     ) {
-        let floors = self.storeys.len();
-        let count = floors + context.dynamics.system.acceleration_rows().len();
+        let count = self.accelerations(context);
         let mut best = std::mem::take(&mut self.largest);
         best.clear();
         best.resize(count, (0.0, f64::NEG_INFINITY));
@@ -81,7 +80,6 @@ impl Peaks {
         place: (f64, f64),
         best: &mut [(f64, f64)],
     ) {
-        let floors = self.storeys.len();
         for theta in [0.0, 1.0, 0.5] {
             self.raise_all(context, method, (theta, place), best);
         }
@@ -96,14 +94,7 @@ impl Peaks {
             let (theta, top) = around(best[index], |theta| {
                 self.acceleration_at(context, method, (index, theta), place)
             });
-            let time = context.segment.start + place.0 + theta * place.1;
-            match index < floors {
-                true => self.storeys[index].acceleration_absolute.raise(top, time),
-                false => {
-                    let row = &context.dynamics.system.acceleration_rows()[index - floors];
-                    self.raise_section(row.place, top, time);
-                }
-            }
+            self.raise_acceleration(context, index, top, (theta, place));
         }
     }
 
@@ -125,41 +116,20 @@ impl Peaks {
 
     /// Indices of the values that reach so large a part of the present peaks.
     fn nearly(&self, context: &Context<'_, '_>, part: f64, best: &[(f64, f64)]) -> Vec<usize> {
-        let present = |index: usize| match index.checked_sub(self.storeys.len()) {
-            None => self.storeys[index].acceleration_absolute.value,
-            Some(row) => {
-                let row = &context.dynamics.system.acceleration_rows()[row];
-                self.of_section(row.place).value
-            }
-        };
+        let present = |index: usize| self.present_acceleration(context, index);
         let reach = |index: &usize| best[*index].1 > part * present(*index);
         (0..best.len()).filter(reach).collect()
     }
 
-    /// The absolute acceleration of a floor, or behind the floors a sum of them, at a place in the
-    /// step.
+    /// The magnitude of an acceleration at a place in the step.
     fn acceleration_at(
         &mut self,
         context: &mut Context<'_, '_>,
         method: &dyn Method,
-        (index, theta): (usize, f64),
-        (tau, step): (f64, f64),
+        at: (usize, f64),
+        place: (f64, f64),
     ) -> f64 {
-        let known = match theta {
-            0.0 => 0,
-            1.0 => 1,
-            _ => 2,
-        };
-        self.evaluate_at(context, method, (tau, step), (known, theta));
-        let system = context.dynamics.system;
-        let ground = context.segment.ground(tau + theta * step);
-        let own = |i: usize| self.acceleration[known][i] + system.ground_on(i, ground);
-        match index.checked_sub(self.storeys.len()) {
-            None => own(index).abs(),
-            Some(row) => {
-                let row = &system.acceleration_rows()[row];
-                row.terms().map(|(i, w)| w * own(i)).sum::<f64>().abs()
-            }
-        }
+        let signed = self.signed_acceleration_at(context, method, at, place);
+        signed.abs()
     }
 }

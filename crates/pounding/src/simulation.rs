@@ -190,6 +190,13 @@ impl Simulation {
 
     /// Buildings and gaps are called by their names, and stand under them in results.
     fn check_names(&self) -> Result<(), Error> {
+        if self.buildings.iter().any(|b| b.name() == WALL) {
+            return Err(Error::Name {
+                reason: "it is that of the rigid wall",
+                name: WALL.to_owned(),
+                what: "building",
+            });
+        }
         let gaps: Vec<String> = self.gaps.iter().map(Gap::name).collect();
         let links: Vec<String> = self.links.iter().map(Link::name).collect();
         check_names("building", self.buildings.iter().map(Building::name))
@@ -198,7 +205,6 @@ impl Simulation {
             .map_err(|error| Error::Name {
                 reason: match (error.fault, error.what) {
                     (NameFault::Form, _) => NAMES,
-                    (NameFault::Wall, _) => "it is that of the rigid wall",
                     (NameFault::Taken, "gap") => "another gap has it: call one by `.named(...)`",
                     (NameFault::Taken, "link") => "another link has it: call one by `.named(...)`",
                     (NameFault::Taken, _) => "another building has it",

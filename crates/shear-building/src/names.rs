@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-/// What gaps and links call a rigid wall, and no building therefore.
+/// What gaps and links of cases and builders call a rigid wall, and no building therefore.
 pub const WALL: &str = "wall";
 
 /// What a name is, for messages.
@@ -24,7 +24,6 @@ pub fn is_name(text: &str) -> bool {
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[error("{name:?} cannot name a {what}: {}", match fault {
     NameFault::Form => NAMES.to_owned(),
-    NameFault::Wall => "it is that of the rigid wall".to_owned(),
     NameFault::Taken => format!("another {what} has it"),
 })]
 pub struct NameError {
@@ -46,8 +45,6 @@ impl NameError {
 pub enum NameFault {
     /// It is no name: see [`NAMES`].
     Form,
-    /// A building cannot be called [`WALL`].
-    Wall,
     /// Another one of its kind has it.
     Taken,
 }
@@ -64,7 +61,6 @@ pub fn check_names<'n>(
     let mut seen = BTreeSet::new();
     for name in names {
         let fault = match name {
-            WALL if what == "building" => NameFault::Wall,
             _ if !is_name(name) => NameFault::Form,
             _ if !seen.insert(name) => NameFault::Taken,
             _ => continue,
@@ -98,13 +94,6 @@ mod tests {
         };
         assert_eq!(fault("gap", &["a", "A", "wall"]), None);
         for (what, names, name, expected, said) in [
-            (
-                "building",
-                ["a", "wall"],
-                "wall",
-                NameFault::Wall,
-                "rigid wall",
-            ),
             ("gap", ["a", "a/b"], "a/b", NameFault::Form, "no slash"),
             ("link", ["", "a"], "", NameFault::Form, "not empty"),
             (

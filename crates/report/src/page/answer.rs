@@ -8,7 +8,7 @@
 use pounding_catalogue::{STANDARD_GRAVITY, numbers};
 use serde_json::Value;
 
-use super::html::{self, escaped};
+use super::html::{self, named};
 use super::numbers::{figures, figures_of};
 use super::table::{Column, Row, table};
 
@@ -88,7 +88,7 @@ impl<'a> Answer<'a> {
 
     /// A text of the answer in a sentence, as HTML.
     pub(super) fn quote(self, path: &str) -> String {
-        escaped(self.text(path))
+        named(self.text(path))
     }
 
     /// A table of which each row is a member of a list: what stands for `*`, and its head.

@@ -4,7 +4,7 @@ use pounding_catalogue::wording::{agreeing, counted};
 use serde_json::Value;
 
 use super::answer::{Answer, in_parentheses, spoken, unit_of};
-use super::html::{escaped, note, section, sentences, warnings};
+use super::html::{named, note, section, sentences, warnings};
 use super::studies::{Inputs, Picture, collapsed, pictures, rows};
 use super::table::Column;
 
@@ -64,7 +64,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         points.push(format!(
             "<strong>Pounding brings a building to collapse with {}</strong>: {} of {}. What follows counts the \
              others only.",
-            escaped(&fallen.join(", ")),
+            named(&fallen.join(", ")),
             fallen.len(),
             counted(models.len(), "model"),
         ));
@@ -107,7 +107,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
             "<strong>{some} of {} {} on the model:</strong> {}.",
             counted(all.len(), "conclusion"),
             agreeing(&some, "depends", "depend"),
-            escaped(&depends.join("; "))
+            named(&depends.join("; "))
         ),
     });
     let number =
@@ -122,7 +122,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         let at = format!("/quantities/{q}");
         let mut sentence = format!(
             "Models lie furthest apart in {} of {}: by {} %",
-            escaped(&spoken(answer.text(&format!("{at}/name")))),
+            named(&spoken(answer.text(&format!("{at}/name")))),
             answer.quote(&format!("{at}/of")),
             answer.say(&format!("{at}/spread/between_models"), 1.0e2),
         );
@@ -149,7 +149,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         let such = models.iter().filter(|m| failed.contains(&name(m)));
         let such: Vec<&str> = such.filter(|m| (under(m) == 0) == none).map(name).collect();
         if !such.is_empty() {
-            points.push(format!("{said}: {}.", escaped(&such.join(", "))));
+            points.push(format!("{said}: {}.", named(&such.join(", "))));
         }
     }
     for (g, gap) in answer.list("/gaps").iter().enumerate() {
@@ -159,11 +159,11 @@ fn points(answer: Answer<'_>) -> Vec<String> {
             points.push(format!(
                 "No model closes {} under {} of {}, which {} left out of the spread between models and the ranking of \
                  all that is of this gap: {}.",
-                escaped(name(gap)),
+                named(name(gap)),
                 without.len(),
                 counted(records, "record"),
                 agreeing(&without.len(), "is", "are"),
-                escaped(&without.join(", "))
+                without.iter().map(|record| named(record)).collect::<Vec<_>>().join(", ")
             ));
         }
     }
@@ -265,7 +265,7 @@ fn values(answer: Answer<'_>) -> String {
     for (r, record) in records.iter().take(TABLES).enumerate() {
         out.push_str(&format!(
             "<h3>With pounding, under {}</h3>\n",
-            escaped(record)
+            named(record)
         ));
         for chunk in &beside(answer, &all) {
             let columns = columns(&|q| format!("/quantities/{q}/values/*/{r}"), "model", chunk);

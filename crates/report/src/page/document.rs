@@ -1,6 +1,6 @@
 //! The file around what a page says: it needs no other file and no network, and prints.
 
-use super::html::{escaped, escaped_json};
+use super::html::{escaped, escaped_json, named};
 
 /// How pages look on screens, in the dark and in print.
 const STYLE: &str = include_str!("page.css");
@@ -46,13 +46,14 @@ impl Document<'_> {
             true => "Untitled",
             false => self.title,
         };
+        let heading = named(title);
         let title = escaped(title);
         // Sections of these are laid out as they come into sight.
         let long = match self.body.len() > LONG {
             true => " class=\"long\"",
             false => "",
         };
-        let origin: Vec<String> = self.origin.iter().map(|part| escaped(part)).collect();
+        let origin: Vec<String> = self.origin.iter().map(|part| named(part)).collect();
         let style = self.style;
         let may = self.script.as_ref().map_or("", |script| script.may);
         let script = self.script.as_ref().map(|script| {
@@ -68,7 +69,7 @@ impl Document<'_> {
              <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n\
              <meta name=\"color-scheme\" content=\"light dark\">\n{MARK}\n\
              <title>{title}</title>\n<style>\n{STYLE}{style}</style>\n</head>\n<body>\n\
-             <header>\n<h1>{title}</h1>\n<p class=\"what\">{}</p>\n</header>\n\
+             <header>\n<h1>{heading}</h1>\n<p class=\"what\">{}</p>\n</header>\n\
              <main{long}>\n{}</main>\n{}</body>\n</html>\n",
             origin.join(" &middot; "),
             self.body,
@@ -82,9 +83,10 @@ pub(super) fn listing(heading: &str, text: &str) -> String {
     if text.is_empty() {
         return String::new();
     }
+    let shown = named(heading);
     let heading = escaped(heading);
     format!(
-        "<h3>{heading}</h3>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"{heading}\">{}</pre>\n",
+        "<h3>{shown}</h3>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"{heading}\">{}</pre>\n",
         escaped(text)
     )
 }

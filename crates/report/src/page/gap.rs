@@ -6,7 +6,7 @@ use pounding_time_history::VELOCITY_JUMPS;
 use serde_json::Value;
 
 use super::answer::Answer;
-use super::html::{escaped, note, section, sentences, warnings};
+use super::html::{named, note, section, section_of, sentences, warnings};
 use super::studies::{Inputs, Picture, collapsed, pictures, rows};
 use super::table::Column;
 
@@ -35,8 +35,8 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
         &(sentences(&points) + &warnings(&warned)),
     );
     for g in 0..gaps {
-        let title = format!("Gap {}", answer.text(&format!("/gaps/{g}/name")));
-        body.push_str(&section(&title, &demand(answer, g)));
+        let title = ["Gap ", answer.text(&format!("/gaps/{g}/name")), ""];
+        body.push_str(&section_of(title, &demand(answer, g)));
     }
     body.push_str(&section(
         "With pounding at the provided gap",
@@ -62,10 +62,8 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
     ));
     for g in 0..gaps {
         let name = answer.text(&format!("/gaps/{g}/name"));
-        body.push_str(&section(
-            &format!("Gap {name} by every rule"),
-            &rules(answer, g),
-        ));
+        let title = ["Gap ", name, " by every rule"];
+        body.push_str(&section_of(title, &rules(answer, g)));
     }
     inputs.page(&body)
 }
@@ -102,7 +100,7 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             let case = format!("{code}/cases/{c}");
             let ownership = match answer.text(&format!("{case}/ownership")) {
                 "" => String::new(),
-                ownership => format!("{}: ", escaped(ownership)),
+                ownership => format!("{}: ", named(ownership)),
             };
             let refusal = answer.quote(&format!("{case}/refusal"));
             if !refusal.is_empty() {
@@ -117,7 +115,7 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             let name = answer.quote(&format!("{rule}/name"));
             let clause = match answer.text(&format!("{rule}/clause")) {
                 "" => String::new(),
-                clause => format!(", clause {}", escaped(clause)),
+                clause => format!(", clause {}", named(clause)),
             };
             let provided = answer.say(&format!("{case}/provided"), 1.0e3);
             let readings = answer.list(&format!("{of_level}/readings")).len();
@@ -163,11 +161,11 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
         if !in_force.is_empty() {
             let chosen = match answer.text("/date") {
                 "" => String::new(),
-                date => format!(" It is the edition in force on {}.", escaped(date)),
+                date => format!(" It is the edition in force on {}.", named(date)),
             };
             let next = match answer.text(&at("code/superseded_by")) {
                 "" => String::new(),
-                next => format!(" Superseded by {}.", escaped(next)),
+                next => format!(" Superseded by {}.", named(next)),
             };
             points.push(format!("The edition is in force {in_force}.{chosen}{next}"));
         }
@@ -274,7 +272,7 @@ fn statistic(answer: Answer<'_>, code: &str) -> String {
         "" => format!("Many records: {rule}."),
         clause => format!(
             "The code takes {rule} ({}, {}).",
-            escaped(clause),
+            named(clause),
             answer.quote(&format!("{code}/statistic_status")),
         ),
     };
@@ -343,11 +341,11 @@ fn failures(answer: Answer<'_>) -> Vec<String> {
     let failed = answer.list("/records").iter().filter_map(|record| {
         let failure = record["failure"].as_str()?;
         let name = record["name"].as_str().unwrap_or_default();
-        let (name, failure) = (escaped(name), escaped(failure));
+        let (name, failure) = (named(name), named(failure));
         Some(match record["collapsed"].as_str() {
             Some(building) => format!(
                 "<strong>Pounding brings {} to collapse</strong> under {name}: {failure}.",
-                escaped(building)
+                named(building)
             ),
             None => format!("The run with pounding under {name} failed: {failure}."),
         })
@@ -512,12 +510,12 @@ fn disputed(answer: Answer<'_>, of: &str) -> String {
             .map(|r| {
                 let text = readings.map_or("", |all| all[r]["text"].as_str().unwrap_or_default());
                 let path = format!("maximum {of}/{i}/records/+/levels/+/readings/{r}/width");
-                format!("{} mm by {}", answer.say(&path, 1.0e3), escaped(text))
+                format!("{} mm by {}", answer.say(&path, 1.0e3), named(text))
             })
             .collect();
         if !widths.is_empty() {
             let name = rule["name"].as_str().unwrap_or_default();
-            lines.push(format!("{}: up to {}", escaped(name), widths.join(", ")));
+            lines.push(format!("{}: up to {}", named(name), widths.join(", ")));
         }
     }
     match lines.is_empty() {
@@ -623,7 +621,7 @@ fn collapses(answer: Answer<'_>, buildings: &[Value]) -> String {
         Some(format!(
             "<strong>Pounding brings {} to collapse</strong> at {} of {}, between {} and {} mm: no ratio of peaks is \
              worse.",
-            escaped(building["name"].as_str().unwrap_or_default()),
+            named(building["name"].as_str().unwrap_or_default()),
             widths.len(),
             counted(runs.len(), "width"),
             say(first),
@@ -646,7 +644,7 @@ fn scaled(answer: Answer<'_>) -> String {
     let say = |path: &str| answer.say(&format!("{target}/{path}"), 1.0);
     let reason = match answer.text(&format!("{target}/band_reason")) {
         "" => String::new(),
-        reason => format!(" ({})", escaped(reason)),
+        reason => format!(" ({})", named(reason)),
     };
     let text = format!(
         "The records are scaled to {} from {} to {} s{reason}, by least squares of the logarithm: their mean \

@@ -19,6 +19,27 @@ pub fn escaped(text: &str) -> String {
     out
 }
 
+/// A name that its user gave, as it stands among words of ours: one that runs from right to left, or
+/// that has signs which turn the direction, is set apart, so that it turns nothing behind it.
+pub(super) fn named(name: &str) -> String {
+    let text = escaped(name);
+    match turns(name) {
+        true => format!("<bdi>{text}</bdi>"),
+        false => text,
+    }
+}
+
+/// Whether a text may turn the direction of what stands beside it.
+pub(super) fn turns(text: &str) -> bool {
+    text.contains(|c: char| {
+        matches!(c,
+            '\u{590}'..='\u{8ff}'
+            | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}'
+            | '\u{fb1d}'..='\u{fdff}' | '\u{fe70}'..='\u{feff}'
+            | '\u{10800}'..='\u{10fff}' | '\u{1e800}'..='\u{1efff}')
+    })
+}
+
 /// JSON as it may stand in a `script`: no text in it ends the element or opens another, and
 /// none is a line end to JavaScript.
 pub(super) fn escaped_json(json: &serde_json::Value) -> String {
@@ -37,9 +58,16 @@ pub(super) fn escaped_json(json: &serde_json::Value) -> String {
 
 /// A section with a heading.
 pub(super) fn section(title: &str, inside: &str) -> String {
+    section_of([title, "", ""], inside)
+}
+
+/// A section whose heading has words, a name and words.
+pub(super) fn section_of([before, name, after]: [&str; 3], inside: &str) -> String {
     format!(
-        "<section>\n<h2>{}</h2>\n{inside}</section>\n",
-        escaped(title)
+        "<section>\n<h2>{}{}{}</h2>\n{inside}</section>\n",
+        escaped(before),
+        named(name),
+        escaped(after)
     )
 }
 
@@ -89,6 +117,16 @@ pub(super) fn note(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_that_turn_are_isolated() {
+        assert_eq!(named("tower <1>"), "tower &lt;1&gt;");
+        assert_eq!(
+            named("\u{645}\u{628}\u{646}\u{649} 1"),
+            "<bdi>\u{645}\u{628}\u{646}\u{649} 1</bdi>"
+        );
+        assert_eq!(named("a\u{202e}b"), "<bdi>a\u{202e}b</bdi>");
+    }
 
     #[test]
     fn texts_stay_texts() {

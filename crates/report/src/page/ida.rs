@@ -5,7 +5,7 @@ use pounding_catalogue::wording::counted;
 use serde_json::Value;
 
 use super::answer::{Answer, in_parentheses, spoken, unit_of};
-use super::html::{escaped, note, section, sentences, warnings};
+use super::html::{named, note, section, section_of, sentences, warnings};
 use super::numbers::figures;
 use super::studies::{Inputs, Picture, pictures, rows};
 use super::table::Column;
@@ -36,12 +36,10 @@ pub fn ida(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
     for (g, gap) in answer.list("/gaps").iter().enumerate() {
         let widths = format!("/gaps/{g}/widths");
         if !answer.list(&widths).is_empty() {
-            let title = format!(
-                "By width of the gap {}",
-                gap["gap"].as_str().unwrap_or_default()
-            );
+            let name = gap["gap"].as_str().unwrap_or_default();
+            let title = ["By width of the gap ", name, ""];
             let remarks = sentences(&of_widths(gap));
-            body.push_str(&section(&title, &(fits(answer, &widths) + &remarks)));
+            body.push_str(&section_of(title, &(fits(answer, &widths) + &remarks)));
         }
     }
     body.push_str(&section("Runs by intensity", &counts(answer)));
@@ -67,7 +65,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         let at = |path: &str| format!("/limits/{l}/{path}");
         let name = answer.quote(&at("name"));
         let (scale, unit) = intensity_of(answer);
-        let unit = escaped(unit);
+        let unit = named(unit);
         let mut sentence = format!("<strong>{name}:</strong> ");
         sentence.push_str(&match answer.text(&at("fit/kind")) {
             "lognormal" => format!(
@@ -131,7 +129,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
     }
     for (g, gap) in answer.list("/gaps").iter().enumerate() {
         let at = |path: &str| format!("/gaps/{g}/{path}");
-        let name = escaped(gap["gap"].as_str().unwrap_or_default());
+        let name = named(gap["gap"].as_str().unwrap_or_default());
         let minimum = &gap["minimum"];
         let Some(target) = target.filter(|_| minimum.is_object()) else {
             continue;
@@ -194,11 +192,11 @@ fn range_of(answer: Answer<'_>, path: &str) -> String {
 fn of_widths(gap: &Value) -> Vec<String> {
     let widths = gap["widths"].as_array().into_iter().flatten();
     let of_width = |state: &Value| -> Vec<String> {
-        let name = escaped(state["name"].as_str().unwrap_or_default());
+        let name = named(state["name"].as_str().unwrap_or_default());
         let remarks = state["remarks"].as_array().into_iter().flatten();
         let remarks = remarks.filter_map(Value::as_str);
         remarks
-            .map(|said| format!("{name}: {}.", escaped(said)))
+            .map(|said| format!("{name}: {}.", named(said)))
             .collect()
     };
     widths.flat_map(of_width).collect()

@@ -5,7 +5,7 @@ use pounding_catalogue::wording::counted;
 use serde_json::Value;
 
 use super::answer::Answer;
-use super::html::{escaped, note, section, sentences, warnings};
+use super::html::{named, note, section, sentences, warnings};
 use super::studies::{Inputs, Picture, pictures};
 use super::table::Column;
 
@@ -78,10 +78,10 @@ pub fn motion(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
             }
             points.push(format!(
                 "<strong>{}{}:</strong> peak {} g at {} s; 5 to 95 % of its Arias intensity of {} m/s {}.",
-                escaped(base(name)),
+                named(base(name)),
                 match one["component"].as_str().unwrap_or_default() {
                     "" => String::new(),
-                    component => format!(", {}", escaped(component)),
+                    component => format!(", {}", named(component)),
                 },
                 answer.say(&format!("{at}/measures/peak_acceleration/value"), 1.0 / STANDARD_GRAVITY),
                 answer.say(&format!("{at}/measures/peak_acceleration/time"), 1.0),
@@ -117,10 +117,10 @@ fn significant(answer: Answer<'_>, at: &str) -> String {
 }
 
 fn of_file(answer: Answer<'_>, f: usize, file: &Value, series: &[Value]) -> String {
-    let text = |key: &str| escaped(file[key].as_str().unwrap_or_default());
+    let text = |key: &str| named(file[key].as_str().unwrap_or_default());
     let mut out = format!(
         "<p>{}<br>\nformat {}, {}, SHA-256 {}</p>\n",
-        escaped(
+        named(
             series
                 .first()
                 .map_or("", |s| s["title"].as_str().unwrap_or_default())
@@ -154,7 +154,7 @@ fn of_file(answer: Answer<'_>, f: usize, file: &Value, series: &[Value]) -> Stri
         let of = |path: &str| format!("/files/{f}/series/{s}/measures/{path}");
         let of_component = match head(&series[*s]).as_str() {
             "" => String::new(),
-            component => format!(" of {}", escaped(component)),
+            component => format!(" of {}", named(component)),
         };
         out.push_str(&format!("<h3>Measures{of_component}</h3>\n"));
         // One row for each measure, whose path stands for `*`.

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::answer::Answer;
 use super::document::{Document, listing};
-use super::html::{escaped, figure, section};
+use super::html::{figure, named, section};
 use super::table::facts;
 use crate::chart::{Chart, Plot};
 
@@ -123,7 +123,7 @@ pub(super) fn rows<'h>(heads: impl IntoIterator<Item = &'h str>) -> Vec<(String,
 /// The records under which a building collapses without contact, each with what follows from it.
 pub(super) fn collapsed(answer: Answer<'_>, consequence: &str) -> Vec<String> {
     let records = answer.list("/collapsed").iter().map(|record| {
-        let text = |key: &str| escaped(record[key].as_str().unwrap_or_default());
+        let text = |key: &str| named(record[key].as_str().unwrap_or_default());
         format!(
             "<strong>{} collapses without contact</strong> under {}: {}. {consequence}",
             text("building"),

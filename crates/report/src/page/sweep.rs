@@ -7,7 +7,7 @@ use pounding_time_history::VELOCITY_JUMPS;
 use super::answer::{in_parentheses, unit_of};
 use super::document::Document;
 use super::document::listing;
-use super::html::{escaped, figure, note, number, section, sentences, warnings};
+use super::html::{figure, named, note, number, section, sentences, warnings};
 use super::numbers::{self, figures};
 use super::table::{Column, Row, facts, table};
 use crate::error::ReportError;
@@ -154,7 +154,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
     if !d.part.is_whole() {
         points.push(format!(
             "<strong>A part of the study</strong>, {}: {} of its {}. All that follows is of these.",
-            escaped(&d.part.to_string()),
+            named(&d.part.to_string()),
             result.rows,
             counted(d.runs, "run")
         ));
@@ -213,7 +213,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
                 .unwrap_or_default(),
             most_shown,
             unit,
-            at.map_or(String::new(), |at| format!(", at {}", escaped(&at))),
+            at.map_or(String::new(), |at| format!(", at {}", named(&at))),
             row.map_or(String::new(), |row| format!(
                 " in run {}",
                 runs.numbers[row]

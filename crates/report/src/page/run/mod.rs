@@ -9,7 +9,7 @@ mod tables;
 mod words;
 
 use super::document::{Document, listing};
-use super::html::{escaped, section};
+use super::html::{named, section, section_of};
 use super::table::facts;
 use crate::error::ReportError;
 use crate::result::RunResult;
@@ -35,8 +35,7 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
         inside.push_str(&tables::isolator(building));
         inside.push_str(&figures::profiles(result, building)?);
         inside.push_str(&figures::roof(result, index)?);
-        let title = format!("Building {}", building.name);
-        body.push_str(&section(&title, &inside));
+        body.push_str(&section_of(["Building ", &building.name, ""], &inside));
     }
     let input = result.energy.input.iter().copied().fold(0.0, f64::max);
     for gap in &result.gaps {
@@ -45,11 +44,11 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
         inside.push_str(&tables::level_responses(gap));
         inside.push_str(&figures::gap(result, gap)?);
         inside.push_str(&tables::hardest(gap, HARDEST, input));
-        body.push_str(&section(&format!("Gap {}", gap.name), &inside));
+        body.push_str(&section_of(["Gap ", &gap.name, ""], &inside));
     }
     for link in &result.links {
-        let title = format!("Link {}", link.name);
-        body.push_str(&section(&title, &tables::link(link)));
+        let title = ["Link ", &link.name, ""];
+        body.push_str(&section_of(title, &tables::link(link)));
     }
     let mut energy = words::energy(result);
     energy.push_str(&figures::energy(result)?);
@@ -71,7 +70,7 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
 }
 
 fn ground(result: &RunResult) -> Result<String, ReportError> {
-    let lines = result.record.lines().map(escaped);
+    let lines = result.record.lines().map(named);
     let lines: Vec<String> = lines.collect();
     Ok(format!(
         "<p>{}</p>\n{}",

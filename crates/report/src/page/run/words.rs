@@ -1,7 +1,7 @@
 //! The answers in sentences.
 
 use super::figures::governing_level;
-use crate::page::html::{escaped, number, sentences, warnings};
+use crate::page::html::{named, number, sentences, warnings};
 use crate::page::numbers::{figures, percent, ratio as times};
 use crate::result::{BuildingResult, GapResult, ImpactResult, LevelResult, RunResult, StoreyPeaks};
 use pounding_catalogue::wording::counted;
@@ -79,9 +79,9 @@ fn hardest(result: &RunResult) -> (Vec<&GapResult>, Vec<&GapResult>) {
 /// How hard the floors on both sides of a gap hit.
 fn hit(gap: &GapResult) -> Option<String> {
     let level = governing_level(gap)?;
-    let name = escaped(&gap.name);
+    let name = named(&gap.name);
     let path = format!("gap/{}", gap.name);
-    let at = |l: usize| escaped(&self::level(&gap.levels[l]));
+    let at = |l: usize| named(&self::level(&gap.levels[l]));
     if gap.impacts.is_empty() {
         let nearest = gap
             .penetration
@@ -134,7 +134,7 @@ fn hit(gap: &GapResult) -> Option<String> {
         at(level),
         of("t_close", 1.0, hardest.t_close),
         of("approach_velocity", 1.0, hardest.approach_velocity),
-        escaped(&gap.model),
+        named(&gap.model),
     ))
 }
 
@@ -206,7 +206,7 @@ fn changed(building: &BuildingResult) -> Option<String> {
     (!parts.is_empty()).then(|| {
         format!(
             "Peaks of building {} beside those without its neighbours: {}.",
-            escaped(&building.name),
+            named(&building.name),
             parts.join(", ")
         )
     })
@@ -237,8 +237,8 @@ pub(super) fn gap(gap: &GapResult) -> String {
     };
     let mut out = format!(
         "<p>{} &middot; {}</p>\n",
-        escaped(&gap.between),
-        escaped(&model)
+        sides(&gap.between),
+        named(&model)
     );
     if gap.jumps() {
         out.push_str(
@@ -248,6 +248,12 @@ pub(super) fn gap(gap: &GapResult) -> String {
         );
     }
     out
+}
+
+/// What stands on both sides, each by itself: together they would stand in the direction of the first.
+fn sides(between: &str) -> String {
+    let sides = between.split(" | ").map(named);
+    sides.collect::<Vec<_>>().join(" | ")
 }
 
 /// What brings the energy, with its verb.

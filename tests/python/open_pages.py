@@ -197,7 +197,36 @@ def moves(page, file):
         assert closed
     page.value("document.querySelector('[data-part=next]').click()")
     assert page.value(now) >= closes[len(closes) // 2]
+    ends = "['previous', 'next'].map((n) => document.querySelector(`[data-part=${n}]`).disabled)"
+    for number, which in ((0, 0), (len(closes) - 1, 1)):
+        change(page, "impacts", number, "change")
+        assert page.value(ends)[which], (number, which)
+    reaches(page, file, data)
     curves(page, file, data)
+
+
+def reaches(page, file, data):
+    """The curve of the hardest impact rises to its peak, and the distance is zero where it closes."""
+    impacts = data["impacts"]
+    columns = {name: packed(impacts[name])[0] for name in ("closes", "force", "impulse")}
+    rigid = not (columns["force"] > 0).any()
+    sizes = columns["impulse" if rigid else "force"]
+    hardest = int(numpy.nanargmax(sizes))
+    change(page, "impacts", hardest, "change")
+    kind = "impulse" if rigid else "force"
+    path = f"document.querySelector('[data-part=chart] path.{kind}')"
+    top = page.value(f"{path}.getBBox().height")
+    scale = (
+        "(() => { const t = [...document.querySelectorAll('[data-part=chart] text')];"
+        f" const h = t.findIndex((e) => e.dataset.heading === '{kind}');"
+        " return t.slice(h + 1).map((e) => [e.textContent, Number(e.getAttribute('y'))]); })()"
+    )
+    ticks = [(text, y) for text, y in page.value(scale) if re.fullmatch(r"[\d.]+", text)][:2]
+    (low, zero), (high, above) = ((float(text), y) for text, y in ticks)
+    assert low == 0, ticks
+    drawn = top * (high - low) / (zero - above)
+    most = 1e-3 * numpy.nanmax(sizes)
+    assert abs(drawn - most) < 0.02 * most, (drawn, most)
 
 
 def curves(page, file, data):
@@ -228,8 +257,8 @@ def curves(page, file, data):
     for kind in ("keyDown", "keyUp"):
         page.call("Input.dispatchKeyEvent", type=kind, key="+", text="+" if kind == "keyDown" else "")
     assert abs(page.value(span) / whole - 0.5) < 1e-9
-    drawn = page.value(f"{chart}.querySelectorAll('path.opening, path.force').length")
-    assert drawn == 2
+    drawn = page.value(f"{chart}.querySelectorAll('path.opening, path.force, path.impulse').length")
+    assert drawn >= 2
     caption = (
         "((factor, select) => { select.value = factor; select.dispatchEvent(new Event('change'));"
         "return document.querySelector('[data-part=factor]').parentElement.textContent; })"

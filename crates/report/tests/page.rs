@@ -175,6 +175,77 @@ fn the_answers_stand_in_the_page() {
     assert!(!html.contains("yielding"));
 }
 
+/// A gap that stays open has no impact to go to, and a page with impacts no end of them.
+#[test]
+fn curves_are_named_after_what_they_show() {
+    let html = page(&result(), "pair.h5").unwrap();
+    assert!(html.contains("<h3>Around an impact</h3>"));
+    assert!(html.contains("data-part=\"next\">Next impact"));
+    let mut open = result();
+    open.gaps[0].impacts.clear();
+    let html = page(&open, "pair.h5").unwrap();
+    assert!(html.contains("<h3>Motion over time</h3>") && !html.contains("Around an impact"));
+    for part in ["previous", "next"] {
+        assert!(html.contains(&format!("data-part=\"{part}\" hidden>")));
+    }
+}
+
+/// The first view is that of the hardest impact, wherever output times lie, and its level is
+/// marked as closed.
+#[test]
+fn the_hardest_impact_is_what_is_seen_first() {
+    let mut result = result();
+    for impact in &mut result.gaps[0].impacts {
+        impact.t_open = impact.t_close + 2.0e-4;
+        impact.peak_force_time = impact.t_close + 1.0e-4;
+    }
+    let first = &mut result.gaps[0].impacts[0];
+    (first.t_close, first.peak_force_time, first.t_open) = (1.2512, 1.2513, 1.2514);
+    let html = page(&result, "pair.h5").unwrap();
+    assert!(html.contains("Elevation at <span data-part=\"instant\">1.251</span> s."));
+    assert!(html.contains("\"time\":1.2513,"));
+    assert_eq!(html.matches("class=\"contact closed\"").count(), 1);
+    assert!(html.contains("every 0.02 s, displacements are drawn straight"));
+    // A jump has an impulse and no force.
+    let html = page(&result, "pair.h5").unwrap();
+    assert!(!html.contains("where velocities jump"));
+    for impact in &mut result.gaps[0].impacts {
+        (impact.peak_force, impact.peak_force_time) = (f64::NAN, 0.0);
+    }
+    result.gaps[0].impacts[0].impulse = 9.0e3;
+    let html = page(&result, "pair.h5").unwrap();
+    assert!(html.contains("\"time\":1.2512,"));
+    assert!(html.contains("its impulse as a line where velocities jump"));
+}
+
+/// Names that run from right to left turn nothing of the sentences and headings around them.
+#[test]
+fn names_from_right_to_left_stand_apart() {
+    let [one, two] = [
+        "\u{645}\u{628}\u{646}\u{649} 1",
+        "\u{645}\u{628}\u{646}\u{649} 2",
+    ];
+    let mut result = result();
+    result.title = format!("{one} (A) 3");
+    result.buildings[0].name = one.to_owned();
+    result.buildings[1].name = two.to_owned();
+    result.gaps[0].name = format!("{one}-{two}");
+    result.gaps[0].between = format!("{one} | {two}");
+    let html = page(&result, "pair.h5").unwrap();
+    let html = is_whole(&html);
+    for part in [
+        format!("<h1><bdi>{one} (A) 3</bdi></h1>"),
+        format!("<title>{one} (A) 3</title>"),
+        format!("<h2>Building <bdi>{one}</bdi></h2>"),
+        format!("<h2>Gap <bdi>{one}-{two}</bdi></h2>"),
+        format!("Gap <bdi>{one}-{two}</bdi> closes 3 times"),
+        format!("Peaks of building <bdi>{one}</bdi> beside"),
+        format!("<p><bdi>{one}</bdi> | <bdi>{two}</bdi> &middot;"),
+    ] {
+        assert!(html.contains(&part), "{part}\n{html}");
+    }
+}
+
 /// A building with many modes shows the first ones, and says so; few are all there.
 #[test]
 fn modes_that_are_left_out_are_said() {

@@ -90,7 +90,8 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
         page::of_run(result, output)?;
     }
     if let (Some(path), Some(picture)) = (&arguments.plot, picture) {
-        plot::write_drawn(path, picture.responses.picture(), &arguments.figure)?;
+        let drawn = picture.responses.picture(&outcome.impacts);
+        plot::write_drawn(path, drawn, &arguments.figure)?;
     }
     drop(span);
     if arguments.json {

@@ -1,9 +1,10 @@
 //! Runs.
 
-use pounding_time_history::{History, HistorySink, System, TimeHistoryError};
+use pounding_time_history::{History, HistorySink, Impact, System, TimeHistoryError};
 
 use super::panel;
 use crate::chart::Chart;
+use crate::decimation::decimated;
 use crate::figure::{Curve, Panel, figure};
 
 /// Points of a curve at most: more than a picture can show.
@@ -11,8 +12,8 @@ const MOST_POINTS: usize = 1 << 16;
 /// Curves of a panel at most: more cannot be told apart.
 const MOST_CURVES: usize = 7;
 
-/// Roof displacements and contact forces of a run on the output grid, as its picture shows
-/// them.
+/// Roof displacements and contact forces of a run on the output grid, to which its picture adds
+/// the impacts between its times.
 #[derive(Debug)]
 pub struct Responses<'s> {
     system: &'s System,
@@ -100,21 +101,110 @@ impl<'s> Responses<'s> {
         }
     }
 
-    /// Roof displacements above, contact forces of the highest levels below; of long rows the
+    /// Roof displacements above, below them what these impacts, all of the run, bring to the
+    /// highest levels: contact forces, and impulses where velocities jump; of long rows the
     /// greatest.
     #[must_use]
-    pub fn picture(self) -> Chart {
+    pub fn picture(self, impacts: &[Impact]) -> Chart {
         let system = self.system;
+        let end = self.roofs.iter().filter_map(|c| c.points.last());
+        let end = end.fold(0.0_f64, |m, p| m.max(p.0));
         let roofs = self.roofs.into_iter().zip(system.buildings());
         let roofs = roofs.map(|(c, b)| c.curve(b.name().to_owned()));
-        let forces = self.forces.into_iter().zip(drawn(system));
-        let forces = forces.map(|(c, level)| c.curve(system.name_of_level(level)));
-        let forces_at = "Contact force at the highest level (kN), sampled on the output grid";
         let of = "Roof displacement with pounding (mm)";
-        figure(&[
-            greatest(of, "buildings", roofs.collect()),
-            greatest(forces_at, "gaps", forces.collect()),
-        ])
+        let mut panels = vec![greatest(of, "buildings", roofs.collect())];
+        let (mut forces, mut impulses) = (Vec::new(), Vec::new());
+        for (curve, level) in self.forces.into_iter().zip(drawn(system)) {
+            let here = |i: &&Impact| system.gaps()[i.gap].first_level + i.level == level;
+            let here: Vec<Hit> = impacts.iter().filter(here).map(Hit::of).collect();
+            let curve = curve.curve(system.name_of_level(level));
+            let (force, impulse) = of_level(curve, &here, end);
+            forces.extend(force);
+            impulses.extend(impulse);
+        }
+        if !forces.is_empty() || impulses.is_empty() {
+            let caption = "Contact force at the highest level (kN), with closing, peak and opening of every impact";
+            panels.push(greatest(caption, "gaps", forces));
+        }
+        if !impulses.is_empty() {
+            let caption = "Impulse of every impact at the highest level (kN s): velocities jump, without a force";
+            panels.push(greatest(caption, "gaps", impulses));
+        }
+        figure(&panels)
+    }
+}
+
+/// What a picture shows of an impact: times (s), force (kN) and impulse (kN s).
+#[derive(Debug, Clone, Copy)]
+struct Hit {
+    closes: f64,
+    /// NaN where it outlasts the run.
+    opens: f64,
+    peak: Point,
+    impulse: f64,
+}
+
+impl Hit {
+    fn of(impact: &Impact) -> Self {
+        let peak = impact.peak_force;
+        Self {
+            closes: impact.time_closed,
+            opens: impact.time_opened,
+            peak: (peak.time, 1e-3 * peak.value),
+            impulse: 1e-3 * impact.impulse,
+        }
+    }
+
+    fn has_force(&self) -> bool {
+        self.peak.1 > 0.0
+    }
+
+    /// Closing, peak and opening of an impact that has a force: most last less than an output
+    /// step.
+    fn instants(&self) -> impl Iterator<Item = Point> {
+        let points = [(self.closes, 0.0), self.peak, (self.opens, 0.0)];
+        let forced = self.has_force();
+        points
+            .into_iter()
+            .filter(move |p| forced && p.0.is_finite())
+    }
+}
+
+/// Force of a level over time, if it has any or nothing else to show, and the impulses of its
+/// velocity jumps, if there are any, as stems over the time up to `end`.
+fn of_level(samples: Curve, hits: &[Hit], end: f64) -> (Option<Curve>, Option<Curve>) {
+    let mut stems = vec![(0.0, 0.0)];
+    let jumps = hits
+        .iter()
+        .filter(|i| !i.has_force() && i.opens.is_finite());
+    stems.extend(jumps.flat_map(|i| [0.0, i.impulse, 0.0].map(|height| (i.closes, height))));
+    let impulses = (stems.len() > 1).then(|| {
+        stems.push((end, 0.0));
+        Curve {
+            name: samples.name.clone(),
+            points: few(stems),
+        }
+    });
+    let pushed = samples.points.iter().any(|p| p.1 != 0.0);
+    let forced = hits.iter().any(Hit::has_force);
+    let force = (impulses.is_none() || pushed || forced).then(|| {
+        let mut points = samples.points;
+        points.extend(hits.iter().flat_map(Hit::instants));
+        // Stable: instants of an impact at one time stay in their order.
+        points.sort_by(|a, b| a.0.total_cmp(&b.0));
+        Curve {
+            name: samples.name,
+            points: few(points),
+        }
+    });
+    (force, impulses)
+}
+
+/// No more points than a picture can show.
+fn few(points: Vec<Point>) -> Vec<Point> {
+    match points.len() > MOST_POINTS {
+        true => decimated(&points, MOST_POINTS / 4),
+        false => points,
     }
 }
 
@@ -187,6 +277,44 @@ mod tests {
             greatest("Roof (mm)", "buildings", vec![curve(1)]).caption,
             "Roof (mm)"
         );
+    }
+
+    /// An impact between two output times is in the curve with its peak; of velocity jumps the
+    /// impulses stand in a curve of their own, and no force that is zero throughout.
+    #[test]
+    fn impacts_between_output_times_are_drawn() {
+        let samples = |value: f64| Curve {
+            name: "a-b".to_owned(),
+            points: (0..5).map(|i| (0.01 * f64::from(i), value)).collect(),
+        };
+        let hit = |closes: f64, force: f64, opens: f64| Hit {
+            closes,
+            opens,
+            peak: (closes + 1e-4, force),
+            impulse: 3.0,
+        };
+        let hits = [hit(0.0123, 5e3, 0.0125), hit(0.0323, 2e3, f64::NAN)];
+        let (force, impulse) = of_level(samples(0.0), &hits, 0.04);
+        let points = force.map(|c| c.points).unwrap_or_default();
+        assert_eq!(
+            points[2..5],
+            [(0.0123, 0.0), (0.0123 + 1e-4, 5e3), (0.0125, 0.0)]
+        );
+        assert_eq!(points.len(), 10);
+        assert!(points.is_sorted_by(|a, b| a.0 <= b.0));
+        assert_eq!(impulse, None);
+        let jump = [hit(0.0123, f64::NAN, 0.0123)];
+        let (force, impulse) = of_level(samples(0.0), &jump, 0.04);
+        assert_eq!(force, None);
+        let stems = impulse.map(|c| c.points).unwrap_or_default();
+        let at = 0.0123;
+        assert_eq!(
+            stems,
+            [(0.0, 0.0), (at, 0.0), (at, 3.0), (at, 0.0), (0.04, 0.0)]
+        );
+        // What holds floors together is a force all the same, and so is none of a gap that stays open.
+        assert!(of_level(samples(1.0), &jump, 0.04).0.is_some());
+        assert!(of_level(samples(0.0), &[], 0.04).0.is_some());
     }
 
     /// However many samples there are, the picture keeps their extremes and their ends.

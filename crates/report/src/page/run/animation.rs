@@ -10,8 +10,8 @@ use super::packed::{Kind, packed};
 use super::row::row as row_of;
 use super::series;
 use crate::page::document::Script;
-use crate::page::html::escaped;
-use crate::result::{BuildingResult, ImpactResult, RunResult};
+use crate::page::html::{escaped, turns};
+use crate::result::{BuildingResult, GapResult, ImpactResult, RunResult};
 
 /// Characters that displacements take at most on a page.
 const MOST_CHARACTERS: f64 = 1.2e6;
@@ -27,11 +27,11 @@ pub(in crate::page) fn animation(result: &RunResult) -> Option<(String, Script)>
     if result.time.len() < 2 || result.buildings.is_empty() {
         return None;
     }
-    let row = instant(result);
+    let instant = Instant::of(result);
     let magnification = scene.magnification();
-    let picture = picture(result, &scene, (row, magnification));
-    let data = data(result, &scene, (row, magnification));
-    let hint = caption(result, row, magnification);
+    let picture = picture(result, &scene, (instant, magnification));
+    let data = data(result, &scene, (instant, magnification));
+    let hint = caption(result, instant, magnification);
     let section = format!(
         "<section>\n<h2>Buildings in motion</h2>\n<figure class=\"elevation\">{picture}\
          <figcaption>{hint}</figcaption></figure>\n{}</section>\n",
@@ -46,23 +46,47 @@ pub(in crate::page) fn animation(result: &RunResult) -> Option<(String, Script)>
     Some((section, script))
 }
 
-/// The output time that the still picture shows: the hardest impact, or the largest
-/// displacement where nothing touches.
-fn instant(result: &RunResult) -> usize {
-    if let Some((_, impact)) = hardest(result) {
-        let time = match impact.peak_force_time.is_finite() {
-            true => impact.peak_force_time,
-            false => impact.t_close,
+/// The time that the still picture shows: that of the hardest impact, or an output time with the
+/// largest displacement where nothing touches.
+#[derive(Debug, Clone, Copy)]
+struct Instant {
+    time: f64,
+    /// The output times around it, and how far from the first to the second it is.
+    rows: [usize; 2],
+    share: f64,
+}
+
+impl Instant {
+    fn of(result: &RunResult) -> Self {
+        if let Some((_, impact)) = hardest(result) {
+            let time = match impact.force().is_finite() && impact.peak_force_time.is_finite() {
+                true => impact.peak_force_time,
+                false => impact.t_close,
+            };
+            return Self::at(&result.time, time);
+        }
+        let largest = |row: &usize| {
+            let rows = result.buildings.iter().flat_map(|b| floors(b, *row));
+            rows.fold(0.0_f64, |m, u| m.max(u.abs()))
         };
-        return nearest(&result.time, time);
+        let rows = 0..result.time.len();
+        let row = rows.max_by(|a, b| largest(a).total_cmp(&largest(b)));
+        Self::at(&result.time, result.time[row.unwrap_or(0)])
     }
-    let largest = |row: &usize| {
-        let rows = result.buildings.iter().flat_map(|b| floors(b, *row));
-        rows.fold(0.0_f64, |m, u| m.max(u.abs()))
-    };
-    let rows = 0..result.time.len();
-    rows.max_by(|a, b| largest(a).total_cmp(&largest(b)))
-        .unwrap_or(0)
+
+    /// This time, or that end of the motion which is nearer.
+    fn at(times: &[f64], time: f64) -> Self {
+        let last = times.len() - 1;
+        let after = times.partition_point(|t| *t <= time).clamp(1, last);
+        let rows = [after - 1, after];
+        let [first, second] = rows.map(|row| times[row]);
+        let share = ((time - first) / (second - first)).clamp(0.0, 1.0);
+        Self {
+            time: time.clamp(times[0], times[last]),
+            rows,
+            share: if share.is_finite() { share } else { 0.0 },
+        }
+    }
 }
 
 /// The hardest impact of all gaps, with the gap.
@@ -106,13 +130,13 @@ fn on_different_grounds(result: &RunResult) -> bool {
     ground.any(|r| r.value.iter().any(|u| *u > 0.0))
 }
 
-fn caption(result: &RunResult, row: usize, magnification: f64) -> String {
+fn caption(result: &RunResult, instant: Instant, magnification: f64) -> String {
     format!(
         "Elevation at <span data-part=\"instant\">{:.3}</span> s. Heights are to scale; displacements and \
          gaps are drawn <span data-part=\"factor\">{}</span>. The case \
          does not say how wide buildings are: they are drawn alike. Displacements are relative to the ground \
          under each building.{}{}",
-        result.time[row],
+        instant.time,
         match magnification {
             1.0 => "to scale too".to_owned(),
             times => format!("{times} times as wide as they are"),
@@ -123,14 +147,18 @@ fn caption(result: &RunResult, row: usize, magnification: f64) -> String {
             false => "",
         },
         match result.gaps.iter().any(|g| !g.impacts.is_empty()) {
-            true => " A dot marks a level in contact.",
-            false => "",
+            true => format!(
+                " A dot marks a level in contact. Between output times, every {} s, displacements are drawn \
+                 straight: floors that touch between two of them may not quite meet.",
+                significant(result.time[1] - result.time[0])
+            ),
+            false => String::new(),
         }
     )
 }
 
 /// The still picture, whose parts the script moves.
-fn picture(result: &RunResult, scene: &Scene, (row, m): (usize, f64)) -> String {
+fn picture(result: &RunResult, scene: &Scene, (instant, m): (Instant, f64)) -> String {
     let (margin, reach) = (scene.margin(), m * scene.reach);
     let wide = scene.width + m * scene.offsets + 2.0 * (margin + reach);
     let left = -margin - reach;
@@ -141,7 +169,7 @@ fn picture(result: &RunResult, scene: &Scene, (row, m): (usize, f64)) -> String 
     );
     let contacts = shown_contacts(result, scene);
     for (number, body) in scene.bodies.iter().enumerate() {
-        let displacement = displacements(result, body, row);
+        let displacement = displacements(result, body, instant);
         let class = if body.building.is_some() {
             "building"
         } else {
@@ -171,7 +199,6 @@ fn picture(result: &RunResult, scene: &Scene, (row, m): (usize, f64)) -> String 
             escaped(&names.shown[number])
         ));
     }
-    let time = result.time[row];
     for (number, contact) in contacts.iter().enumerate() {
         let contact = &scene.contacts[*contact];
         let side = |which: usize| {
@@ -179,19 +206,18 @@ fn picture(result: &RunResult, scene: &Scene, (row, m): (usize, f64)) -> String 
             let wide = if which == 0 { body.width } else { 0.0 };
             let u = at(
                 body,
-                &displacements(result, body, row),
+                &displacements(result, body, instant),
                 contact.elevations[which],
             );
             body.left + wide + m * (body.offset + u)
         };
         let right = side(1) - m * contact.ahead;
         let [zl, zr] = contact.elevations.map(|z| scene.height - z);
-        let step = result.time[1] - result.time[0];
         let gap = &result.gaps[contact.place.0];
         let closed = gap.impacts.iter().any(|i| {
             i.level == contact.place.1 as u64 + 1
-                && i.t_close <= time + 0.5 * step
-                && !(i.t_open < time - 0.5 * step)
+                && i.t_close <= instant.time
+                && !(i.t_open < instant.time)
         });
         inside.push_str(&format!(
             "<path class=\"edge\" data-edge=\"{number}\" d=\"{}\"/>\
@@ -219,11 +245,15 @@ fn picture(result: &RunResult, scene: &Scene, (row, m): (usize, f64)) -> String 
     )
 }
 
-/// Displacements of the ground and the floors of a body at an output time (m).
-fn displacements(result: &RunResult, body: &Body, row: usize) -> Vec<f64> {
+/// Displacements of the ground and the floors of a body (m), straight between output times.
+fn displacements(result: &RunResult, body: &Body, instant: Instant) -> Vec<f64> {
     match body.building {
         Some(building) => {
-            let floors = floors(&result.buildings[building], row);
+            let building = &result.buildings[building];
+            let [before, after] = instant.rows.map(|row| floors(building, row));
+            let floors = before
+                .zip(after)
+                .map(|(before, after)| before + instant.share * (after - before));
             std::iter::once(0.0).chain(floors).collect()
         }
         None => vec![0.0; body.elevation.len() + 1],
@@ -276,9 +306,9 @@ pub(super) fn shown_contacts(result: &RunResult, scene: &Scene) -> Vec<usize> {
 }
 
 /// What the script reads.
-fn data(result: &RunResult, scene: &Scene, (row, magnification): (usize, f64)) -> Value {
+fn data(result: &RunResult, scene: &Scene, (instant, magnification): (Instant, f64)) -> Value {
     let shown = shown_contacts(result, scene);
-    let (frames, kind) = frames(result, row);
+    let (frames, kind) = frames(result, instant);
     let times: Vec<f64> = frames.iter().map(|k| result.time[*k]).collect();
     let displacement = |body: &Body| {
         body.building.map(|b| {
@@ -305,7 +335,7 @@ fn data(result: &RunResult, scene: &Scene, (row, magnification): (usize, f64)) -
     };
     let hardest = hardest(result).and_then(|(g, i)| place_of((g, i.level as usize - 1)));
     json!({
-        "time": result.time[row],
+        "time": instant.time,
         "contact": hardest,
         "step": result.time[1] - result.time[0],
         "window": WINDOW,
@@ -317,6 +347,7 @@ fn data(result: &RunResult, scene: &Scene, (row, magnification): (usize, f64)) -
             "contact": impacts.iter().map(|(contact, _)| *contact).collect::<Vec<usize>>(),
             "closes": column(|i| i.t_close, Kind::Float64),
             "opens": column(|i| i.t_open, Kind::Float64),
+            "peak": column(|i| i.peak_force_time, Kind::Float64),
             "force": column(ImpactResult::force, Kind::Float32),
             "impulse": column(|i| i.impulse, Kind::Float32),
         },
@@ -329,13 +360,17 @@ pub(super) fn name(result: &RunResult, gap: usize, level: usize) -> String {
     let label = &result.gaps[gap].levels[level].label;
     match result.gaps.len() {
         1 => format!("level {label}"),
-        _ => format!("{}, level {label}", result.gaps[gap].name),
+        _ => match &result.gaps[gap].name {
+            // In texts without elements signs set it apart.
+            name if turns(name) => format!("\u{2068}{name}\u{2069}, level {label}"),
+            name => format!("{name}, level {label}"),
+        },
     }
 }
 
 /// Output times that the animation has, and how displacements are written: all of them if
 /// they fit on the page, or those next to the hardest impacts and even steps between.
-fn frames(result: &RunResult, still: usize) -> (Vec<usize>, Kind) {
+fn frames(result: &RunResult, still: Instant) -> (Vec<usize>, Kind) {
     let floors: usize = result
         .buildings
         .iter()
@@ -354,7 +389,8 @@ fn frames(result: &RunResult, still: usize) -> (Vec<usize>, Kind) {
         }
     }
     let most = most_frames(floors, Kind::Int16).max(2);
-    let mut chosen: BTreeSet<usize> = [0, count - 1, still.min(count - 1)].into();
+    let mut chosen: BTreeSet<usize> = [0, count - 1].into();
+    chosen.extend(still.rows.map(|row| row.min(count - 1)));
     let mut impacts: Vec<&ImpactResult> = result.gaps.iter().flat_map(|g| &g.impacts).collect();
     let size = |i: &ImpactResult| i.force().max(0.0);
     impacts.sort_by(|a, b| size(b).total_cmp(&size(a)));
@@ -386,18 +422,22 @@ fn controls(result: &RunResult, magnification: f64) -> String {
     let speeds: Vec<String> = SPEEDS.map(str::to_owned).to_vec();
     let magnifications: Vec<String> = MAGNIFICATIONS.map(|m| m.to_string()).to_vec();
     let (first, last) = (result.time[0], result.time[result.time.len() - 1]);
+    let (heading, hidden) = match result.gaps.iter().any(|gap| !gap.impacts.is_empty()) {
+        true => ("Around an impact", ""),
+        false => ("Motion over time", " hidden"),
+    };
     format!(
         "<div class=\"controls live\" role=\"group\" aria-label=\"Motion\" hidden>\n\
          <button type=\"button\" data-part=\"play\">Play</button>\n\
          <label>Speed <select data-part=\"speed\">{}</select></label>\n\
          <label>Displacements times <select data-part=\"magnification\">{}</select></label>\n\
-         <button type=\"button\" data-part=\"previous\">Previous impact</button>\n\
-         <button type=\"button\" data-part=\"next\">Next impact</button>\n\
+         <button type=\"button\" data-part=\"previous\"{hidden}>Previous impact</button>\n\
+         <button type=\"button\" data-part=\"next\"{hidden}>Next impact</button>\n\
          <label class=\"whole\">Time <input type=\"range\" data-part=\"time\" min=\"{first}\" max=\"{last}\" step=\"any\">\
          <output data-part=\"now\"></output></label>\n\
          <label class=\"whole\" data-part=\"jump\">Jump to impact <select data-part=\"impacts\" size=\"6\"></select></label>\n\
          </div>\n\
-         <div class=\"chart live\" data-part=\"history\" hidden>\n<h3>Around an impact</h3>\n\
+         <div class=\"chart live\" data-part=\"history\" hidden>\n<h3>{heading}</h3>\n\
          <div class=\"controls\" role=\"group\" aria-label=\"Range of the histories\">\n\
          <label>Level <select data-part=\"level\"></select></label>\n\
          <button type=\"button\" data-part=\"closer\">Zoom in</button>\n\
@@ -406,11 +446,28 @@ fn controls(result: &RunResult, magnification: f64) -> String {
          <button type=\"button\" data-part=\"later\">Later</button>\n\
          <button type=\"button\" data-part=\"everything\">Whole motion</button>\n</div>\n\
          <svg data-part=\"chart\" tabindex=\"0\" role=\"img\" aria-label=\"\" xmlns=\"http://www.w3.org/2000/svg\"></svg>\n\
-         <p class=\"note\">Values at output times, every {} s: all of them around impacts, and the extremes of each part of \
-         the motion elsewhere. Peaks in the tables are found inside the steps and can be higher. With the curves in focus: \
-         arrow keys move, + and - zoom, Home shows the whole motion; a click sets the time above.</p>\n</div>\n",
+         <p class=\"note\">{} With the curves in focus: arrow keys move, + and - zoom, Home shows the whole motion; a click sets the time above.</p>\n</div>\n",
         options(&speeds, "0.1"),
         options(&magnifications, &magnification.to_string()),
-        significant(result.time[1] - result.time[0]),
+        note(result),
+    )
+}
+
+/// What the curves pass through.
+fn note(result: &RunResult) -> String {
+    let step = significant(result.time[1] - result.time[0]);
+    if result.gaps.iter().all(|gap| gap.impacts.is_empty()) {
+        return format!(
+            "Values at output times, every {step} s: the extremes of each part of the motion."
+        );
+    }
+    let force = match result.gaps.iter().any(GapResult::jumps) {
+        true => "the peak of its force, or its impulse as a line where velocities jump",
+        false => "the peak of its force",
+    };
+    format!(
+        "Every impact as its list has it, with closing, opening and {force}, and values at output times, every \
+         {step} s: all of them around impacts, and the extremes of each part of the motion elsewhere. Distances are \
+         those of output times alone, and zero where a gap closes."
     )
 }

@@ -19,7 +19,14 @@
     if (!known.has(name)) known.set(name, document.querySelector(`[data-part="${name}"]`));
     return known.get(name);
   };
-  const shown = (x) => (Number.isFinite(x) ? String(Number(x.toPrecision(4))) : "–");
+  // Four figures, as tables have them.
+  const shown = (x) => {
+    if (!Number.isFinite(x)) return "–";
+    const size = Math.abs(x);
+    if (size < 1e-12) return "0";
+    if (size < 1e-4 || size >= 1e7) return x.toExponential(3).replace("e+", "e");
+    return x.toFixed(Math.max(0, 3 - Number(size.toExponential(3).split("e")[1])));
+  };
   const frames = numbers(data.frames);
   const picture = part("elevation");
   const scene = elevation(data.scene, picture);
@@ -29,15 +36,18 @@
     displacement: data.displacements[i] ? numbers(data.displacements[i]) : null,
   }));
   const columns = Object.fromEntries(
-    ["closes", "opens", "force", "impulse"].map((name) => [name, numbers(data.impacts[name])]),
+    ["closes", "opens", "peak", "force", "impulse"].map((name) => [name, numbers(data.impacts[name])]),
   );
   const impacts = data.impacts.contact.map((contact, i) => ({
     contact,
     closes: columns.closes[i],
     // A contact that outlasts the run has no end.
     opens: Number.isNaN(columns.opens[i]) ? Infinity : columns.opens[i],
+    peak: columns.peak[i],
     force: columns.force[i],
     impulse: columns.impulse[i],
+    // Velocities jump: an impulse without a force.
+    jumps: !(columns.force[i] > 0) && !Number.isNaN(columns.opens[i]),
   }));
   const [start, end] = [frames[0], frames[frames.length - 1]];
   let time = data.time;
@@ -73,6 +83,8 @@
     part("time").setAttribute("aria-valuetext", `${time.toFixed(3)} s`);
     part("now").textContent = `${time.toFixed(3)} s`;
     part("instant").textContent = time.toFixed(3);
+    part("previous").disabled = !impacts.length || impacts[0].closes >= time;
+    part("next").disabled = !impacts.length || impacts[impacts.length - 1].closes <= time;
     part("factor").textContent = magnification === 1 ? "to scale too" : `${magnification} times as wide as they are`;
     chart.mark();
   };
@@ -80,12 +92,30 @@
   const chart = (() => {
     const svg = part("chart");
     const space = "http://www.w3.org/2000/svg";
-    const series = data.series.map((s) => ({
-      ...s,
-      time: numbers(s.time),
-      opening: numbers(s.opening),
-      force: s.force ? numbers(s.force) : null,
-    }));
+    // Samples and the instants of impacts as one curve, in order of time.
+    const merged = (time, values, instants) => {
+      const points = Array.from(time, (t, i) => [t, values[i]]).concat(instants.filter(([t]) => Number.isFinite(t)));
+      points.sort((a, b) => a[0] - b[0]);
+      return { time: points.map(([t]) => t), values: points.map(([, y]) => y) };
+    };
+    const series = data.series.map((s) => {
+      const time = numbers(s.time);
+      const here = impacts.filter((impact) => impact.contact === s.contact && s.contact !== null);
+      const forced = here.filter((impact) => impact.force > 0);
+      const jumps = here.filter((impact) => impact.jumps);
+      const samples = s.force && numbers(s.force);
+      // Where a gap opens depends on the rule of separation; it closes at zero.
+      const closings = here.map(({ closes }) => [closes, 0]);
+      const instants = forced.flatMap(({ closes, peak, force, opens }) => [[closes, 0], [peak, force], [opens, 0]]);
+      const stems = jumps.flatMap(({ closes, impulse }) => [[closes, 0], [closes, impulse], [closes, 0]]);
+      return {
+        ...s,
+        opening: merged(time, numbers(s.opening), closings),
+        // Rigid impacts have no force but that which holds floors together.
+        force: samples && (!jumps.length || forced.length || samples.some((x) => x !== 0)) ? merged(time, samples, instants) : null,
+        impulse: jumps.length ? merged([start, end], [0, 0], stems) : null,
+      };
+    });
     const margin = { left: 64, right: 12 };
     let range = [start, end];
     let chosen = Math.max(0, series.findIndex((s) => s.contact === data.contact));
@@ -110,10 +140,22 @@
       for (let i = Math.ceil(low / step); i * step <= high; i++) out.push(Number((i * step).toPrecision(12)));
       return out;
     };
-    const panel = (values, factor, [top, bottom], names, kind) => {
-      const s = series[chosen];
-      const first = place(s.time, range[0]);
-      const last = Math.min(place(s.time, range[1]) + 1, s.time.length - 1);
+    // Labels of values an even step apart, as the figures of the page have them.
+    const raised = (x) => {
+      const [digits, power] = x.toExponential(1).replace(".0", "").split("e");
+      const above = String(Number(power)).replace(/./g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)]);
+      return (Math.abs(Number(digits)) === 1 ? digits.replace("1", "") : `${digits}×`) + `10${above}`;
+    };
+    const labels = (values) => {
+      const step = values.length > 1 ? values[1] - values[0] : Math.abs(values[0]) || 1;
+      const decimals = Math.max(0, Math.ceil(-Math.log10(step) - 1e-9));
+      const far = Math.max(...values.map(Math.abs)) >= 1e6 || decimals > 5;
+      return values.map((x) => (x === 0 ? "0" : far ? raised(x) : x.toFixed(decimals)).replace("-", "−"));
+    };
+    const panel = (curve, factor, [top, bottom], names, kind) => {
+      const { time: times, values } = curve;
+      const first = place(times, range[0]);
+      const last = Math.min(place(times, range[1]) + 1, times.length - 1);
       let [low, high] = [0, 0];
       for (let i = first; i <= last; i++) {
         const y = factor * values[i];
@@ -129,16 +171,18 @@
         heading.textContent = words;
         if (heading.getComputedTextLength() <= width - margin.left) break;
       }
-      for (const y of ticks(low, high, 4)) {
+      const even = ticks(low, high, 4);
+      const words = labels(even);
+      even.forEach((y, i) => {
         add("path", { class: y === 0 ? "zero" : "axis", d: `M${margin.left} ${up(y)}H${width - margin.right}` });
-        add("text", { x: margin.left - 6, y: up(y) + 4, "text-anchor": "end" }, shown(y));
-      }
+        add("text", { x: margin.left - 6, y: up(y) + 4, "text-anchor": "end" }, words[i]);
+      });
       let path = "";
       let pen = "M";
       for (let i = first; i <= last; i++) {
         const y = factor * values[i];
         if (Number.isFinite(y)) {
-          path += `${pen}${across(s.time[i]).toFixed(2)} ${up(y).toFixed(2)}`;
+          path += `${pen}${across(times[i]).toFixed(2)} ${up(y).toFixed(2)}`;
           pen = "L";
         } else pen = "M";
       }
@@ -148,10 +192,10 @@
       clip.setAttribute("width", Math.max(1, width - margin.left - margin.right));
       clip.setAttribute("height", bottom - top + 4);
       clip.setAttribute("viewBox", `${margin.left} ${top - 2} ${Math.max(1, width - margin.left - margin.right)} ${bottom - top + 4}`);
-      const curve = document.createElementNS(space, "path");
-      curve.setAttribute("class", kind);
-      curve.setAttribute("d", path);
-      clip.append(curve);
+      const line = document.createElementNS(space, "path");
+      line.setAttribute("class", kind);
+      line.setAttribute("d", path);
+      clip.append(line);
       svg.append(clip);
     };
     const redraw = () => {
@@ -160,18 +204,25 @@
       svg.replaceChildren();
       svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
       const s = series[chosen];
-      const middle = s.force ? (height - 40) / 2 : height - 40;
-      panel(s.opening, 1e3, [24, middle - 4], ["Distance across the gap (mm), 0 and below: contact", "Distance (mm), 0 and below: contact", "Distance (mm)"], "opening");
-      if (s.force) panel(s.force, 1e-3, [middle + 32, height - 36], ["Contact force (kN)"], "force");
+      const panels = [
+        [s.opening, 1e3, ["Distance across the gap (mm), 0 and below: contact", "Distance (mm), 0 and below: contact", "Distance (mm)"], "opening"],
+        [s.force, 1e-3, ["Contact force (kN)"], "force"],
+        [s.impulse, 1e-3, ["Impulse (kN s): velocities jump, without a force", "Impulse (kN s)"], "impulse"],
+      ].filter(([curve]) => curve);
+      const high = (height - 40) / panels.length;
+      panels.forEach(([curve, factor, names, kind], i) => panel(curve, factor, [i * high + 24 + 8 * (i > 0), (i + 1) * high - 4 + 8 * (i > 0)], names, kind));
       for (const t of ticks(range[0], range[1], Math.max(2, Math.floor(width / 110)))) {
         add("text", { x: across(t), y: height - 18, "text-anchor": "middle" }, String(t));
       }
       add("text", { x: width / 2, y: height - 3, "text-anchor": "middle" }, "time (s)");
+      // Behind the curves, of which it would hide the impact at its time.
       now = add("path", { class: "now" });
+      svg.prepend(now);
       mark();
+      const digits = Math.min(12, Math.max(3, 2 - Math.floor(Math.log10(range[1] - range[0]))));
       svg.setAttribute(
         "aria-label",
-        `Opening and contact force of ${s.name} from ${range[0].toFixed(3)} to ${range[1].toFixed(3)} s`,
+        `Opening and ${s.impulse ? "impulses" : "contact force"} of ${s.name} from ${range[0].toFixed(digits)} to ${range[1].toFixed(digits)} s`,
       );
       svg.dataset.from = String(range[0]);
       svg.dataset.to = String(range[1]);
@@ -183,8 +234,10 @@
       const inside = x >= margin.left - 1 && x <= width - margin.right + 1;
       now.setAttribute("d", inside ? `M${x} 20V${height - 34}` : "");
     };
+    // As close as to see the shortest contact.
+    const lasts = impacts.map(({ closes, opens }) => opens - closes).filter((x) => x > 0);
+    const least = lasts.reduce((a, b) => Math.min(a, 4 * b), 20 * data.step);
     const show = (low, high) => {
-      const least = 20 * data.step;
       const wide = Math.min(Math.max(high - low, least), end - start);
       low = Math.min(Math.max((low + high - wide) / 2, start), end - wide);
       range = [low, low + wide];

@@ -59,7 +59,8 @@ pub(super) fn all(
         json!({
             "name": name(result, *g, *l),
             "contact": contact((*g, *l)),
-            "time": packed(&time, Kind::Float32),
+            // With all digits: contacts may last microseconds.
+            "time": packed(&time, Kind::Float64),
             "opening": packed(&column(&gap.penetration, -1.0), Kind::Float32),
             "force": force,
         })

@@ -25,10 +25,12 @@ PAPER = {"A4": (8.27, 11.69), "Letter": (8.5, 11.0)}
 MARGIN = 2 * 12 / 25.4
 
 
-# Headings of the curves of a run that pass the edge of their picture, once that has its new size.
+# Texts of the curves of a run that pass an edge of their picture, once that has its new size.
 CUT = (
     "(async () => { for (let i = 0; i < 2; i++) await new Promise((next) => requestAnimationFrame(next));"
-    "return [...document.querySelectorAll('[data-heading]')].filter((e) => e.getBoundingClientRect().right > e.closest('svg').getBoundingClientRect().right + 0.5).map((e) => e.textContent); })()"
+    "return [...document.querySelectorAll('[data-part=chart] text')].filter((e) => {"
+    " const [text, all] = [e, e.closest('svg')].map((e) => e.getBoundingClientRect());"
+    " return text.right > all.right + 0.5 || text.left < all.left - 0.5; }).map((e) => e.textContent); })()"
 )
 
 
@@ -215,7 +217,7 @@ def reaches(page, file, data):
     change(page, "impacts", hardest, "change")
     kind = "impulse" if rigid else "force"
     path = f"document.querySelector('[data-part=chart] path.{kind}')"
-    top = page.value(f"{path}.getBBox().height")
+    top = page.value(f"{path}.getBBox().y")
     scale = (
         "(() => { const t = [...document.querySelectorAll('[data-part=chart] text')];"
         f" const h = t.findIndex((e) => e.dataset.heading === '{kind}');"
@@ -224,7 +226,8 @@ def reaches(page, file, data):
     ticks = [(text, y) for text, y in page.value(scale) if re.fullmatch(r"[\d.]+", text)][:2]
     (low, zero), (high, above) = ((float(text), y) for text, y in ticks)
     assert low == 0, ticks
-    drawn = top * (high - low) / (zero - above)
+    # Labels stand 4 below what they name; a force may be negative before a contact ends.
+    drawn = (zero - 4 - top) * (high - low) / (zero - above)
     most = 1e-3 * numpy.nanmax(sizes)
     assert abs(drawn - most) < 0.02 * most, (drawn, most)
 

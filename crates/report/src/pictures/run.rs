@@ -113,17 +113,23 @@ impl<'s> Responses<'s> {
         let roofs = roofs.map(|(c, b)| c.curve(b.name().to_owned()));
         let of = "Roof displacement with pounding (mm)";
         let mut panels = vec![greatest(of, "buildings", roofs.collect())];
-        let (mut forces, mut impulses) = (Vec::new(), Vec::new());
+        let (mut forces, mut impulses, mut hit) = (Vec::new(), Vec::new(), false);
         for (curve, level) in self.forces.into_iter().zip(drawn(system)) {
             let here = |i: &&Impact| system.gaps()[i.gap].first_level + i.level == level;
             let here: Vec<Hit> = impacts.iter().filter(here).map(Hit::of).collect();
+            hit |= !here.is_empty();
             let curve = curve.curve(system.name_of_level(level));
             let (force, impulse) = of_level(curve, &here, end);
             forces.extend(force);
             impulses.extend(impulse);
         }
         if !forces.is_empty() || impulses.is_empty() {
-            let caption = "Contact force at the highest level (kN), with closing, peak and opening of every impact";
+            let caption = match hit {
+                true => {
+                    "Contact force at the highest level (kN), with closing, peak and opening of every impact"
+                }
+                false => "Contact force at the highest level (kN): no impact there",
+            };
             panels.push(greatest(caption, "gaps", forces));
         }
         if !impulses.is_empty() {

@@ -468,6 +468,6 @@ fn note(result: &RunResult) -> String {
     format!(
         "Every impact as its list has it, with closing, opening and {force}, and values at output times, every \
          {step} s: all of them around impacts, and the extremes of each part of the motion elsewhere. Distances are \
-         those of output times alone, and zero where a gap closes."
+         those of output times, and zero where a gap closes and throughout contacts between two of them."
     )
 }

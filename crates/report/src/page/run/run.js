@@ -104,13 +104,14 @@
       const forced = here.filter((impact) => impact.force > 0);
       const jumps = here.filter((impact) => impact.jumps);
       const samples = s.force && numbers(s.force);
-      // Where a gap opens depends on the rule of separation; it closes at zero.
-      const closings = here.map(({ closes }) => [closes, 0]);
+      // A gap closes at zero. How deep a contact goes that no sample is of, the curve does not know.
+      const unseen = ({ closes, opens }) => !(time[place(time, opens)] >= closes);
+      const touches = here.flatMap((impact) => (unseen(impact) ? [[impact.closes, 0], [impact.opens, 0]] : [[impact.closes, 0]]));
       const instants = forced.flatMap(({ closes, peak, force, opens }) => [[closes, 0], [peak, force], [opens, 0]]);
       const stems = jumps.flatMap(({ closes, impulse }) => [[closes, 0], [closes, impulse], [closes, 0]]);
       return {
         ...s,
-        opening: merged(time, numbers(s.opening), closings),
+        opening: merged(time, numbers(s.opening), touches),
         // Rigid impacts have no force but that which holds floors together.
         force: samples && (!jumps.length || forced.length || samples.some((x) => x !== 0)) ? merged(time, samples, instants) : null,
         impulse: jumps.length ? merged([start, end], [0, 0], stems) : null,
@@ -212,7 +213,9 @@
       const high = (height - 40) / panels.length;
       panels.forEach(([curve, factor, names, kind], i) => panel(curve, factor, [i * high + 24 + 8 * (i > 0), (i + 1) * high - 4 + 8 * (i > 0)], names, kind));
       for (const t of ticks(range[0], range[1], Math.max(2, Math.floor(width / 110)))) {
-        add("text", { x: across(t), y: height - 18, "text-anchor": "middle" }, String(t));
+        // A label at the end has room to its right.
+        const label = String(t);
+        add("text", { x: Math.min(across(t), width - 3.6 * label.length), y: height - 18, "text-anchor": "middle" }, label);
       }
       add("text", { x: width / 2, y: height - 3, "text-anchor": "middle" }, "time (s)");
       // Behind the curves, of which it would hide the impact at its time.

@@ -646,10 +646,13 @@ fn swept(answer: Answer<'_>) -> String {
         }
     }
     // Of the gap whose width varies: what happens in the others of a row is not of this width.
-    let of_records = match answer.text("/sweep/gap") {
-        "" => "maximum over records".to_owned(),
-        gap => format!("{gap}, maximum over records"),
+    let over = match answer.list("/records").len() {
+        1 => None,
+        _ => Some("maximum over records"),
     };
+    let gap = Some(answer.text("/sweep/gap")).filter(|gap| !gap.is_empty());
+    let of_records: Vec<&str> = gap.into_iter().chain(over).collect();
+    let of_records = of_records.join(", ");
     columns.extend([
         Column::of("impacts", "maximum /sweep/runs/*/+/impacts", 1.0).below(of_records.clone()),
         Column::of("force (kN)", "maximum /sweep/runs/*/+/peak_force", 1.0e-3).below(of_records),

@@ -258,8 +258,8 @@ fn energy_has_the_sources_of_the_case() {
     still.buildings[0].shear_peaks = peaks([1.1e-12, 0.0], [2.2e-12, 0.0]);
     let html = is_whole(&page(&still, "pair.h5").unwrap());
     for text in [
-        "1.000e-15</data> kJ relative to the ground",
-        "1.100e-15</data> kN, alone",
+        "brings 1.000e-15 kJ relative to the ground",
+        "storey 1: 1.100e-15 kN, alone 2.200e-15 kN",
         "<td>1.100e-15</td><td>2.200e-15</td><td>0.50</td>",
     ] {
         assert!(html.contains(text), "{text}\n{html}");

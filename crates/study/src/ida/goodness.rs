@@ -613,7 +613,7 @@ mod tests {
         let shown = |si: f64| ShownIntensity { si, in_g: true };
         let said = |assumed| {
             let remark = FitRemark::BelowHazard {
-                first: shown(0.02 * pounding_catalogue::STANDARD_GRAVITY),
+                first: shown(0.02 * STANDARD_GRAVITY),
                 probability: 0.000_123,
                 assumed,
                 uncounted: 0.003_41,
@@ -624,7 +624,7 @@ mod tests {
             said(None),
             "the hazard curve begins at 0.0200 g, where the probability of the state is 1.23e-4 and not zero: the frequency and its bounds are too low by what weaker motions add (0.00341 per year if the first power law of the curve went on); begin the curve lower"
         );
-        let assumed = said(Some(shown(pounding_catalogue::STANDARD_GRAVITY)));
+        let assumed = said(Some(shown(STANDARD_GRAVITY)));
         assert!(
             assumed.contains(
                 "nor a bound, as it and its bounds leave out what weaker motions add (0.00341"

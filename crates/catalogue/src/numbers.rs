@@ -69,6 +69,18 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// With this many decimals, or with three digits and an exponent where the decimals would make a
+/// zero of what is none.
+#[must_use]
+pub fn fixed_or_small(value: f64, decimals: usize) -> String {
+    let text = fixed(value, decimals);
+    let looks_zero = text.bytes().all(|b| matches!(b, b'0' | b'.'));
+    match looks_zero && value != 0.0 {
+        true => format!("{value:.2e}"),
+        false => text,
+    }
+}
+
 /// All digits, with an exponent where that is shorter.
 #[must_use]
 pub fn all_digits(value: f64) -> String {
@@ -127,6 +139,21 @@ mod tests {
             (all_digits(93.5e6), all_digits(0.65)),
             ("9.35e7".into(), "0.65".into())
         );
+    }
+
+    #[test]
+    fn small_numbers_are_no_zeros() {
+        for (value, text) in [
+            (0.0, "0.000"),
+            (-0.0, "0.000"),
+            (0.000_6, "0.001"),
+            (0.000_4, "4.00e-4"),
+            (-1.234e-9, "-1.23e-9"),
+            (12.345_6, "12.346"),
+            (f64::NAN, "NaN"),
+        ] {
+            assert_eq!(fixed_or_small(value, 3), text);
+        }
     }
 
     #[test]

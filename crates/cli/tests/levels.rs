@@ -434,6 +434,10 @@ fn coordinates_of_a_result() {
     assert!(numbers("gap/b-wall/right_elevation")[0].is_nan());
     assert_eq!(units("gap/a-b/left_elevation"), "m");
     assert_eq!(units("gap/a-b/left_storey"), "1");
+    let peak = file.dataset("building/a/peak/acceleration_absolute");
+    let said = peak.unwrap().attr("long_name").unwrap();
+    let said = said.read_scalar::<VarLenUnicode>().unwrap();
+    assert_eq!(said.as_str(), "peak absolute acceleration");
     let time = file.dataset("time").unwrap().loc_info().unwrap();
     for group in [
         "ground",

@@ -3,11 +3,12 @@
 use std::borrow::Cow;
 use std::sync::Arc;
 
+use pounding_catalogue::numbers::fixed_or_small;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest as _, Sha256};
 
 use crate::direction::Orientation;
-use crate::error::{GroundMotionError, bound};
+use crate::error::{GroundMotionError, bound, rounded};
 use crate::recording::unusual_step;
 use crate::start_times::later;
 use crate::station_xml::ResponseFile;
@@ -214,8 +215,8 @@ impl Accelerogram {
             origin.warnings.push(message.to_owned());
         } else if peak.value < 1.0e-3 {
             origin.warnings.push(format!(
-                "peak acceleration {:.3e} m/s2 is not felt; check the unit",
-                peak.value
+                "peak acceleration {} m/s2 is not felt; check the unit",
+                rounded(peak.value, 4)
             ));
         }
         self.history.origin = Some(origin);
@@ -433,12 +434,12 @@ impl Accelerogram {
         lines.extend(self.history.steps.iter().map(ToString::to_string));
         let peak = self.peak();
         lines.push(format!(
-            "{} samples at {} s, duration {} s, peak {:.5} m/s2 = {:.5} g at {:.4} s, scale {}",
+            "{} samples at {} s, duration {} s, peak {} m/s2 = {} g at {:.4} s, scale {}",
             self.samples.len(),
             self.time_step,
             (self.duration() * 1e9).round() / 1e9,
-            peak.value,
-            peak.value / AccelerationUnit::StandardGravity.in_si(),
+            fixed_or_small(peak.value, 5),
+            fixed_or_small(peak.value / AccelerationUnit::StandardGravity.in_si(), 5),
             peak.time,
             self.history.scale
         ));

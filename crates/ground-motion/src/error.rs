@@ -398,7 +398,13 @@ fn brief(value: f64) -> String {
 
 /// A bound with six digits: those of products carry noise.
 pub(crate) fn bound(value: f64) -> String {
-    brief(format!("{value:.5e}").parse().unwrap_or(value))
+    rounded(value, 6)
+}
+
+/// A number with so many digits at most, without an exponent where it is of ordinary size.
+pub(crate) fn rounded(value: f64, digits: usize) -> String {
+    let after_first = digits.saturating_sub(1);
+    brief(format!("{value:.after_first$e}").parse().unwrap_or(value))
 }
 
 /// A step (s) between times, with decimals by which the smallest and the largest differ.

@@ -1,6 +1,6 @@
 //! Accelerations, velocities and displacements of one channel held against one another.
 
-use crate::error::bound;
+use crate::error::{bound, rounded};
 use crate::recording::{Sampling, Series};
 
 /// Steps on either side among which the largest change counts: what a change is compared with.
@@ -70,6 +70,7 @@ fn difference(of: &Series, integral: &Series) -> Option<String> {
     let first = *places.first()?;
     let (change, expected) = changes[first];
     let unit = integral.quantity.si_symbol();
+    let [change, expected] = [change, expected].map(|x| rounded(x, 4));
     let [start, end] = [first, first + 1].map(|i| bound(i as f64 * long));
     let more = match places.len() - 1 {
         0 => String::new(),
@@ -77,7 +78,7 @@ fn difference(of: &Series, integral: &Series) -> Option<String> {
         more => format!(", and in {more} more steps"),
     };
     Some(format!(
-        "from {start} s to {end} s the {0} of this channel changes by {change:.3e} {unit}, where its {1} gives {expected:.3e} {unit}{more}: one of them is damaged, or they were not processed alike; get the record again",
+        "from {start} s to {end} s the {0} of this channel changes by {change} {unit}, where its {1} gives {expected} {unit}{more}: one of them is damaged, or they were not processed alike; get the record again",
         integral.quantity, of.quantity,
     ))
 }

@@ -2,7 +2,7 @@
 
 use crate::accelerogram::{Accelerogram, Processing};
 use crate::direction::{Direction, Orientation};
-use crate::error::{GroundMotionError, bound};
+use crate::error::{GroundMotionError, bound, rounded};
 use crate::options::{Offset, ReadOptions};
 use crate::quantity::Quantity;
 use crate::recording::{Recording, Sampling, Series, WithoutSensitivity};
@@ -205,13 +205,14 @@ fn ready(
             *a -= mean;
         }
         series.origin.mean_removed = true;
-        series
-            .origin
-            .warnings
-            .push(format!("the mean, {mean:.6e} m/s2, was taken off"));
+        series.origin.warnings.push(format!(
+            "the mean, {} m/s2, was taken off",
+            rounded(mean, 7)
+        ));
     } else if mean.abs() > OFFSET_TO_NAME * series.peak().value {
         series.origin.warnings.push(format!(
-            "the mean is {mean:.6e} m/s2: an offset of the instrument?"
+            "the mean is {} m/s2: an offset of the instrument?",
+            rounded(mean, 7)
         ));
     }
     let (mut samples, time_step) = match series.sampling {

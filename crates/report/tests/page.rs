@@ -316,11 +316,25 @@ fn energy_has_the_sources_of_the_case() {
     // Round-off has no parts.
     let mut still = result();
     still.energy.input.fill(1.0e-12);
+    still.residual_ratio = 0.3;
     let html = is_whole(&page(&still, "pair.h5").unwrap());
     assert!(
         html.contains("There is no energy on the output grid"),
         "{html}"
     );
+    // Of models as small as that it has.
+    still.residual_ratio = 1.0e-14;
+    still.energy.viscous.fill(0.75e-12);
+    still.energy.impact.fill(0.25e-12);
+    still.buildings[0].shear_peaks = peaks([1.1e-12, 0.0], [2.2e-12, 0.0]);
+    let html = is_whole(&page(&still, "pair.h5").unwrap());
+    for text in [
+        "brings 1.000e-15 kJ relative to the ground",
+        "storey 1: 1.100e-15 kN, alone 2.200e-15 kN",
+        "<td>1.100e-15</td><td>2.200e-15</td><td>0.50</td>",
+    ] {
+        assert!(html.contains(text), "{text}\n{html}");
+    }
 }
 
 /// Of a building with a stiffness matrix alone.

@@ -116,6 +116,60 @@ fn the_answer_of_a_gap_check_comes_first() {
     assert!(answer < place("second"));
 }
 
+/// Heads of widths say what they range over; of one record and one level there is no range.
+#[test]
+fn widths_say_what_they_range_over() {
+    let suite = gap(&check(), &[], &inputs());
+    assert_eq!(suite.matches("width over records (mm)").count(), 2);
+    let mut two = check();
+    let levels = &mut two["gaps"][0]["levels"];
+    let level = levels[0].clone();
+    levels.as_array_mut().unwrap().push(level);
+    let html = gap(&two, &[], &inputs());
+    for text in [
+        "width over records and levels (mm)",
+        "width over records (mm)",
+        "The width of a record is that of the level that asks for most.",
+        "minimum of width / demand",
+        "the maximum over storeys and records",
+    ] {
+        assert!(html.contains(text), "{text}\n{html}");
+    }
+    let mut one = check();
+    one["records"].as_array_mut().unwrap().pop();
+    one["gaps"][0]["demand"] = json!([0.0301]);
+    let html = gap(&one, &[], &inputs());
+    is_whole(&html);
+    assert_eq!(html.matches(">width (mm)</th>").count(), 3, "{html}");
+    for text in [
+        "over records",
+        "and records",
+        "minimum of width",
+        "maximum demand",
+    ] {
+        assert!(!html.contains(text), "{text}\n{html}");
+    }
+}
+
+/// Where no isolated building moves there is no ratio, and no figure of it.
+#[test]
+fn what_does_not_move_has_no_ratio() {
+    let mut still = check();
+    let storeys =
+        json!([{ "displacement": null, "storey_shear": null, "acceleration_absolute": 2.5 }]);
+    still["records"][0]["amplification"] = json!([storeys]);
+    still["sweep"]["runs"][0][0]["amplification"] = json!([storeys]);
+    let html = gap(&still, &[], &inputs());
+    is_whole(&html);
+    for text in [
+        "There is no figure of displacement, storey shear: no isolated building has any",
+        "<td>\u{2013}</td><td>\u{2013}</td><td>2.500</td>",
+        "a dash where the isolated building has none",
+    ] {
+        assert!(html.contains(text), "{text}\n{html}");
+    }
+}
+
 /// A gap that closes because another gap of the row does: its own demand is no remedy.
 #[test]
 fn a_gap_that_neighbours_close() {

@@ -307,6 +307,9 @@ pub struct LevelOutcome {
 pub const VELOCITY_JUMPS: &str =
     "Rigid impacts are jumps of the velocity: floor accelerations leave them out.";
 
+/// The same where forces of contacts stand beside accelerations.
+pub const VELOCITY_JUMPS_HAVE_NO_FORCE: &str = "Rigid impacts are jumps of the velocity: floor accelerations leave them out. They have no contact force.";
+
 /// Responses of levels that are the shear of a hit column, below and above the hit.
 pub const COLUMN_SHEARS: [&str; 2] = ["column_shear_below", "column_shear_above"];
 

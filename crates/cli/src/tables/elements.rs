@@ -1,12 +1,12 @@
 //! Storeys with laws, and links.
 
 use pounding_case::Case;
-use pounding_catalogue::numbers::{fixed, shown_unit};
+use pounding_catalogue::numbers::{fixed, fixed_or_small, shown_unit};
 use pounding_hysteresis::{LawDescriptor, Verification};
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{Element, LinkedMotion, Peak, System};
 
-use super::{Run, new_table};
+use super::{Run, decimal, new_table};
 
 /// What the storeys with laws of a building went through; empty without any.
 pub(super) fn storeys(run: &Run<'_>, index: usize) -> String {
@@ -28,16 +28,24 @@ pub(super) fn storeys(run: &Run<'_>, index: usize) -> String {
             s.law.to_owned(),
             ratio(s.ductility),
             format!("{:.3}", 100.0 * s.residual_drift_ratio),
-            kilojoules(s.hysteretic_energy),
+            kilojoules(s.hysteretic_energy, run.outcome.energy.largest_input, 3),
         ]);
     }
     let building = &run.system().buildings()[index];
     format!("{table}\n{}", sources(descriptors(building)))
 }
 
-/// Energy in kJ; what is round-off has no sign.
-pub(super) fn kilojoules(energy: f64) -> String {
-    fixed(energy * 1e-3, 3)
+/// Part of the largest input energy below which a part of it may look like none.
+const SMALL_PART: f64 = 1e-4;
+
+/// Energy (J) of a run with this largest input energy, in kJ with so many decimals; what is
+/// round-off has no sign.
+pub(super) fn kilojoules(energy: f64, largest_input: f64, decimals: usize) -> String {
+    let shown = energy * 1e-3;
+    match energy.abs() < SMALL_PART * largest_input {
+        true => fixed(shown, decimals),
+        false => fixed_or_small(shown, decimals),
+    }
 }
 
 fn ratio(peak: Option<Peak>) -> String {
@@ -67,14 +75,14 @@ pub(super) fn link(run: &Run<'_>, index: usize) -> String {
             place.label(),
             place.elevations_label(),
             format!(
-                "{:.2} @{:.2}",
-                l.deformation.value * length,
+                "{} @{:.2}",
+                decimal(l.deformation.value * length, 2),
                 l.deformation.time
             ),
-            format!("{:.1} @{:.2}", l.force.value * force, l.force.time),
+            format!("{} @{:.2}", decimal(l.force.value * force, 1), l.force.time),
             ratio(l.ductility),
             fixed(l.final_deformation * length, 2),
-            kilojoules(l.energy_dissipated),
+            kilojoules(l.energy_dissipated, run.outcome.energy.largest_input, 3),
         ]);
     }
     let descriptors = elements(system, index).iter().map(|e| e.law.descriptor());
@@ -226,7 +234,10 @@ mod tests {
     #[test]
     fn zero_has_no_sign() {
         for (energy, text) in [(-1e-9, "0.000"), (0.4, "0.000"), (-2.0, "-0.002")] {
-            assert_eq!(kilojoules(energy), text);
+            assert_eq!(kilojoules(energy, 5e3, 3), text);
         }
+        // Of a run that has no more.
+        assert_eq!(kilojoules(0.4, 2.0, 3), "4.00e-4");
+        assert_eq!(kilojoules(0.0, 0.0, 3), "0.000");
     }
 }

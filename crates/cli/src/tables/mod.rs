@@ -9,7 +9,7 @@ mod width;
 use comfy_table::{CellAlignment, Row};
 use pounding_assembly::Assembly;
 use pounding_case::Case;
-use pounding_catalogue::numbers::{fixed, shown_unit, six_digits};
+use pounding_catalogue::numbers::{fixed_or_small, shown_unit, six_digits};
 use pounding_catalogue::wording::counted;
 use pounding_gap_element::Verification;
 use pounding_time_history::{
@@ -100,12 +100,12 @@ pub fn new_long_table(header: impl Into<Row>) -> Table {
     table
 }
 
-/// A number with this many decimals, or by its power of ten where it is long.
+/// A number with this many decimals, or by its power of ten where it is long or would look like a zero.
 pub fn decimal(x: f64, digits: usize) -> String {
     if x.is_finite() && x.abs() >= 1e7 {
         format!("{x:.digits$e}")
     } else {
-        format!("{x:.digits$}")
+        fixed_or_small(x, digits)
     }
 }
 
@@ -200,16 +200,20 @@ fn gap(run: &Run<'_>, index: usize) -> String {
         let or_dash = |x: Option<String>| x.unwrap_or_else(|| "-".to_owned());
         table.add_row([
             format!("{} at {}", at.place.label(), at.place.elevations_label()),
-            format!("{:.1}", at.width * 1e3),
+            decimal(at.width * 1e3, 1),
             l.impacts.to_string(),
             or_dash(l.first_contact.map(|t| format!("{t:.4}"))),
-            format!("{:.3}", l.approach_velocity_max),
+            decimal(l.approach_velocity_max, 3),
             match l.impacts {
                 0 => "-".to_owned(),
-                _ if rigid => format!("{:.2}", l.impulse_max * 1e-3),
-                _ => format!("{:.1} @{:.2}", l.peak_force.value * 1e-3, l.peak_force.time),
+                _ if rigid => decimal(l.impulse_max * 1e-3, 2),
+                _ => format!(
+                    "{} @{:.2}",
+                    decimal(l.peak_force.value * 1e-3, 1),
+                    l.peak_force.time
+                ),
             },
-            fixed(l.energy_dissipated * 1e-3, 2),
+            kilojoules(l.energy_dissipated, run.outcome.energy.largest_input, 2),
             or_dash(l.achieved_restitution.map(|e| format!("{e:.3}"))),
         ]);
     }
@@ -308,21 +312,22 @@ fn energy(run: &Run<'_>) -> String {
     } else {
         "strain"
     };
+    let part = |energy: f64| kilojoules(energy, e.largest_input, 3);
     let hysteretic = if run.system().elements().is_empty() {
         String::new()
     } else {
-        format!("hysteretic {} + ", kilojoules(e.end.hysteretic))
+        format!("hysteretic {} + ", part(e.end.hysteretic))
     };
     format!(
         "\nEnergy at {} s (kJ): input {} = viscous {} + {}impact {} + kinetic {} + {} {}; residual {:.1e} of the largest input\n{}: {}, {} rejected, {}; {:.2} s\n",
         run.outcome.end_time,
-        kilojoules(e.end.input),
-        kilojoules(e.end.viscous),
+        part(e.end.input),
+        part(e.end.viscous),
         hysteretic,
-        kilojoules(e.end.impact),
-        kilojoules(e.end.kinetic),
+        part(e.end.impact),
+        part(e.end.kinetic),
         strain,
-        kilojoules(e.end.strain),
+        part(e.end.strain),
         e.residual_ratio,
         run.outcome.method.title,
         counted(statistics.steps, "step"),

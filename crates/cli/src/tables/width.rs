@@ -4,6 +4,7 @@ use std::fmt;
 use std::ops::{Deref, DerefMut};
 
 use comfy_table::{ColumnConstraint, ContentArrangement, Width};
+use unicode_width::UnicodeWidthStr;
 
 /// Least width that is taken from `COLUMNS`.
 const LEAST: u16 = 20;
@@ -138,14 +139,14 @@ fn bounded(table: &comfy_table::Table, width: Option<u16>, least: &[u16]) -> com
     table
 }
 
-/// Characters of the longest word of each column.
+/// Width of the longest word of each column.
 fn longest_words(table: &comfy_table::Table) -> Vec<u16> {
     let mut longest: Vec<u16> = vec![1; table.column_iter().count()];
     let header = table.header().into_iter();
     for row in header.chain(table.row_iter()) {
         for (longest, cell) in longest.iter_mut().zip(row.cell_iter()) {
             let content = cell.content();
-            let words = content.split_whitespace().map(|w| w.chars().count());
+            let words = content.split_whitespace().map(UnicodeWidthStr::width);
             let word = words.max().unwrap_or(0);
             *longest = (*longest).max(u16::try_from(word).unwrap_or(u16::MAX - PADDING));
         }
@@ -164,22 +165,21 @@ pub fn paragraphs(text: &str) -> String {
 fn broken(text: &str, width: usize) -> String {
     let mut lines = Vec::new();
     for line in text.lines() {
-        if line.starts_with(['|', '+']) || line.chars().count() <= width {
+        if line.starts_with(['|', '+']) || line.width() <= width {
             lines.push(line.to_owned());
             continue;
         }
         let hang = " ".repeat(hanging(line).min(width / 3));
         let mut rest = line.trim_end().to_owned();
-        while rest.chars().count() > width {
+        while rest.width() > width {
             let begun = rest.len() - rest.trim_start().len();
             let blanks = || {
-                rest.char_indices()
-                    .enumerate()
-                    .filter(|(_, (at, c))| *c == ' ' && *at > begun)
+                let blanks = rest.match_indices(' ').map(|(at, _)| at);
+                blanks.filter(|at| *at > begun)
             };
             // Beyond the width where a word alone is longer.
-            let fits = blanks().take_while(|(column, _)| *column <= width).last();
-            let Some((_, (at, _))) = fits.or_else(|| blanks().next()) else {
+            let fits = blanks().take_while(|at| rest[..*at].width() <= width);
+            let Some(at) = fits.last().or_else(|| blanks().next()) else {
                 break;
             };
             let tail = rest.split_off(at);
@@ -195,10 +195,10 @@ fn broken(text: &str, width: usize) -> String {
 /// label and blanks, or where it begins itself.
 fn hanging(line: &str) -> usize {
     let text = line.trim_start();
-    let begun = line.chars().count() - text.chars().count();
+    let begun = line.width() - text.width();
     let labelled = text.split_once("  ").map(|(label, rest)| {
         let blanks = 2 + rest.len() - rest.trim_start().len();
-        begun + label.chars().count() + blanks
+        begun + label.width() + blanks
     });
     labelled.filter(|at| *at <= 20).unwrap_or(begun)
 }
@@ -221,7 +221,7 @@ mod tests {
     }
 
     fn widest(text: &str) -> usize {
-        text.lines().map(|l| l.chars().count()).max().unwrap_or(0)
+        text.lines().map(UnicodeWidthStr::width).max().unwrap_or(0)
     }
 
     #[test]
@@ -280,5 +280,21 @@ mod tests {
             "one two\nthree four\n  five six\n  seven\n  eight\n\n| a table | of its own width |\nsource\n    nine ten\n    eleven\nalonglongwordofitsown\nx"
         );
         assert_eq!(broken(text, 80), text);
+    }
+
+    /// Signs of East Asia take two columns each, combined marks none.
+    #[test]
+    fn paragraphs_are_as_wide_as_they_look() {
+        let name = "建築物甲館（東側）";
+        let text = format!("{name}-{name} {name} e\u{301}e\u{301} and more");
+        for width in [40, 60] {
+            let lines = broken(&text, width);
+            assert!(widest(&lines) <= width, "{width}:\n{lines}");
+        }
+        assert_eq!(
+            broken(&format!("{name} e\u{301}e\u{301} b"), 21),
+            format!("{name} e\u{301}e\u{301}\nb")
+        );
+        assert_eq!(hanging(&format!("{}  text", &name[..9])), 8);
     }
 }

@@ -81,6 +81,50 @@ fn alike_buildings_need_no_sweep() {
     assert_eq!(swept["runs"][0][0]["impacts"], 0, "{swept}");
 }
 
+/// Of buildings that do not move no ratio is known, and none is drawn.
+#[test]
+fn what_does_not_move_has_no_ratio() {
+    let folder = alike_buildings("20 mm");
+    let path = folder.path().join("case.toml");
+    let case = std::fs::read_to_string(&path).unwrap();
+    let file = case.lines().find(|line| line.starts_with("file = "));
+    let case = case.replace(file.unwrap(), "file = \"still.csv\"");
+    std::fs::write(&path, case).unwrap();
+    let rows: String = (0..100)
+        .map(|i| format!("{:.2},0\n", f64::from(i) * 0.01))
+        .collect();
+    let record = format!("time_s,acceleration_m/s2\n{rows}");
+    std::fs::write(folder.path().join("still.csv"), record).unwrap();
+    let call = |arguments: &[&str]| gap_in(folder.path(), arguments);
+    let swept = ["--to", "10 mm", "--points", "2"];
+    let all = [
+        &swept[..],
+        &["--all", "--plot", "x.svg", "--report", "x.html"],
+    ]
+    .concat();
+    let output = call(&all);
+    let shown = text(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    assert!(
+        !shown.contains("x1.000") && !shown.contains("NaN"),
+        "{shown}"
+    );
+    let svg = std::fs::read_to_string(folder.path().join("x.svg")).unwrap();
+    assert!(
+        svg.contains("No amplification is known") && !svg.contains("with pounding"),
+        "{svg}"
+    );
+    let html = std::fs::read_to_string(folder.path().join("x.html")).unwrap();
+    assert!(html.contains("no isolated building has any"), "{html}");
+    let report = json(&call(&[&swept[..], &["--json"]].concat()));
+    for of in [
+        &report["records"][0]["amplification"],
+        &report["sweep"]["runs"][0][0]["amplification"],
+    ] {
+        assert!(of[0][0]["displacement"].is_null(), "{of}");
+    }
+}
+
 /// Where nothing is demanded, a rule is told with the widest gap that it asks for, which the
 /// verdict beside it and `--json` mean too.
 #[test]

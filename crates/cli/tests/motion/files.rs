@@ -215,7 +215,7 @@ fn convert_warns_of_mean_and_peak() {
         .collect();
     std::fs::write(&file, format!("time_s,acceleration_m_s2\n{rows}")).unwrap();
     let told = [
-        "warning: the mean is 4.200000e1 m/s2: an offset of the instrument?",
+        "warning: the mean is 42 m/s2: an offset of the instrument?",
         "warning: peak acceleration 44.000 m/s2 is larger than any recorded; check the unit",
     ];
     for to in ["pounding_csv", "peer_at2", "plain_columns"] {

@@ -1,6 +1,7 @@
 //! What a step may do to a record, and is more often a mistake in its numbers.
 
 use crate::accelerogram::Accelerogram;
+use crate::error::rounded;
 use crate::processing::ProcessingStep;
 
 /// Part of the range of accelerations that filters and longer steps customarily leave at least.
@@ -42,7 +43,9 @@ pub(super) fn warnings<T>(
     let (from, to) = (range(before), range(after));
     if to < LEAST_PART * from {
         warnings.push(format!(
-            "{name}: the accelerations lay within {from:.4e} m/s2 of each other and lie within {to:.4e} m/s2 now, {:.3} % of that; check the {}",
+            "{name}: the accelerations lay within {} m/s2 of each other and lie within {} m/s2 now, {:.3} % of that; check the {}",
+            rounded(from, 5),
+            rounded(to, 5),
             100.0 * to / from,
             if name == "filter" { "corners" } else { "time step" }
         ));

@@ -340,12 +340,21 @@ impl<'c> Picture<'c> {
                 line(body, from, to, &limit.look.stroke());
             }
         }
+        // Filled markers would hide open ones at the same place.
+        let (mut filled, mut open) = (String::new(), String::new());
         for (turn, series) in plot.series.iter().enumerate() {
             let places = series.points.iter();
             let places = places.map(|(x, y)| Some((x_at(*x)?, y_at(*y)?)));
             let places: Vec<Option<(f64, f64)>> = places.collect();
-            curve(body, &series.look, &places, turn);
+            curve(body, &series.look, &places);
+            let layer = match series.look.has_open_marker() {
+                true => &mut open,
+                false => &mut filled,
+            };
+            markers(layer, &series.look, &places, turn);
         }
+        body.push_str(&filled);
+        body.push_str(&open);
         body.push_str("</svg>\n");
         line(body, (left, upper), (left, lower), AXIS);
         line(body, (left, lower), (right, lower), AXIS);
@@ -467,33 +476,38 @@ fn escaped(content: &str) -> String {
     out
 }
 
-/// A curve, broken where a point has no place, with its markers.
-fn curve(body: &mut String, look: &Look, places: &[Option<(f64, f64)>], turn: usize) {
-    if look.dash.is_some() {
-        for part in places.split(Option::is_none).filter(|p| !p.is_empty()) {
-            // A point without neighbours is a dot.
-            if let [Some((x, y))] = part {
-                let _ = writeln!(
-                    body,
-                    "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\" fill=\"{}\"/>",
-                    1.2 * look.width,
-                    look.colour
-                );
-                continue;
-            }
-            let points: Vec<String> = part
-                .iter()
-                .flatten()
-                .map(|(x, y)| format!("{x:.2},{y:.2}"))
-                .collect();
+/// A curve, broken where a point has no place.
+fn curve(body: &mut String, look: &Look, places: &[Option<(f64, f64)>]) {
+    if look.dash.is_none() {
+        return;
+    }
+    for part in places.split(Option::is_none).filter(|p| !p.is_empty()) {
+        // A point without neighbours is a dot.
+        if let [Some((x, y))] = part {
             let _ = writeln!(
                 body,
-                "<polyline points=\"{}\" {}/>",
-                points.join(" "),
-                look.stroke()
+                "<circle cx=\"{x:.2}\" cy=\"{y:.2}\" r=\"{:.2}\" fill=\"{}\"/>",
+                1.2 * look.width,
+                look.colour
             );
+            continue;
         }
+        let points: Vec<String> = part
+            .iter()
+            .flatten()
+            .map(|(x, y)| format!("{x:.2},{y:.2}"))
+            .collect();
+        let _ = writeln!(
+            body,
+            "<polyline points=\"{}\" {}/>",
+            points.join(" "),
+            look.stroke()
+        );
     }
+}
+
+/// Markers of a curve that has some.
+fn markers(body: &mut String, look: &Look, places: &[Option<(f64, f64)>], turn: usize) {
     if !matches!(look.marker, Marker::Shape(_)) {
         return;
     }
@@ -556,5 +570,33 @@ mod tests {
         for text in sentences.iter().chain(&words) {
             assert!(width_of(text) <= room, "{text}");
         }
+    }
+
+    /// An outline hides nothing, and no filled marker hides one: what was counted at the same place
+    /// is seen.
+    #[test]
+    fn markers_at_the_same_place_are_seen() {
+        let series = |number: usize| crate::chart::Series {
+            name: String::new(),
+            points: vec![(0.5, 0.5)],
+            look: Look::points(number),
+        };
+        let chart = Chart::of_page(vec![Plot {
+            heading: String::new(),
+            horizontal: Axis::linear("x"),
+            vertical: Axis::linear("y"),
+            series: (0..5).map(series).collect(),
+            limits: Vec::new(),
+            height: 100.0,
+        }]);
+        let svg = chart.svg();
+        let markers: Vec<&str> = svg
+            .lines()
+            .filter(|line| line.starts_with("<polygon") || line.starts_with("<circle"))
+            .collect();
+        let is_open = |marker: &&str| marker.contains("fill=\"none\"");
+        assert_eq!(markers.len(), 5, "{svg}");
+        assert!(markers[..3].iter().all(|m| !is_open(m)), "{svg}");
+        assert!(markers[3..].iter().all(is_open), "{svg}");
     }
 }

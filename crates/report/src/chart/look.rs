@@ -154,16 +154,24 @@ impl Look {
         )
     }
 
+    /// Whether its marker is an outline alone.
+    pub fn has_open_marker(&self) -> bool {
+        match self.marker {
+            Marker::Shape(number) | Marker::InLegend(number) => number >= 5 || number % 2 == 1,
+            Marker::Nothing => false,
+        }
+    }
+
     /// Its marker at a place (pt).
     pub fn marker_at(&self, (x, y): (f64, f64)) -> String {
         let (Marker::Shape(number) | Marker::InLegend(number)) = self.marker else {
             return String::new();
         };
         const R: f64 = 2.1;
-        let fill = if number >= 5 || number % 2 == 1 {
-            "#ffffff"
-        } else {
-            &self.colour
+        // Through an open one is seen what lies at the same place.
+        let fill = match self.has_open_marker() {
+            true => "none",
+            false => &self.colour,
         };
         let style = format!(
             "fill=\"{fill}\" stroke=\"{}\" stroke-width=\"0.8\"",

@@ -1,6 +1,7 @@
 //! The page of a comparison of impact models.
 
 use pounding_catalogue::wording::{agreeing, counted};
+use pounding_time_history::VELOCITY_JUMPS_HAVE_NO_FORCE;
 use serde_json::Value;
 
 use super::answer::{Answer, in_parentheses, spoken, unit_of};
@@ -152,6 +153,7 @@ fn points(answer: Answer<'_>) -> Vec<String> {
             points.push(format!("{said}: {}.", named(&such.join(", "))));
         }
     }
+    points.extend(jumps(models));
     for (g, gap) in answer.list("/gaps").iter().enumerate() {
         let without = answer.list(&format!("/gaps/{g}/records_without_contact"));
         if !without.is_empty() && impacts > 0.0 {
@@ -168,6 +170,19 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         }
     }
     points
+}
+
+/// Why models whose impacts are rigid have no accelerations and forces.
+fn jumps(models: &[Value]) -> Option<String> {
+    let rigid = models.iter().filter(|m| m["rigid_impacts"] == true);
+    let rigid: Vec<&str> = rigid.map(name).collect();
+    (!rigid.is_empty()).then(|| {
+        format!(
+            "{}: {VELOCITY_JUMPS_HAVE_NO_FORCE} Tables have a dash there, the figure of accelerations has an empty \
+             row, and conclusions on accelerations are of the other models.",
+            named(&rigid.join(", "))
+        )
+    })
 }
 
 fn conclusions(answer: Answer<'_>) -> String {
@@ -377,6 +392,14 @@ mod tests {
         assert!(
             none.contains("Nothing touches") && !none.contains("furthest"),
             "{none}"
+        );
+        let models = [json!({ "name": "a", "rigid_impacts": false })];
+        assert_eq!(jumps(&models), None);
+        let models = ["b", "c"].map(|name| json!({ "name": name, "rigid_impacts": true }));
+        let said = jumps(&models).unwrap_or_default();
+        assert!(
+            said.starts_with("b, c: Rigid impacts are jumps of the velocity"),
+            "{said}"
         );
         let alone = told(2, 0, [1, 1], 1);
         assert!(alone.contains("of 1 no more than one model"), "{alone}");

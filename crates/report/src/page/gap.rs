@@ -50,9 +50,11 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
         };
         let inside = note(&format!(
             "Peaks with pounding over those of the isolated buildings at many widths {varied}, the maximum over \
-             storeys and records: a gap a little too small can be worse than none.",
+             storeys{}: a gap a little too small can be worse than none.",
+            over_records(answer)
         ));
-        let inside = inside + &pictures(drawn.iter().filter(|p| p.name == WIDTHS)) + &swept(answer);
+        let widths = pictures(drawn.iter().filter(|p| p.name == WIDTHS));
+        let inside = inside + &without_ratio(answer) + &widths + &swept(answer);
         body.push_str(&section("Other widths", &inside));
     }
     let spectra = pictures(drawn.iter().filter(|p| p.name != WIDTHS));
@@ -374,7 +376,10 @@ fn demand(answer: Answer<'_>, g: usize) -> String {
         Column::of("right", format!("{of}/*/right_elevation"), 1.0).below("elevation (m)"),
         Column::of("provided (mm)", format!("{of}/*/width"), 1.0e3),
         Column::of(
-            "maximum demand (mm)",
+            match answer.list("/records").len() {
+                1 => "demand (mm)",
+                _ => "maximum demand (mm)",
+            },
             format!("maximum {of}/*/demand/+/peak"),
             1.0e3,
         ),
@@ -413,6 +418,30 @@ fn demand(answer: Answer<'_>, g: usize) -> String {
         + &suite
 }
 
+/// Columns of widths from the least to the greatest over what there is more than one of; of one
+/// alone a single column.
+fn widths(from: &str, over: &[(&str, usize)]) -> Vec<Column> {
+    let over = over.iter().filter(|(_, count)| *count != 1);
+    let over: Vec<&str> = over.map(|(name, _)| *name).collect();
+    if over.is_empty() {
+        return vec![Column::of("width (mm)", format!("maximum {from}"), 1.0e3)];
+    }
+    let heading = format!("width over {} (mm)", over.join(" and "));
+    let ends = [("from", "minimum"), ("to", "maximum")];
+    let column = |(end, word): (&str, &str)| {
+        Column::of(end, format!("{word} {from}"), 1.0e3).below(&heading)
+    };
+    ends.map(column).into()
+}
+
+/// What maxima are taken over beside the storeys.
+fn over_records(answer: Answer<'_>) -> &'static str {
+    match answer.list("/records").len() {
+        1 => "",
+        _ => " and records",
+    }
+}
+
 /// Widths by rule, those that the provided gap does not reach first.
 fn rules(answer: Answer<'_>, g: usize) -> String {
     let of = format!("/gaps/{g}/provisions");
@@ -421,16 +450,16 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
         Column::words_of("text", format!("{of}/*/edition")),
         Column::words_of("place", format!("{of}/*/place")),
     ];
-    let widths = |from: &str| {
-        ["minimum", "maximum"].map(|word| {
-            let heading = if word == "minimum" { "from" } else { "to" };
-            Column::of(heading, format!("{word} {from}"), 1.0e3).below("width over records (mm)")
-        })
-    };
-    columns.extend(widths(&format!("{of}/*/records/+/width")));
+    let records = ("records", answer.list("/records").len());
+    let levels = ("levels", answer.list(&format!("/gaps/{g}/levels")).len());
+    // That of a record is the maximum over the levels.
+    columns.extend(widths(&format!("{of}/*/records/+/width"), &[records]));
     columns.extend([
         Column::of(
-            "minimum of width / demand",
+            match records.1 * levels.1 {
+                1 => "width / demand",
+                _ => "minimum of width / demand",
+            },
             format!("minimum {of}/*/records/+/ratio_to_demand"),
             1.0,
         ),
@@ -460,7 +489,8 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
     let rules = answer.list(&combined);
     if !rules.is_empty() {
         let mut columns = vec![Column::new("combination")];
-        columns.extend(widths(&format!("{combined}/*/width/+/+")));
+        let from = format!("{combined}/*/width/+/+");
+        columns.extend(widths(&from, &[records, levels]));
         columns.extend([
             Column::of("correlation", format!("{combined}/*/correlation"), 1.0),
             Column::words_of("provided reaches it", format!("{combined}/*/satisfied")),
@@ -470,10 +500,14 @@ fn rules(answer: Answer<'_>, g: usize) -> String {
             .iter()
             .map(|r| r["title"].as_str().unwrap_or_default());
         out.push_str("<h3>Combinations of the isolated peaks</h3>\n");
-        out.push_str(&note("Over all records and levels."));
         out.push_str(&answer.table("Combinations", &columns, rows(heads)));
     }
     out.push_str("<h3>Widths by code</h3>\n");
+    if levels.1 > 1 {
+        out.push_str(&note(
+            "The width of a record is that of the level that asks for most.",
+        ));
+    }
     out.push_str(&answer.table("Widths by code", &columns, spoken.into_iter().map(row)));
     out.push_str(&note(
         "Unverified: the formula was not compared with any text of the code; seen in a secondary text: not with \
@@ -531,16 +565,42 @@ fn disputed(answer: Answer<'_>, of: &str) -> String {
 /// What is said above ratios of peaks.
 const RATIO: &str = "with pounding / isolated (-)";
 
+/// Name and key of what is amplified.
+const AMPLIFIED: [(&str, &str); 3] = [
+    ("displacement", "displacement"),
+    ("storey shear", "storey_shear"),
+    ("absolute acceleration", "acceleration_absolute"),
+];
+
+/// Which figures there are none of, and why; nothing where no width was tried, which is said by
+/// itself.
+fn without_ratio(answer: Answer<'_>) -> String {
+    if answer.list("/sweep/widths").is_empty() {
+        return String::new();
+    }
+    let has = |(_, key): &(&str, &str)| {
+        let path = format!("maximum /sweep/runs/+/+/amplification/+/+/{key}");
+        answer.number(&path, "").is_finite()
+    };
+    let missing = AMPLIFIED.iter().filter(|q| !has(q)).map(|(name, _)| *name);
+    let missing: Vec<&str> = missing.collect();
+    match missing.is_empty() {
+        true => String::new(),
+        false => note(&format!(
+            "There is no figure of {}: no isolated building has any, and so no ratio is known.",
+            missing.join(", ")
+        )),
+    }
+}
+
 /// Maximum amplifications at the provided gap, by building.
 fn provided(answer: Answer<'_>) -> String {
     let buildings = answer.list("/records/0/isolated");
-    let of = |quantity: &str| format!("maximum /records/+/amplification/*/+/{quantity}");
-    let columns = [
-        Column::new("building"),
-        Column::of("displacement", of("displacement"), 1.0).below(RATIO),
-        Column::of("storey shear", of("storey_shear"), 1.0).below(RATIO),
-        Column::of("absolute acceleration", of("acceleration_absolute"), 1.0).below(RATIO),
-    ];
+    let mut columns = vec![Column::new("building")];
+    columns.extend(AMPLIFIED.map(|(name, key)| {
+        let from = format!("maximum /records/+/amplification/*/+/{key}");
+        Column::of(name, from, 1.0).below(RATIO)
+    }));
     let heads = buildings
         .iter()
         .map(|b| b["name"].as_str().unwrap_or_default());
@@ -549,10 +609,11 @@ fn provided(answer: Answer<'_>) -> String {
         _ => String::new(),
     };
     jumps
-        + &note(
-            "Peak of a storey with pounding over its peak in the isolated building, the maximum over storeys and \
-         records.",
-        )
+        + &note(&format!(
+            "Peak of a storey with pounding over its peak in the isolated building, the maximum over storeys{}; a \
+             dash where the isolated building has none.",
+            over_records(answer)
+        ))
         + &answer.table("Amplification at the provided gap", &columns, rows(heads))
 }
 
@@ -583,10 +644,13 @@ fn swept(answer: Answer<'_>) -> String {
         }
     }
     // Of the gap whose width varies: what happens in the others of a row is not of this width.
-    let of_records = match answer.text("/sweep/gap") {
-        "" => "maximum over records".to_owned(),
-        gap => format!("{gap}, maximum over records"),
+    let over = match answer.list("/records").len() {
+        1 => None,
+        _ => Some("maximum over records"),
     };
+    let gap = Some(answer.text("/sweep/gap")).filter(|gap| !gap.is_empty());
+    let of_records: Vec<&str> = gap.into_iter().chain(over).collect();
+    let of_records = of_records.join(", ");
     columns.extend([
         Column::of("impacts", "maximum /sweep/runs/*/+/impacts", 1.0).below(of_records.clone()),
         Column::of("force (kN)", "maximum /sweep/runs/*/+/peak_force", 1.0e-3).below(of_records),

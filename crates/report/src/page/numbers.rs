@@ -17,6 +17,12 @@ pub(super) fn figures(x: f64) -> String {
     figures_above(1.0e-12, x)
 }
 
+/// Four figures of a number however small: one whose ratio to another is shown, and of which it is
+/// known that round-off does not leave it.
+pub(super) fn all_figures(x: f64) -> String {
+    figures_above(0.0, x)
+}
+
 /// The same, where what is below `least` is none.
 fn figures_above(least: f64, x: f64) -> String {
     if !x.is_finite() {
@@ -85,6 +91,7 @@ mod tests {
         assert_eq!(ratio(3.0, 0.0), "\u{2013}");
         assert_eq!(ratio(3.0, 1.0e-28), "3.0e28");
         assert_eq!(figures(-1.8e-15), "0");
+        assert_eq!(all_figures(-1.8e-15), "-1.800e-15");
         assert_eq!(figures_of("energy_residual", 2.8e-15), "2.800e-15");
         assert_eq!(figures_of("/limits/*/mean_annual_frequency", 0.0), "0");
         assert_eq!(figures_of("peak_force", 2.8e-15), "0");

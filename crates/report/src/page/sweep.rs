@@ -2,7 +2,7 @@
 
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError, fractile};
-use pounding_time_history::VELOCITY_JUMPS;
+use pounding_time_history::VELOCITY_JUMPS_HAVE_NO_FORCE;
 
 use super::answer::{in_parentheses, unit_of};
 use super::document::Document;
@@ -57,10 +57,7 @@ pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
     body.push_str(&section("What varied", &variables(result, &runs)));
     let mut peaks = statistics(result, &runs);
     if has_rigid_impacts(result, &runs) {
-        peaks.insert_str(
-            0,
-            &note(&format!("{VELOCITY_JUMPS} They have no contact force.")),
-        );
+        peaks.insert_str(0, &note(VELOCITY_JUMPS_HAVE_NO_FORCE));
     }
     body.push_str(&section("Peaks over the runs", &peaks));
     let drawn = figures_of(result, &runs)?;

@@ -7,11 +7,15 @@ use crate::chart::{Axis, Chart, HEIGHT, Limit, LimitPlace, Look, Plot, Series};
 
 /// Maximum amplification over storeys and records, over the width of a gap, a panel for each
 /// quantity with a curve for each building; values that are not finite are left out. The
-/// provided and the required widths and the amplification 1.0 are marked. `None` for a check
-/// that tried no widths.
+/// provided and the required widths and the amplification 1.0 are marked. Quantities of which no
+/// building has a value have no panel. `None` for a check that tried no widths, or without any value.
 #[must_use]
 pub fn amplifications(check: &GapCheck) -> Option<Chart> {
     let (sweep, first) = (check.sweep.as_ref()?, check.records.first()?);
+    let of_records = match check.records.len() {
+        1 => "",
+        _ => " and records",
+    };
     let limits = limits(check, sweep.gap.as_deref());
     let plots = Amplification::QUANTITIES.map(|(quantity, of)| {
         let curves = first.isolated.iter().enumerate().map(|(index, building)| {
@@ -26,15 +30,30 @@ pub fn amplifications(check: &GapCheck) -> Option<Chart> {
             }
         });
         Plot {
-            heading: format!("Amplification of {quantity} (-), maximum over storeys and records"),
+            heading: format!("Amplification of {quantity} (-), maximum over storeys{of_records}"),
             horizontal: Axis::linear("width of the gap (mm)"),
             vertical: Axis::linear(""),
-            series: curves.collect(),
+            series: curves.filter(|c: &Series| !c.points.is_empty()).collect(),
             limits: limits.clone(),
             height: HEIGHT,
         }
     });
-    Some(Chart::of_page(plots.into()))
+    let mut plots = Vec::from(plots);
+    plots.retain(|plot| !plot.series.is_empty());
+    (!plots.is_empty()).then(|| Chart::of_page(plots))
+}
+
+/// What stands in the place of [`amplifications`] where there are none.
+#[must_use]
+pub fn no_amplification() -> Chart {
+    Chart::of_page(vec![Plot {
+        heading: "No amplification is known: no building moves, or no width was tried".to_owned(),
+        horizontal: Axis::linear("width of the gap (mm)"),
+        vertical: Axis::linear(""),
+        series: Vec::new(),
+        limits: Vec::new(),
+        height: HEIGHT,
+    }])
 }
 
 /// The isolated buildings, and the widths that are provided and required of the gaps that vary.

@@ -171,19 +171,19 @@ fn storey_peaks(
     storey: &Dataset,
 ) -> Result<()> {
     type Pick = fn(&StoreyPeaks) -> Peak;
-    let quantities: [(&str, &str, Pick); 4] = [
-        ("displacement", "m", |p| p.displacement),
-        ("drift_ratio", "1", |p| p.drift_ratio),
-        ("storey_shear", "N", |p| p.storey_shear),
-        ("acceleration_absolute", "m s-2", |p| {
+    // Name, what has an absolute peak, unit and value.
+    let quantities: [(&str, &str, &str, Pick); 4] = [
+        ("displacement", "displacement", "m", |p| p.displacement),
+        ("drift_ratio", "drift ratio", "1", |p| p.drift_ratio),
+        ("storey_shear", "storey shear", "N", |p| p.storey_shear),
+        ("acceleration_absolute", "acceleration", "m s-2", |p| {
             p.acceleration_absolute
         }),
     ];
     let without = without(prefix);
-    for (name, units, pick) in quantities {
+    for (name, label, units, pick) in quantities {
         let values: Vec<f64> = peaks.iter().map(|p| pick(p).value).collect();
         let times: Vec<f64> = peaks.iter().map(|p| pick(p).time).collect();
-        let label = name.replace('_', " ");
         let value = series(
             group,
             &format!("{prefix}{name}"),
@@ -195,7 +195,7 @@ fn storey_peaks(
             group,
             &format!("{prefix}{name}_time"),
             "s",
-            &format!("time of peak {label}{without}"),
+            &format!("time of peak absolute {label}{without}"),
             &times,
         )?;
         dimension_scales::attach(&value, storey, 0)?;

@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use pounding_case::Case;
 use pounding_catalogue::Parameters;
+use pounding_catalogue::numbers::{all_digits, six_digits};
 use pounding_gap_element::{
     AchievedRestitution, Bodies, CollisionOutcome, GapElementError, ImpactModel, ModelDescriptor,
     ModelParameters, ParameterUnit, SeparationRule, collide, registry,
@@ -307,7 +308,10 @@ fn like_own_law(
         let known = *name == "stiffness" || parameters.values.contains_key(*name);
         if !known && !CRUSHED.contains(name) {
             parameters.values.insert((*name).to_owned(), *value);
-            notes.push(format!("{name} = {value:e} of the model's example"));
+            notes.push(format!(
+                "{name} = {} of the model's example",
+                all_digits(*value)
+            ));
         }
     }
     if descriptor
@@ -420,13 +424,13 @@ fn solve(
     let (parameters, model, free) = at((low * high).sqrt())?;
     if (free - wanted).abs() > 1.0e-6 {
         return Err(format!(
-            "no {parameter} returns {wanted}: the restitution jumps to {free:.4} at {:e}",
-            (low * high).sqrt()
+            "no {parameter} returns {wanted}: the restitution jumps to {free:.4} at {}",
+            six_digits((low * high).sqrt())
         ));
     }
     calibrated.notes.push(format!(
-        "{parameter} = {:.6e} found so that the reference collision returns {wanted}",
-        parameters.values[parameter]
+        "{parameter} = {} found so that the reference collision returns {wanted}",
+        six_digits(parameters.values[parameter])
     ));
     calibrated.parameters = parameters;
     calibrated.model = model;

@@ -109,6 +109,7 @@ fn own_ratios(
         quantities::of_building(quantity.kind, &buildings[quantity.index])
     });
     let storeys = storeys.get(quantity.index);
+    let of = |a: &Amplification| of(&a.one_where_nothing_moves());
     (
         storeys.map_or_else(Vec::new, |s| s.iter().map(of).collect()),
         ratio(with, comparison.isolated[record][q]),

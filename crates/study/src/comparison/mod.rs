@@ -389,6 +389,16 @@ impl Comparison {
         run.map_or(f64::NAN, |run| run.values[quantity])
     }
 
+    /// Whether impacts of a model were jumps of the velocity under some record: it has then
+    /// neither an acceleration nor a force there.
+    #[must_use]
+    pub fn has_rigid_impacts(&self, model: usize) -> bool {
+        let of_acceleration = |q: &Quantity| q.kind == QuantityKind::AccelerationAbsolute;
+        let place = self.quantities.iter().position(of_acceleration);
+        let mut runs = self.models[model].records.iter().flatten();
+        place.is_some_and(|q| runs.any(|run| run.values[q].is_nan()))
+    }
+
     /// Ratio of a quantity of a building to that without pounding (-): of the maxima over
     /// the storeys. One where both are the same.
     #[must_use]
@@ -512,8 +522,9 @@ fn one(
     });
     let values = values.collect();
     let mut amplification = amplification(&outcome.buildings, isolated);
-    if jumps {
-        for storey in amplification.iter_mut().flatten() {
+    for storey in amplification.iter_mut().flatten() {
+        *storey = storey.one_where_nothing_moves();
+        if jumps {
             storey.acceleration_absolute = f64::NAN;
         }
     }

@@ -22,7 +22,7 @@ pub struct GapLevel {
 }
 
 /// Peaks with pounding over peaks of the isolated building, of one storey (-); infinite
-/// where the isolated storey does not move.
+/// where only the isolated storey does not move, and NaN where neither does.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Amplification {
     /// Of the floor displacement.
@@ -58,6 +58,30 @@ impl Amplification {
             })
         };
         numbers.list(|numbers| numbers.list(storey))
+    }
+
+    /// The same with one in the place of what is not known: where nothing moves with pounding or
+    /// without, pounding raises nothing.
+    pub(crate) fn one_where_nothing_moves(self) -> Self {
+        let known = |x: f64| if x.is_nan() { 1.0 } else { x };
+        Self {
+            displacement: known(self.displacement),
+            storey_shear: known(self.storey_shear),
+            acceleration_absolute: known(self.acceleration_absolute),
+        }
+    }
+
+    /// Maximum over the storeys of a building, with its storey (from zero); `None` where no storey
+    /// has one.
+    #[must_use]
+    pub fn of_storeys(storeys: &[Self], quantity: fn(&Self) -> f64) -> Option<(usize, f64)> {
+        let known = storeys.iter().map(quantity).enumerate();
+        let known = known.filter(|(_, x)| !x.is_nan());
+        // Of equals the lowest storey.
+        known.fold(None, |best, (i, x)| match best {
+            Some((_, top)) if top >= x => best,
+            _ => Some((i, x)),
+        })
     }
 
     /// The quantities, in the order of tables and pictures.
@@ -146,13 +170,9 @@ pub(crate) fn levels(system: &System, gap: &Gap) -> Vec<GapLevel> {
         .collect()
 }
 
-/// Ratio of two peaks; 1 where both are zero.
+/// Ratio of two peaks; NaN where both are zero.
 fn ratio(with: Peak, isolated: Peak) -> f64 {
-    if with.value == isolated.value {
-        1.0
-    } else {
-        with.value / isolated.value
-    }
+    with.value / isolated.value
 }
 
 /// Peaks with pounding over those without, of each building and storey.
@@ -232,4 +252,28 @@ fn one(record: &CaseUnderRecord, ending: &mut dyn Recorder) -> Result<RecordDema
             .map(|o| (o.buildings, o.gaps))
             .map_err(|e| e.to_string()),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Of what does not move no ratio is known, and it is the maximum of nothing.
+    #[test]
+    fn what_does_not_move_has_no_ratio() {
+        let peak = |value| Peak { value, time: 0.0 };
+        assert!(ratio(peak(0.0), peak(0.0)).is_nan());
+        assert!((ratio(peak(3.0), peak(3.0)) - 1.0).abs() < f64::EPSILON);
+        let storey = |displacement| Amplification {
+            displacement,
+            storey_shear: f64::NAN,
+            acceleration_absolute: 1.0,
+        };
+        let storeys = [f64::NAN, 0.5, 0.5].map(storey);
+        let of = Amplification::of_storeys;
+        assert_eq!(of(&storeys, |a| a.displacement), Some((1, 0.5)));
+        assert_eq!(of(&storeys, |a| a.storey_shear), None);
+        let raised = storeys[0].one_where_nothing_moves();
+        assert_eq!((raised.displacement, raised.storey_shear), (1.0, 1.0));
+    }
 }

@@ -187,19 +187,14 @@ impl GapSweep {
     }
 
     /// Maximum amplification of a quantity over the storeys of a building, at one width
-    /// under one record, with its storey (from zero).
+    /// under one record, with its storey (from zero); `None` where no storey has one.
     #[must_use]
     pub fn of_building(
         run: &SweepRun,
         building: usize,
         quantity: fn(&Amplification) -> f64,
     ) -> Option<(usize, f64)> {
-        let storeys = run.amplification.get(building)?.iter().map(quantity);
-        // Of equals the lowest storey.
-        storeys.enumerate().fold(None, |best, (i, x)| match best {
-            Some((_, top)) if top >= x => best,
-            _ => Some((i, x)),
-        })
+        Amplification::of_storeys(run.amplification.get(building)?, quantity)
     }
 
     /// Maximum amplification of a quantity of a building over all widths and records;

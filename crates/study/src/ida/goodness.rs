@@ -227,15 +227,16 @@ impl fmt::Display for FitRemark {
             } => {
                 let reached = match assumed {
                     Some(above) => format!(
-                        "above {above}, from which on the state is taken as reached, as no record reaches it up to there: the frequency is neither an estimate nor a bound, and what weaker"
+                        "above {above}, from which on the state is taken as reached, as no record reaches it up to there: the frequency is neither an estimate nor a bound, as it and its bounds leave out"
                     ),
                     None => format!(
-                        "where the probability of the state is {probability:.2} already: what weaker"
+                        "where the probability of the state is {} and not zero: the frequency and its bounds are too low by",
+                        figures(*probability)
                     ),
                 };
                 write!(
                     f,
-                    "the hazard curve begins at {first}, {reached} motions add is not counted, neither in the frequency nor in its bounds ({} if the first power law of the curve went on); begin the curve lower",
+                    "the hazard curve begins at {first}, {reached} what weaker motions add ({} if the first power law of the curve went on); begin the curve lower",
                     match uncounted.is_finite() {
                         true => format!("{} per year", figures(*uncounted)),
                         false => "without bound".to_owned(),
@@ -604,5 +605,31 @@ mod tests {
         let shown = |si, in_g| ShownIntensity { si, in_g }.to_string();
         assert_eq!(shown(0.5 * STANDARD_GRAVITY, true), "0.500 g");
         assert_eq!(shown(12.34, false), "12.3 m/s");
+    }
+
+    /// What a curve that begins too high leaves out is said with a probability that is not zero.
+    #[test]
+    fn a_late_hazard_curve_is_said() {
+        let shown = |si: f64| ShownIntensity { si, in_g: true };
+        let said = |assumed| {
+            let remark = FitRemark::BelowHazard {
+                first: shown(0.02 * STANDARD_GRAVITY),
+                probability: 0.000_123,
+                assumed,
+                uncounted: 0.003_41,
+            };
+            remark.to_string()
+        };
+        assert_eq!(
+            said(None),
+            "the hazard curve begins at 0.0200 g, where the probability of the state is 1.23e-4 and not zero: the frequency and its bounds are too low by what weaker motions add (0.00341 per year if the first power law of the curve went on); begin the curve lower"
+        );
+        let assumed = said(Some(shown(STANDARD_GRAVITY)));
+        assert!(
+            assumed.contains(
+                "nor a bound, as it and its bounds leave out what weaker motions add (0.00341"
+            ),
+            "{assumed}"
+        );
     }
 }

@@ -40,7 +40,7 @@ impl<'c> Compared<'c> {
             records: &c.records,
             collapsed: &c.collapsed,
             warnings: &c.warnings,
-            models: c.models.iter().map(|m| Model::of(c, m)).collect(),
+            models: (0..c.models.len()).map(|m| Model::of(c, m)).collect(),
             quantities: (0..c.quantities.len())
                 .map(|q| Quantity::of(c, q))
                 .collect(),
@@ -216,6 +216,8 @@ impl<'c> Level<'c> {
 struct Model<'c> {
     name: &'static str,
     gaps: Vec<Calibrated<'c>>,
+    /// Whether velocities jump at impacts: it has neither accelerations nor contact forces then.
+    rigid_impacts: bool,
     failures: Vec<Failed<'c>>,
 }
 
@@ -238,7 +240,8 @@ struct Failed<'c> {
 }
 
 impl<'c> Model<'c> {
-    fn of(c: &'c Comparison, m: &'c comparison::ComparedModel) -> Self {
+    fn of(c: &'c Comparison, index: usize) -> Self {
+        let m = &c.models[index];
         let gaps = m.calibrated.iter().flatten().map(|g| Calibrated {
             parameters: &g.parameters.values,
             free_restitution: g.free_restitution,
@@ -256,6 +259,7 @@ impl<'c> Model<'c> {
         Self {
             name: m.descriptor.name,
             gaps: gaps.collect(),
+            rigid_impacts: c.has_rigid_impacts(index),
             failures: failures.collect(),
         }
     }

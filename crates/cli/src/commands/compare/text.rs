@@ -5,6 +5,7 @@ use pounding_catalogue::numbers::shown_unit;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_gap_element::Verification;
 use pounding_study::comparison::{Comparison, Holds, Judgement, Quantity, QuantityKind};
+use pounding_time_history::VELOCITY_JUMPS_HAVE_NO_FORCE;
 
 use crate::tables::{G, collapsed, links_stay, new_table, warning_lines};
 
@@ -486,10 +487,13 @@ fn more(rows: usize) -> String {
 
 fn remarks(c: &Comparison) -> String {
     let mut text = "\nRemarks\n".to_owned();
-    for model in &c.models {
+    for (m, model) in c.models.iter().enumerate() {
         let name = model.descriptor.name;
         if let Verification::SecondarySources(how) = model.descriptor.verification {
             text.push_str(&format!("  {name} is from secondary sources: {how}\n"));
+        }
+        if c.has_rigid_impacts(m) {
+            text.push_str(&format!("  {name}: {VELOCITY_JUMPS_HAVE_NO_FORCE}\n"));
         }
         // What holds in some gaps alone is said with their names.
         let mut notes: Vec<(&String, Vec<&str>)> = Vec::new();

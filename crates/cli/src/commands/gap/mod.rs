@@ -13,7 +13,7 @@ use std::path::Path;
 use pounding_case::{Case, Dimension, Separation};
 use pounding_files::FileUse;
 use pounding_report::page::Picture;
-use pounding_report::pictures::gap::{amplifications, spectra};
+use pounding_report::pictures::gap::{amplifications, no_amplification, spectra};
 use pounding_report::{Answered, AnsweredCommand};
 use pounding_study::Deal;
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
@@ -179,7 +179,7 @@ fn write_files(arguments: &GapArguments, check: &GapCheck) -> Result<(), Failure
     let Some(path) = arguments.plot.as_deref() else {
         return Ok(());
     };
-    amplifications(check).map_or(Ok(()), |picture| {
-        plot::write_drawn(path, picture, &arguments.figure)
-    })
+    // Who asks for a file has one.
+    let picture = amplifications(check).unwrap_or_else(no_amplification);
+    plot::write_drawn(path, picture, &arguments.figure)
 }

@@ -203,13 +203,12 @@ fn isolation(check: &GapCheck, index: usize) -> String {
     text
 }
 
-/// Maximum over the storeys of a building, as "x1.23 (storey 3)".
+/// Maximum over the storeys of a building, as "x1.23 (storey 3)"; a dash where nothing moves.
 fn maximum(storeys: &[Amplification], quantity: fn(&Amplification) -> f64) -> String {
-    let values = storeys.iter().map(quantity).enumerate();
-    let top = values.fold((0, f64::NEG_INFINITY), |best, (i, x)| {
-        if x > best.1 { (i, x) } else { best }
-    });
-    format!("x{} (storey {})", decimal(top.1, 3), top.0 + 1)
+    match Amplification::of_storeys(storeys, quantity) {
+        Some((storey, x)) => format!("x{} (storey {})", decimal(x, 3), storey + 1),
+        None => "-".to_owned(),
+    }
 }
 
 /// Whether some impact was a jump, which has no force.
@@ -304,7 +303,7 @@ fn over_all_records(check: &GapCheck) -> Vec<Vec<String>> {
         let mut row = vec![format!("maximum of {}", all.len()), building.name.clone()];
         row.extend(Amplification::QUANTITIES.map(|(_, of)| {
             let tops = all.iter().filter_map(|(name, a)| {
-                let top = a.get(index)?.iter().map(of).reduce(f64::max)?;
+                let (_, top) = Amplification::of_storeys(a.get(index)?, of)?;
                 Some((*name, top))
             });
             let top = tops.max_by(|a, b| a.1.total_cmp(&b.1));

@@ -3,7 +3,7 @@
 use pounding_catalogue::numbers::shown_unit;
 
 use crate::page::html::{escaped, note};
-use crate::page::numbers::{figures, ratio};
+use crate::page::numbers::{all_figures, figures, ratio};
 use crate::page::table::{Column, Row, table};
 use crate::result::{
     BuildingResult, GapResult, ImpactResult, LevelResponses, LinkResult, StoreyPeaks,
@@ -99,8 +99,8 @@ pub(super) fn storeys(building: &BuildingResult) -> String {
         for (_, _, peaks, factor) in quantities {
             let at = |values: &[f64]| values.get(i).copied().unwrap_or(f64::NAN);
             let (with, without) = (at(&peaks.value), at(&peaks.isolated));
-            row.push(figures(factor * with));
-            row.push(figures(factor * without));
+            row.push(all_figures(factor * with));
+            row.push(all_figures(factor * without));
             row.push(ratio(with, without));
         }
         if let Some(ductility) = &building.ductility {
@@ -136,9 +136,9 @@ pub(super) fn base_moment(building: &BuildingResult) -> String {
     ];
     let row = vec![
         "base".to_owned(),
-        figures(1.0e-3 * moment.value),
+        all_figures(1.0e-3 * moment.value),
         figures(moment.time),
-        figures(1.0e-3 * moment.isolated),
+        all_figures(1.0e-3 * moment.isolated),
         ratio(moment.value, moment.isolated),
     ];
     table(
@@ -158,9 +158,9 @@ pub(super) fn responses(building: &BuildingResult) -> String {
         let (factor, unit) = shown_unit(&r.unit);
         let cells = vec![
             format!("{} ({unit})", r.name.replace('_', " ")),
-            figures(factor * r.value),
+            all_figures(factor * r.value),
             figures(r.time),
-            figures(factor * r.isolated),
+            all_figures(factor * r.isolated),
             ratio(r.value, r.isolated),
         ];
         Row::new(&r.name, cells)
@@ -356,7 +356,7 @@ pub(super) fn levels(gap: &GapResult, input: f64) -> String {
             figures(hardest.map_or(f64::NAN, |i| i.peak_force_time)),
             figures(fastest),
             figures(restitution),
-            figures(1.0e-3 * dissipated),
+            all_figures(1.0e-3 * dissipated),
         ];
         if let Some(clearance) = &gap.clearance {
             row.push(figures(1.0e3 * clearance[l]));
@@ -408,7 +408,7 @@ pub(super) fn hardest(gap: &GapResult, count: usize, input: f64) -> String {
             figures(1.0e-3 * i.force()),
             figures(1.0e3 * i.peak_penetration),
             figures(1.0e-3 * i.impulse),
-            figures(1.0e-3 * without_round_off(i.energy_dissipated, input)),
+            all_figures(1.0e-3 * without_round_off(i.energy_dissipated, input)),
         ];
         Row::new(number.unwrap_or_default(), cells)
     });

@@ -2,7 +2,7 @@
 
 use super::figures::governing_level;
 use crate::page::html::{named, number, sentences, warnings};
-use crate::page::numbers::{figures, percent, ratio as times};
+use crate::page::numbers::{all_figures, figures, percent, ratio as times};
 use crate::result::{BuildingResult, GapResult, ImpactResult, LevelResult, RunResult, StoreyPeaks};
 use pounding_catalogue::wording::counted;
 use pounding_elevation::WALL;
@@ -157,8 +157,8 @@ fn changed(building: &BuildingResult) -> Option<String> {
         let ratio = format!("{here} / {isolated}");
         [
             number(&ratio, 1.0, &times(with, without)),
-            number(&here, factor, &figures(factor * with)),
-            number(&isolated, factor, &figures(factor * without)),
+            number(&here, factor, &all_figures(factor * with)),
+            number(&isolated, factor, &all_figures(factor * without)),
         ]
     };
     let rise = |what: &str, name: &str, peaks: &StoreyPeaks, (factor, unit): (f64, &str)| {
@@ -302,15 +302,16 @@ pub(super) fn energy(result: &RunResult) -> String {
                 format!("{name} {}", number(&from, 1.0e2, &percent(value, whole)))
             });
     let parts: Vec<String> = parts.collect();
-    // Parts of what round-off leaves are none.
-    let some = !parts.is_empty() && figures(1.0e-3 * whole) != "0";
+    // Parts of what round-off leaves are none: its ledger does not close.
+    let closes = result.residual_ratio < 1.0e-6;
+    let some = !parts.is_empty() && whole != 0.0 && (closes || figures(1.0e-3 * whole) != "0");
     let Some(time) = result.time.last().filter(|_| some) else {
         return "<p>There is no energy on the output grid.</p>\n".to_owned();
     };
     format!(
         "<p>{} {} kJ relative to the ground by {} s, the last output time. Then it is in: {}.</p>\n",
         sources(result),
-        number("energy/input[-1]", 1.0e-3, &figures(1.0e-3 * whole)),
+        number("energy/input[-1]", 1.0e-3, &all_figures(1.0e-3 * whole)),
         number("time[-1]", 1.0, &figures(*time)),
         parts.join(", ")
     )

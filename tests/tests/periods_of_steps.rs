@@ -79,7 +79,6 @@ fn periods_are_as_long_as_is_said() {
             measured(&system, method) / PERIOD - 1.0,
             warned(&system, method),
         );
-        println!("{method:?}: {found} {said:?}");
         let said = said.unwrap_or_default();
         // The next term is of the fourth order.
         assert!(

@@ -128,7 +128,7 @@ impl StepEstimate {
             MethodChoice::EventDriven { .. } | MethodChoice::Adaptive { .. } => {
                 let series = exact && matches!(method, MethodChoice::EventDriven { .. });
                 let longest = if series { SERIES } else { STABLE };
-                shortest(system, system.buildings().iter(), (longest, WITH_DAMPING))
+                shortest(system, system.buildings().iter(), (longest, FROM_REST))
             }
             MethodChoice::Newmark { step, .. }
             | MethodChoice::HhtAlpha { step, .. }
@@ -166,7 +166,7 @@ impl StepEstimate {
 type RatesOf = (fn(&Arc<ShearBuilding>) -> f64, fn(&System, &Element) -> f64);
 
 /// What laws ask for from rest, damping included.
-const WITH_DAMPING: RatesOf = (|b| fastest_rate(std::slice::from_ref(b)), rate_from_rest);
+const FROM_REST: RatesOf = (|b| fastest_rate(std::slice::from_ref(b)), rate_from_rest);
 /// The most that laws may ask for, damping included.
 const AT_MOST: RatesOf = (|b| fastest_rate(std::slice::from_ref(b)), rate_at_most);
 /// What swings, without damping, of which implicit methods may have any.

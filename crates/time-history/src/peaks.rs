@@ -193,9 +193,6 @@ impl Peaks {
                 self.raise_section(section.place, top, time);
             }
         }
-        for row in system.acceleration_rows() {
-            self.acceleration_row(context, method, row, place);
-        }
         for index in 0..system.level_rows().len() {
             self.level_row(context, method, finder, index, place);
         }
@@ -206,11 +203,32 @@ impl Peaks {
         for index in 0..self.elements.len() {
             self.element(context, method, index, place);
         }
+        self.accelerations_in(context, method, place);
+    }
+
+    /// Absolute accelerations of floors, and sums of them. Interpolants of adaptive methods tell where they peak;
+    /// those of fixed steps are of low order, and laws that an implicit step holds have kinks in it.
+    fn accelerations_in(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        place: (f64, f64),
+    ) {
         let information = method.information();
-        if information.implicit && !self.elements.is_empty() {
-            self.accelerations_between_branches(context, method, place);
-        } else if !information.adaptive {
+        let has_kinks = information.implicit && !self.elements.is_empty();
+        if !information.adaptive && !has_kinks {
             self.accelerations_within(context, method, place);
+            return;
+        }
+        let (dofs, system) = (context.dynamics.layout.dofs, context.dynamics.system);
+        for i in 0..self.storeys.len() {
+            self.absolute_acceleration(context, method, (i, dofs + i), place);
+        }
+        for row in system.acceleration_rows() {
+            self.acceleration_row(context, method, row, place);
+        }
+        if has_kinks {
+            self.accelerations_between_branches(context, method, place);
         }
     }
 
@@ -317,7 +335,6 @@ impl Peaks {
         offset: usize,
         (tau, step): (f64, f64),
     ) {
-        let dofs = context.dynamics.layout.dofs;
         let start = context.segment.start + tau;
         let mut below: Option<&Polynomial> = None;
         for storey in 0..building.storeys() {
@@ -342,7 +359,6 @@ impl Peaks {
                 }
             }
             below = Some(u);
-            self.absolute_acceleration(context, method, (i, dofs + i), (tau, step));
         }
     }
 

@@ -38,8 +38,22 @@ def told(page):
     return page.value("document.querySelector('[data-part=faults]').textContent")
 
 
+def rests(page):
+    """Waits until all that was asked of the page is on it; its sweep goes on."""
+    until(page, f"{DATA}.asked === '0'")
+
+
+def resets(page):
+    """Back to the case as it was opened: 45 impacts at 20 mm."""
+    page.value("document.querySelector('[data-part=reset]').click()")
+    rests(page)
+    assert (result(page, "impacts"), result(page, "width")) == ("45", "20 mm")
+    assert told(page) == "", told(page)
+
+
 def opened(page):
     until(page, f"{DATA}.ready === 'true' && Number({DATA}.runs) > 0")
+    rests(page)
     assert told(page) == "", told(page)
     # The slider reaches what the gap demands as soon as that is known.
     until(page, f"Number({WIDTH}.max) > 118")
@@ -109,22 +123,22 @@ def chooses(page, record, rules):
     until(page, "document.querySelector('[data-part=rules]').textContent.includes('office_sum')")
     until(page, "document.querySelector('[data-part=widths]').textContent.includes('Office standard')")
     assert told(page) == "", told(page)
-    page.value("document.querySelector('[data-part=reset]').click()")
-    until(page, "document.querySelector('[data-part=rules]').textContent === ''")
-    until(page, f"!{chosen} && document.querySelector('[data-result=impacts]').textContent === '45'")
+    resets(page)
+    assert page.value("document.querySelector('[data-part=rules]').textContent") == ""
+    assert page.value(chosen) is None
 
 
 def chooses_by_keys(page):
     """Who chooses a model by keys stands where they stood, and files of the sweep wait for all its runs."""
     select = "document.getElementById('control-gap.0-model')"
-    runs = page.value(f"Number({DATA}.runs)")
     page.value(f"(() => {{ {select}.focus(); {select}.value = 'hertz_1882'; {select}.dispatchEvent(new Event('change', {{ bubbles: true }})); }})()")
-    until(page, f"Number({DATA}.runs) > {runs}")
+    rests(page)
+    # Its parameters have taken the place of those before.
+    assert page.value("document.getElementById('control-gap.0.damping_ratio')") is None
     assert page.value("document.activeElement.id") == "control-gap.0-model"
     assert page.value(f"{select}.value") == "hertz_1882"
     assert page.value(SWEEP_FILES) == [False, False]
-    page.value("document.querySelector('[data-part=reset]').click()")
-    until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
+    resets(page)
 
 
 def replaces(page, record):
@@ -149,11 +163,9 @@ def replaces(page, record):
     until(page, f"document.querySelector('[data-result=demand]').textContent !== {json.dumps(embedded)}")
     page.value("document.querySelector('[data-part=share]').click()")
     until(page, f"{status}.includes('The record that you dropped is not in it')")
-    page.value("document.querySelector('[data-part=reset]').click()")
-    until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
+    resets(page)
     assert demand() == embedded
-    page.value("document.querySelector('[data-part=reset]').click()")
-    until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
+    resets(page)
 
 
 def types(page, name, text):
@@ -174,9 +186,8 @@ def clears(page):
     until(page, "document.querySelector('[data-part=faults]').textContent === ''")
     assert page.value(stale) == [False] * 4, page.value(stale)
     assert types(page, "width", "") == "20"
-    page.value("document.querySelector('[data-part=reset]').click()")
-    until(page, "document.getElementById('control-gap.0.damping_ratio').value === '0.35' && document.querySelector('[data-part=faults]').textContent === ''")
-    until(page, "document.querySelector('[data-result=impacts]').textContent === '45'")
+    resets(page)
+    assert page.value("document.getElementById('control-gap.0.damping_ratio').value") == "0.35"
 
 
 def computes(page, folder):
@@ -191,9 +202,8 @@ def computes(page, folder):
     assert told(page) == "", told(page)
     below_title = "document.querySelector('header .what').textContent"
     assert page.value(below_title).startswith("slow.toml · pounding "), page.value(below_title)
-    page.value("document.querySelector('[data-part=reset]').click()")
-    until(page, f"{below_title}.startsWith('case.toml · pounding ')")
-    until(page, "document.querySelector('[data-result=width]').textContent === '20 mm' && document.querySelector('[data-result=impacts]').textContent === '45'")
+    resets(page)
+    assert page.value(below_title).startswith("case.toml · pounding "), page.value(below_title)
 
 
 def factors(page, browser, url):
@@ -208,8 +218,8 @@ def factors(page, browser, url):
     until(shared, f"{DATA}.ready === 'true'")
     assert shared.value(factor) == times != "1", (shared.value(factor), times)
     assert shared.value("document.getElementById('control-building.0.mass-0').value") == page.value("document.getElementById('control-building.0.mass-0').value")
-    page.value("document.querySelector('[data-part=reset]').click()")
-    until(page, f"{factor} === '1' && document.querySelector('[data-result=impacts]').textContent === '45'")
+    resets(page)
+    assert page.value(factor) == "1"
 
 
 def words(text):
@@ -233,8 +243,7 @@ def drops(page, pounding, record, broken):
     drop(page, record)
     until(page, f"document.querySelector('[data-part=excitation]').textContent.includes({json.dumps(name)})")
     until(page, "document.querySelector('[data-part=faults]').textContent === ''")
-    page.value("document.querySelector('[data-part=reset]').click()")
-    until(page, "document.querySelector('[data-result=width]').textContent === '20 mm' && document.querySelector('[data-result=impacts]').textContent === '45'")
+    resets(page)
 
 
 def named(page):

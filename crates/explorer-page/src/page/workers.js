@@ -78,13 +78,28 @@ const workers = (() => {
       const [answer] = await Promise.all([live, background].map((w) => w.open(key, request, bytes)));
       return answer;
     };
+    // Beside `ready` and `runs` for whoever drives the page: while nothing is asked it is at rest, but for its sweep.
+    let asked = 0;
+    const counted =
+      (ask) =>
+      async (...given) => {
+        const count = (by) => {
+          document.documentElement.dataset.asked = String((asked += by));
+        };
+        count(1);
+        try {
+          return await ask(...given);
+        } finally {
+          count(-1);
+        }
+      };
     return {
-      live,
+      live: { ...live, ask: counted(live.ask) },
       background,
-      file: (name, bytes) => both(`file ${name}`, { do: "file", name }, bytes),
-      rules: (name, text) => both("rules", { do: "rules", name }, text),
-      open: (name, text) => both("case", { do: "open", name }, text),
-      unpacked,
+      file: counted((name, bytes) => both(`file ${name}`, { do: "file", name }, bytes)),
+      rules: counted((name, text) => both("rules", { do: "rules", name }, text)),
+      open: counted((name, text) => both("case", { do: "open", name }, text)),
+      unpacked: counted(unpacked),
     };
   };
 })();

@@ -390,9 +390,9 @@ pub fn part(name: &str) -> String {
 /// Chooses what the curves are of, and waits until they are drawn.
 fn choose(quantity: &str) -> String {
     format!(
-        "(async () => {{ const {{ dataset }} = document.documentElement; const before = dataset.runs;\
+        "(async () => {{ const {{ dataset }} = document.documentElement;\
          const select = document.querySelector('[data-part=quantity]'); select.value = '{quantity}'; select.dispatchEvent(new Event('change'));\
-         while (dataset.runs === before) await new Promise((next) => setTimeout(next, 50));\
+         while (dataset.asked !== '0') await new Promise((next) => setTimeout(next, 50));\
          await new Promise((next) => requestAnimationFrame(next)); }})()"
     )
 }

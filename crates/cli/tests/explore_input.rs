@@ -18,15 +18,17 @@ fn pair(duration: &str) -> String {
 /// Types into a field, or chooses, and waits until this is true.
 fn put(id: &str, value: &str, until: &str) -> String {
     format!(
-        "(async () => {{ const field = document.getElementById('control-{id}'); field.value = '{value}'; field.dispatchEvent(new Event('change'));\
-         for (let i = 0; i < 600 && !({until}); i++) await new Promise((next) => setTimeout(next, 50)); }})()"
+        "(() => {{ const field = document.getElementById('control-{id}'); field.value = '{value}'; field.dispatchEvent(new Event('change'));\
+         return {}; }})()",
+        wait(until)
     )
 }
 
-/// Waits until this is true.
+/// Waits until this is true and all that was asked of the page is on it.
 fn wait(until: &str) -> String {
+    let done = format!("({until}) && document.documentElement.dataset.asked === '0'");
     format!(
-        "(async () => {{ for (let i = 0; i < 600 && !({until}); i++) await new Promise((next) => setTimeout(next, 50)); }})()"
+        "(async () => {{ for (let i = 0; i < 600 && !({done}); i++) await new Promise((next) => setTimeout(next, 50)); }})()"
     )
 }
 

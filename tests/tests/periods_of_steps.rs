@@ -1,5 +1,5 @@
-//! What steps of implicit methods do to the period of a free swing, measured in runs, against what the warning
-//! before the run says of it; and steps that are unstable.
+//! What steps of implicit methods do to the period and the height of a free swing, measured in runs, against what the
+//! warnings before the run say of it; and steps that are unstable.
 #![allow(clippy::unwrap_used)]
 
 use std::f64::consts::PI;
@@ -40,55 +40,101 @@ fn options(method: MethodChoice) -> RunOptions {
     }
 }
 
-/// Mean period between the first and the last upward crossing of the place at rest.
-fn measured(system: &System, method: MethodChoice) -> f64 {
+/// Mean period between the first and the last upward crossing of the place at rest, and the damping (of critical) by
+/// which the swings between them become lower.
+fn measured(system: &System, method: MethodChoice) -> (f64, f64) {
     let mut recorder = GridRecorder::new(1.0e-3).unwrap();
     run(system, &options(method), &mut [&mut recorder], &mut |_| {}).unwrap();
     let history = recorder.responses;
     let pairs = history.displacement.windows(2).zip(&history.time);
-    let crossings: Vec<f64> = pairs
-        .filter(|(u, _)| u[0] < 0.0 && u[1] >= 0.0)
-        .map(|(u, time)| time + 1.0e-3 * u[0] / (u[0] - u[1]))
+    let crossings: Vec<(usize, f64)> = pairs
+        .enumerate()
+        .filter(|(_, (u, _))| u[0] < 0.0 && u[1] >= 0.0)
+        .map(|(i, (u, time))| (i, time + 1.0e-3 * u[0] / (u[0] - u[1])))
         .collect();
-    assert!(crossings.len() > 5, "{}", crossings.len());
-    (crossings[crossings.len() - 1] - crossings[0]) / (crossings.len() - 1) as f64
+    let swings = crossings.len() - 1;
+    assert!(swings > 5, "{swings}");
+    let ((first, start), (last, end)) = (crossings[0], crossings[swings]);
+    let height = |from: usize, to: usize| {
+        let heights = history.displacement[from..to].iter();
+        heights.fold(0.0_f64, |most, u| most.max(*u))
+    };
+    let lower = height(first, crossings[1].0) / height(crossings[swings - 1].0, last);
+    let damping = lower.ln() / (2.0 * PI * (swings - 1) as f64);
+    ((end - start) / swings as f64, damping)
 }
 
-fn warned(system: &System, method: MethodChoice) -> Option<f64> {
-    let warnings = Warning::before(system, &options(method));
-    warnings.into_iter().find_map(|warning| match warning {
-        Warning::LongerPeriod { lengthening, .. } => Some(lengthening),
-        _ => None,
-    })
+/// What is said of period and damping; nothing is zero.
+fn warned(system: &System, method: MethodChoice) -> (f64, f64) {
+    let mut said = (0.0, 0.0);
+    for warning in Warning::before(system, &options(method)) {
+        match warning {
+            Warning::LongerPeriod { lengthening, .. } => said.0 = lengthening,
+            Warning::AddedDamping { ratio, .. } => said.1 = ratio,
+            _ => {}
+        }
+    }
+    said
 }
 
 #[test]
-fn periods_are_as_long_as_is_said() {
+fn periods_and_dampings_are_as_is_said() {
     let newmark = |step, beta, gamma| MethodChoice::Newmark { step, beta, gamma };
     let hht = |step, alpha| MethodChoice::HhtAlpha { step, alpha };
+    let theta = |step, theta| MethodChoice::MoreauJean { step, theta };
     let step = PERIOD / 11.0;
     for method in [
         newmark(step, 0.25, 0.5),
         newmark(step, 0.3025, 0.6),
         newmark(step, 0.0, 0.5),
+        newmark(step, 0.3025, 0.55),
         hht(step, -0.05),
         hht(step, -0.3),
+        theta(step, 0.5),
+        theta(step, 0.6),
     ] {
         let system = swing(step);
-        let (found, said) = (
-            measured(&system, method) / PERIOD - 1.0,
-            warned(&system, method),
-        );
-        let said = said.unwrap_or_default();
-        // The next term is of the fourth order.
+        let ((period, damping), (longer, damped)) =
+            (measured(&system, method), warned(&system, method));
+        let found = period / PERIOD - 1.0;
+        // The next term is of two orders more.
         assert!(
-            (found - said).abs() < 0.05 * found.abs(),
-            "{method:?}: {found} {said}"
+            (found - longer).abs() < 0.1 * found.abs(),
+            "{method:?}: {found} {longer}"
         );
+        match damped == 0.0 {
+            true => assert!(damping.abs() < 0.005, "{method:?}: {damping}"),
+            false => assert!(
+                (damping - damped).abs() < 0.1 * damped,
+                "{method:?}: {damping} {damped}"
+            ),
+        }
     }
-    // Below one per cent nothing is said.
+    // Below one per cent nothing is said, and of damping below half a per cent.
     let short = PERIOD / 20.0;
-    assert_eq!(warned(&swing(short), newmark(short, 0.25, 0.5)), None);
+    assert_eq!(warned(&swing(short), newmark(short, 0.25, 0.5)), (0.0, 0.0));
+    let short = PERIOD / 70.0;
+    assert_eq!(
+        warned(&swing(short), newmark(short, 0.3025, 0.6)),
+        (0.0, 0.0)
+    );
+    assert_eq!(warned(&swing(short), theta(short, 0.55)), (0.0, 0.0));
+    // The step that is named adds no more.
+    let long = PERIOD / 30.0;
+    let named = Warning::before(&swing(long), &options(theta(long, 1.0)));
+    assert_eq!(named.len(), 1, "{named:?}");
+    assert!(
+        named[0]
+            .to_string()
+            .contains("steps of 13.33 ms damp its fundamental mode of 0.4 s by 10.5 % of critical"),
+        "{}",
+        named[0]
+    );
+    assert!(
+        named[0].to_string().contains("use a step of 0.6 ms"),
+        "{}",
+        named[0]
+    );
 }
 
 /// Central differences are stable up to two over the circular frequency, linear accelerations up to 3.464.

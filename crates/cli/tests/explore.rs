@@ -612,7 +612,7 @@ fn page_shows_no_digits_that_are_none() {
     let Some(told) = asked_of_page(&open, &expressions) else {
         return;
     };
-    assert_eq!(told[0], "1");
+    assert_eq!(told[0], "1.00");
     // Four figures would be 20590.
     assert_eq!(told[2], "20591");
     assert_eq!(told[3], json!([false, false, false]));

@@ -236,7 +236,9 @@ pub(crate) fn warning(warning: &Warning) -> String {
         Warning::EnergyFromContacts { .. } => {
             text.replace("method = \"adaptive\"", "`MethodChoice::Adaptive`")
         }
-        Warning::CoarseStep { .. } | Warning::LongerPeriod { .. } => {
+        Warning::CoarseStep { .. }
+        | Warning::LongerPeriod { .. }
+        | Warning::AddedDamping { .. } => {
             text.replace("method = \"event_driven\"", "`MethodChoice::EventDriven`")
         }
         Warning::DampingInIsolator { .. } => {

@@ -123,6 +123,17 @@ pub struct CodeWidth {
     /// Whether displacements count in it: whether the provision takes them, or one that was held
     /// against it.
     pub takes_displacements: bool,
+    /// What it asks for whatever the displacements are; `None` where they count in all of it.
+    pub without_displacements: Option<LeastWidth>,
+}
+
+/// What a code asks for at least, as one of its provisions does that takes no displacements.
+#[derive(Debug, Clone)]
+pub struct LeastWidth {
+    /// The provision.
+    pub provision: Provision,
+    /// Width (m), without a displacement of the ground.
+    pub width: f64,
 }
 
 impl Listed {
@@ -197,14 +208,22 @@ impl Rules {
     /// An input that is missing, or no rule that applies.
     pub fn width(&self, sides: &Sides) -> Result<CodeWidth, SeparationError> {
         let of = |provision: &Provision| {
-            let requirement = match sides {
-                Sides::Between(situation) => provision.between(situation),
-                Sides::Wall { structure, site } => provision.boundary(structure, site),
+            let (requirement, site) = match sides {
+                Sides::Between(situation) => (provision.between(situation), &situation.site),
+                Sides::Wall { structure, site } => (provision.boundary(structure, site), site),
             };
-            requirement.map(|requirement| CodeWidth {
-                provision: provision.clone(),
-                requirement,
-                takes_displacements: provision.basis() == Basis::Displacement,
+            requirement.map(|requirement| {
+                let takes_displacements = provision.basis() == Basis::Displacement;
+                let least = || LeastWidth {
+                    provision: provision.clone(),
+                    width: requirement.least() - site.relative_ground_displacement,
+                };
+                CodeWidth {
+                    provision: provision.clone(),
+                    takes_displacements,
+                    without_displacements: (!takes_displacements).then(least),
+                    requirement,
+                }
             })
         };
         if let Some(rule) = &self.isolated
@@ -238,8 +257,11 @@ impl Rules {
                 let takes_displacements = first.takes_displacements || least.takes_displacements;
                 // The width of a disputed rule is that of its widest reading.
                 let wider = least.requirement.width > first.requirement.width;
+                let without = [&first, &least].map(|width| width.without_displacements.clone());
+                let without = without.into_iter().flatten();
                 Ok(CodeWidth {
                     takes_displacements,
+                    without_displacements: without.max_by(|a, b| a.width.total_cmp(&b.width)),
                     ..if wider { least } else { first }
                 })
             }

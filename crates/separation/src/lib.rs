@@ -32,8 +32,8 @@ mod working;
 
 pub use assumptions::{Assumptions, Ground, HeightDatum};
 pub use codes::{
-    Cases, Code, CodeDescriptor, CodeWidth, Ownership, Rules, Sides, choose_code, code_in_country,
-    codes, find_code,
+    Cases, Code, CodeDescriptor, CodeWidth, LeastWidth, Ownership, Rules, Sides, choose_code,
+    code_in_country, codes, find_code,
 };
 pub use combination::{CombinationRule, Oscillator, correlation_coefficient};
 pub use descriptor::{Basis, Place, ProvisionDescriptor, Unavailable};

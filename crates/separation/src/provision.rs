@@ -164,12 +164,6 @@ impl Provision {
         }
     }
 
-    /// Whether its widths are held against a gap: not those of seats.
-    #[must_use]
-    pub fn judges(&self) -> bool {
-        self.place() != Place::Seat
-    }
-
     /// Distance of one building from the border of its site (m).
     ///
     /// # Errors

@@ -43,6 +43,13 @@ pub struct ReadingWidth {
 }
 
 impl Requirement {
+    /// What every reading of it asks for (m); of a provision that is not disputed its width.
+    #[must_use]
+    pub fn least(&self) -> f64 {
+        let readings = self.readings.iter().map(|reading| reading.width);
+        readings.fold(self.width, f64::min)
+    }
+
     /// Why the width decides nothing: a caution, or a dispute. `None` for one that holds.
     #[must_use]
     pub fn undecided(&self) -> Option<String> {

@@ -375,7 +375,7 @@ fn cautioned(case: &Case) -> Vec<String> {
     let gap = &check.gaps[0];
     for code in &gap.codes {
         let silent = code.caution().is_some() || code.refusal().is_some() || code.is_disputed();
-        let judged = code.satisfied_by(&gap.levels);
+        let judged = code.satisfied_by(&gap.levels, gap.seat);
         assert_eq!(judged.is_none(), silent, "{}", code.provision.name());
     }
     let marked = gap.codes.iter().filter(|c| c.caution().is_some());

@@ -1,6 +1,7 @@
 //! What a run returns.
 
 use crate::methods::Information;
+use crate::system::LevelMotion;
 use crate::warnings::Warning;
 
 /// A maximum absolute value and when it happened. One that is not known (NaN) equals another such.
@@ -320,6 +321,13 @@ impl LevelOutcome {
         let shears = self.responses.iter();
         let shears = shears.filter(|r| COLUMN_SHEARS.contains(&r.name.as_str()));
         shears.reduce(|a, b| if b.peak.value > a.peak.value { b } else { a })
+    }
+
+    /// How far floors move apart beyond the width at rest, where the gap is a joint with a seat.
+    #[must_use]
+    pub fn joint_opening(&self) -> Option<&NamedPeak> {
+        let mut responses = self.responses.iter();
+        responses.find(|r| r.name == LevelMotion::Opening.name())
     }
 }
 

@@ -13,7 +13,7 @@ use pounding_shear_building::{Damping, DampingMatrix, Modes, OVERTURNING_RATIO, 
 use crate::estimate::{StepEstimate, StepLimit, short};
 use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome, Peak};
-use crate::system::{ContactLevel, LevelMotion, System, more_pairs};
+use crate::system::{ContactLevel, System, more_pairs};
 
 /// Fundamental periods (s) that buildings have.
 const PERIODS: (f64, f64) = (0.005, 20.0);
@@ -30,6 +30,8 @@ const GROUND_ACCELERATION: f64 = 3.0;
 const DRIFT_RATIO: f64 = 0.1;
 /// Part by which fixed steps of an implicit method may lengthen a fundamental period, or shorten it.
 const LENGTHENING: f64 = 0.01;
+/// Damping (of critical) that fixed steps may add to the fundamental mode of a building.
+const ADDED_DAMPING: f64 = 0.005;
 /// Steps in a contact with which fixed steps follow it to a per cent or so.
 const STEPS_IN_CONTACT: f64 = 20.0;
 /// Approach velocity (m/s) at which a contact is looked at before the run.
@@ -195,6 +197,21 @@ pub enum Warning {
         approach_velocity: f64,
         /// Whether that velocity is taken from the run, not assumed.
         met: bool,
+    },
+    /// Fixed steps of an implicit method by whose parameters a building is damped.
+    AddedDamping {
+        /// Name of the building.
+        building: String,
+        /// Fundamental period (s).
+        period: f64,
+        /// Step (s).
+        step: f64,
+        /// Parameter of the method that makes it.
+        parameter: &'static str,
+        /// Damping of the fundamental mode by these steps, of critical (-).
+        ratio: f64,
+        /// Step (s) that adds as much as is said of none.
+        shorter: f64,
     },
     /// Fixed steps of an implicit method that a building is too fast for.
     LongerPeriod {
@@ -387,6 +404,21 @@ impl fmt::Display for Warning {
                 short(*approach_velocity),
                 contact / step,
                 short(1e3 * rounded_down(contact / STEPS_IN_CONTACT)),
+            ),
+            Self::AddedDamping {
+                building,
+                period,
+                step,
+                parameter,
+                ratio,
+                shorter,
+            } => write!(
+                f,
+                "{building}: with this {parameter}, steps of {} ms damp its fundamental mode of {} s by {:.1} % of critical beside the damping of the building; use a step of {} ms, or method = \"event_driven\"",
+                short(1e3 * step),
+                short(*period),
+                100.0 * ratio,
+                short(1e3 * rounded_down(*shorter)),
             ),
             Self::LongerPeriod {
                 building,
@@ -684,44 +716,89 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
     if steps * system.degrees_of_freedom() as f64 > LONG_RUN {
         warnings.push(Warning::ManySteps { steps, limit });
     }
-    warnings.extend(longer_period(system, &options.method));
+    warnings.extend(of_fundamental_modes(system, &options.method));
     warnings
 }
 
-/// The building whose fundamental period the steps of an implicit method change most, if it is much. To the
-/// second order of step times circular frequency a period grows by `beta / 2 - 1 / 24 - d / 4 + d^2 / 8` times its
-/// square with Newmark's parameters, where `d = gamma - 1 / 2`, and by `1 / 12 - alpha / 4 - 3 alpha^2 / 8` times it
-/// with that of Hilber, Hughes and Taylor (from the eigenvalues of both; Hughes, The Finite Element Method, 1987,
-/// section 9.3, draws them).
-fn longer_period(system: &System, method: &MethodChoice) -> Option<Warning> {
-    let (step, weight) = match *method {
-        MethodChoice::Newmark { step, beta, gamma } => {
-            let over = gamma - 0.5;
-            (
-                step,
-                0.5 * beta - 1.0 / 24.0 - 0.25 * over + 0.125 * over * over,
-            )
-        }
-        MethodChoice::HhtAlpha { step, alpha } => {
-            (step, 1.0 / 12.0 - 0.25 * alpha - 0.375 * alpha * alpha)
-        }
-        _ => return None,
+/// What the steps of an implicit method do to the fundamental modes of buildings, for the building to which they do it
+/// most, if it is much: what the eigenvalues of the method say of an undamped mode, to the leading order of the angle
+/// `x` by which it turns in a step (Hughes, The Finite Element Method, 1987, section 9.3, draws them for both methods;
+/// those of the theta method are `(1 + (1 - theta) i x) / (1 - theta i x)`).
+fn of_fundamental_modes(system: &System, method: &MethodChoice) -> Vec<Warning> {
+    let Some(ImplicitSteps {
+        step,
+        lengthening,
+        damping: (parameter, damping, power),
+    }) = ImplicitSteps::of(method)
+    else {
+        return Vec::new();
     };
     let step = step.min(system.ground().time_step);
-    let of = |building: &Arc<ShearBuilding>| {
-        let period = building.modes().period[0];
-        let angle = 2.0 * PI * step / period;
-        (weight * angle * angle, period)
+    let periods = system
+        .buildings()
+        .iter()
+        .map(|b| (b.modes().period[0], b.name()));
+    let Some((period, building)) = periods.min_by(|a, b| a.0.total_cmp(&b.0)) else {
+        return Vec::new();
     };
-    let fastest = system.buildings().iter().map(|b| (of(b), b.name()));
-    let ((lengthening, period), building) =
-        fastest.max_by(|a, b| a.0.0.abs().total_cmp(&b.0.0.abs()))?;
-    (lengthening.abs() > LENGTHENING).then(|| Warning::LongerPeriod {
-        building: building.to_owned(),
+    let angle = 2.0 * PI * step / period;
+    let lengthening = lengthening * angle * angle;
+    let ratio = damping * libm::pow(angle, power);
+    let building = building.to_owned();
+    let longer = (lengthening.abs() > LENGTHENING).then(|| Warning::LongerPeriod {
+        building: building.clone(),
         period,
         step,
         lengthening,
-    })
+    });
+    let damped = (ratio > ADDED_DAMPING).then(|| Warning::AddedDamping {
+        building: building.clone(),
+        period,
+        step,
+        parameter,
+        ratio,
+        shorter: step * libm::pow(ADDED_DAMPING / ratio, 1.0 / power),
+    });
+    longer.into_iter().chain(damped).collect()
+}
+
+/// Steps of an implicit method.
+struct ImplicitSteps {
+    /// Step (s).
+    step: f64,
+    /// Lengthening of a period over the square of the angle.
+    lengthening: f64,
+    /// Damping of critical over a power of the angle: by which parameter, how much, which power.
+    damping: (&'static str, f64, f64),
+}
+
+impl ImplicitSteps {
+    fn of(method: &MethodChoice) -> Option<Self> {
+        Some(match *method {
+            MethodChoice::Newmark { step, beta, gamma } => {
+                let over = gamma - 0.5;
+                Self {
+                    step,
+                    lengthening: 0.5 * beta - 1.0 / 24.0 - 0.25 * over + 0.125 * over * over,
+                    damping: ("gamma", 0.5 * over, 1.0),
+                }
+            }
+            MethodChoice::HhtAlpha { step, alpha } => Self {
+                step,
+                lengthening: 1.0 / 12.0 - 0.25 * alpha - 0.375 * alpha * alpha,
+                damping: ("alpha", -0.125 * alpha * (1.0 + alpha) * (1.0 + alpha), 3.0),
+            },
+            MethodChoice::MoreauJean { step, theta } => {
+                let other = 1.0 - theta;
+                Self {
+                    step,
+                    lengthening: (other * other * other + theta * theta * theta) / 3.0,
+                    damping: ("theta", theta - 0.5, 1.0),
+                }
+            }
+            _ => return None,
+        })
+    }
 }
 
 /// Period lengthening, less one, below which soil is as good as a fixed base.
@@ -742,8 +819,7 @@ fn unseated(system: &System, levels: &[LevelOutcome]) -> Vec<Warning> {
     for gap in system.gaps() {
         let Some(seat) = gap.seat else { continue };
         for level in gap.first_level..gap.first_level + gap.levels {
-            let own = levels[level].responses.iter();
-            let opening = own.filter(|r| r.name == LevelMotion::Opening.name());
+            let opening = levels[level].joint_opening();
             found.extend(
                 opening
                     .filter(|r| r.peak.value > seat)

@@ -223,10 +223,32 @@ fn gap(run: &Run<'_>, index: usize) -> String {
     if rigid {
         text.push_str(&format!("{VELOCITY_JUMPS}\n"));
     }
+    text.push_str(driven_contacts(
+        &outcome.levels,
+        run.outcome.energy.largest_input,
+    ));
     text.push_str(&held_and_widened(&outcome.levels, levels));
     text.push_str(&isolators::clearances(&outcome.levels, levels));
     text.push_str(&level_responses(&outcome.levels, levels));
     text
+}
+
+/// Part of the largest input energy that round-off may leave of nothing lost.
+const ROUND_OFF: f64 = 1.0e-9;
+
+/// What a restitution is that the model of the contact cannot have: above one, or below it where nothing is lost.
+fn driven_contacts(levels: &[LevelOutcome], largest_input: f64) -> &'static str {
+    let is_driven = |level: &LevelOutcome| {
+        let lossless = level.energy_dissipated.abs() <= ROUND_OFF * largest_input;
+        let restitution = level.achieved_restitution;
+        restitution.is_some_and(|e| e > 1.005 || (lossless && e < 0.995))
+    };
+    match levels.iter().any(is_driven) {
+        true => {
+            "restitution: how fast floors part over how fast they met. Buildings and ground push them while they touch, so that it is not that of the contact\n"
+        }
+        false => "",
+    }
 }
 
 /// What the levels bear beside contact forces, the top first.

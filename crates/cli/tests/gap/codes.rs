@@ -432,6 +432,83 @@ fn rows_have_the_answer_of_the_headline() {
     assert!(found["cases"][0]["satisfied"].is_boolean());
 }
 
+/// By hand: TBDY 2018 asks for 30 mm and 10 mm more for the one step of 3 m above 6 m, whatever the displacements
+/// are, so that 20 mm are too small under two records, where it asks for eleven, and 45 mm have no answer.
+#[test]
+fn a_minimum_by_height_decides_under_any_records() {
+    let files = motions(2);
+    for (width, short) in [("20 mm", true), ("45 mm", false)] {
+        let folder = super::example_with(&format!("\"{width}\""));
+        let path = folder.path().to_str().unwrap();
+        let page = folder.path().join("page.html").display().to_string();
+        let mut arguments = BEHAVIOUR.to_vec();
+        arguments.extend(["--code", "tbdy_2018", "--report", &page]);
+        let arguments = seven(&files, &arguments);
+        let output = gap(path, &arguments);
+        assert_eq!(output.status.code(), Some(1), "{}", text(&output.stderr));
+        let shown = text(&output.stdout);
+        let said = std::fs::read_to_string(&page).unwrap();
+        let why = "too small under any records: tbdy_2018_minimum asks for 40.0 mm at level 3-3, whatever the displacements are";
+        assert_eq!(shown.contains("TOO SMALL"), short, "{shown}");
+        assert_eq!(shown.contains("NO ANSWER"), !short, "{shown}");
+        assert_eq!(shown.contains(why), short, "{shown}");
+        assert_eq!(said.contains("too small under any records"), short);
+        assert_eq!(said.contains("gives no answer"), !short);
+        let json = json(&gap(path, &[&arguments[..], &["--json"]].concat()));
+        let code = &json["gaps"][0]["code"];
+        assert_eq!(code["satisfied"].as_bool(), short.then_some(false));
+        let anyway = &code["cases"][0]["short_anyway"];
+        assert_eq!(anyway.is_object(), short, "{code}");
+        if short {
+            close(&anyway["required"], 0.04, 1e-12);
+            assert_eq!(anyway["provision"], "tbdy_2018_minimum");
+        }
+    }
+}
+
+/// Two readings of NCh 433 differ by a factor of two: a width that reaches both or neither has an answer.
+#[test]
+fn readings_that_agree_decide() {
+    let widths = |width: &str| {
+        let folder = super::example_with(&format!("\"{width}\""));
+        let mut arguments = BEHAVIOUR.to_vec();
+        arguments.extend(["--code", "nch_433", "--points", "0"]);
+        let shown = text(&super::gap_in(folder.path(), &arguments).stdout);
+        arguments.push("--json");
+        let json = json(&super::gap_in(folder.path(), &arguments));
+        let code = json["gaps"][0]["code"].clone();
+        (shown, code)
+    };
+    let (shown, code) = widths("5 mm");
+    assert!(
+        shown.contains("TOO SMALL") && shown.contains("the provided width reaches none of them"),
+        "{shown}"
+    );
+    assert_eq!(code["satisfied"], false);
+    let level = &code["cases"][0]["levels"][2];
+    let readings = level["readings"].as_array().unwrap();
+    let mut readings: Vec<f64> = readings
+        .iter()
+        .map(|r| r["width"].as_f64().unwrap())
+        .collect();
+    readings.sort_by(f64::total_cmp);
+    close(&(readings[1] / readings[0]).into(), 2.0, 1e-9);
+    let between = format!("{} mm", 1.2e3 * readings[0]);
+    let (shown, code) = widths(&between);
+    assert!(
+        shown.contains("NO ANSWER") && shown.contains("none is chosen"),
+        "{shown}"
+    );
+    assert!(code["satisfied"].is_null());
+    let above = format!("{} mm", 2.5e3 * readings[1]);
+    let (shown, code) = widths(&above);
+    assert!(
+        shown.contains("WIDE ENOUGH") && shown.contains("the provided width reaches all of them"),
+        "{shown}"
+    );
+    assert_eq!(code["satisfied"], true);
+}
+
 /// A rule that takes no displacement needs no records: that for isolated buildings by equivalent
 /// lateral forces asks for 140.0 mm (its worked numbers are those of the isolated building's page), and
 /// answers under one record, where the code asks for eleven. One that takes displacements does not.

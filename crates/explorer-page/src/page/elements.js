@@ -27,6 +27,8 @@ const elements = (() => {
     if (size !== 0 && (size < 1e-3 || size >= 1e7)) return x.toExponential(digits - 1).replace("e+", "e");
     return String(rounded);
   };
+  // A ratio with two decimals, as pages of results have it.
+  const ratio = (x) => (!Number.isFinite(x) ? "–" : x >= 1e4 ? x.toExponential(1).replace("e+", "e") : x.toFixed(2));
   // A text as a value of a table of comma-separated values, as those of the command line have it: what a
   // spreadsheet would take for a formula has an apostrophe before it, unless it is a number or the sign of no unit.
   const NUMBER = /^[-+]?((\d+\.?\d*|\.\d+)(e[-+]?\d+)?|inf|infinity|nan)$/i;
@@ -67,5 +69,5 @@ const elements = (() => {
     link.remove();
     setTimeout(() => URL.revokeObjectURL(address), 60000);
   };
-  return { part, html, svg, shown, quoted, counted, clean, ticks, more, save };
+  return { part, html, svg, shown, ratio, quoted, counted, clean, ticks, more, save };
 })();

@@ -1,7 +1,7 @@
 "use strict";
 // The answer of the run: in numbers, storey by storey, and its impacts over time.
 const resultsOf = (documentation) => {
-  const { part, html, svg, shown, quoted, counted, ticks, more } = elements;
+  const { part, html, svg, shown, ratio, quoted, counted, ticks, more } = elements;
   const GAP_CHECK = "reference/gap-check.md";
   const RESULT = "reference/result-file.md";
   const most = (values) => values.reduce((m, x) => (x > m ? x : m), 0);
@@ -78,13 +78,13 @@ const resultsOf = (documentation) => {
     run.summary.buildings[building].isolated[storey][key].peak !== 0 ? run.amplification[building][storey][key] : null;
   const whole = (run) => {
     const ratios = run.amplification.flatMap((storeys, b) => storeys.map((_, s) => ratioOf(run, b, s, "displacement")));
-    const amplified = Math.max(...ratios.filter((ratio) => ratio !== null));
+    const amplified = Math.max(...ratios.filter((x) => x !== null));
     const input = run.summary.energy.input ?? NaN;
     const sum = run.columns.impact_energy_dissipated.reduce((sum, x) => sum + x, 0);
     // Less than the ledger resolves is round-off, of either sign.
     const dissipated = Math.abs(sum) <= 1e-9 * Math.abs(input) ? 0 : sum;
     return [
-      ["amplification", "Amplification", shown(amplified), "the largest ratio of a displacement to that of the run without contact; below are all ratios", GAP_CHECK],
+      ["amplification", "Amplification", ratio(amplified), "the largest ratio of a displacement to that of the run without contact; below are all ratios", GAP_CHECK],
       ["dissipated", "Energy in contacts", `${shown(1e-3 * dissipated)} kJ`, "energy that contacts dissipated", RESULT],
     ];
   };
@@ -127,8 +127,8 @@ const resultsOf = (documentation) => {
           html("th", { scope: "row" }, `${building.name} ${s + 1}`),
           ...QUANTITIES.flatMap(([key, , , factor]) => {
             const without = building.isolated[s];
-            const ratio = ratioOf(run, b, s, key);
-            const cell = html("td", { "data-amplification": key, class: ratio > 1.005 ? "more" : ratio !== null && ratio < 0.995 ? "less" : null }, shown(ratio ?? NaN, 3));
+            const value = ratioOf(run, b, s, key);
+            const cell = html("td", { "data-amplification": key, class: value > 1.005 ? "more" : value !== null && value < 0.995 ? "less" : null }, ratio(value ?? NaN));
             return [html("td", {}, shown(factor * (with_[key].peak ?? NaN))), html("td", {}, shown(factor * (without[key].peak ?? NaN))), cell];
           }),
         ),
@@ -146,7 +146,7 @@ const resultsOf = (documentation) => {
     const jumps = forces.some((force) => Number.isNaN(force));
     const values = jumps ? impulses : forces;
     const [width, height] = [picture.clientWidth || 640, 200];
-    const [left, right, top, bottom] = [64, 12, 24, height - 34];
+    const [left, right, top, bottom] = [64, 24, 24, height - 34];
     const end = time[time.length - 1] || 1;
     const high = 1e-3 * most([...values]) || 1;
     const [what, unit] = jumps ? ["impulses of impacts", "kN s"] : ["peak forces of impacts", "kN"];

@@ -34,8 +34,8 @@ const sweepOf = (state, background, dashes, actions) => {
   // Curves by the name of their model, and the case that they are of.
   let curves = new Map();
   let done = [0, 0];
-  // Whether there is no width to run, as no gap is demanded.
-  let undemanded = false;
+  // What is said where there are no runs to count.
+  let waiting = "";
 
   // Dashes and spaces as figures have them (pt), on the screen.
   const pixels = dashes.map((dash) => dash.split(" ").map((length) => length && clean((length * 4) / 3)).join(" "));
@@ -85,7 +85,7 @@ const sweepOf = (state, background, dashes, actions) => {
     part("heading-sweep").textContent = `All widths of ${nameOf(gap)}`;
     const picture = part("sweep");
     const [width, height] = [picture.clientWidth || 640, 380];
-    const [left, right, top, bottom] = [64, 14, 24, height - 40];
+    const [left, right, top, bottom] = [64, 24, 24, height - 40];
     const provided = actions.provided(gap);
     const marks = widths ? marksOf(widths.gaps[gap]) : [];
     let far = Math.max(provided || 0, ...marks.map(([x]) => x));
@@ -148,7 +148,7 @@ const sweepOf = (state, background, dashes, actions) => {
     }
     part("remarks").replaceChildren(...remarks.map((text) => html("p", { class: "note" }, text)));
     part("legend").replaceChildren(...legend.map(([look, text]) => html("li", {}, sample(look), text)));
-    part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${counted(done[1], "run")}` : done[1] ? counted(done[1], "run") : undemanded ? "the record demands no gap: no widths are run" : "";
+    part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${counted(done[1], "run")}` : done[1] ? counted(done[1], "run") : waiting;
     picture.dataset.done = String(done[0]);
     picture.dataset.all = String(done[1]);
   };
@@ -225,9 +225,11 @@ const sweepOf = (state, background, dashes, actions) => {
       return answer.faults || stopped();
     };
     done = [0, 0];
-    undemanded = false;
+    waiting = "what the record demands, and codes with it, is worked out …";
+    part("progress").textContent = waiting;
     const answer = await background.ask({ do: "widths", changes: state.changes() });
     if (stopped()) return;
+    waiting = "";
     curves = new Map();
     widths = answer.faults ? null : answer;
     listed();
@@ -237,7 +239,7 @@ const sweepOf = (state, background, dashes, actions) => {
     actions.demanded(answer.gaps);
     const laws = [[null, actions.model(gap)], ...overlays.filter((name) => name !== actions.model(gap)).map((name) => [name, name])];
     done = [0, laws.length * all.length];
-    undemanded = !all.length;
+    waiting = all.length ? "" : "the record demands no gap: no widths are run";
     for (const [model, name] of laws) {
       let keys = null;
       if (model) {

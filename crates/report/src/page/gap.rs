@@ -134,11 +134,26 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
                     )
                 };
                 let all: Vec<_> = (0..readings).map(reading).collect();
+                let chosen = match answer.at(&format!("{of_level}/satisfied")).as_bool() {
+                    Some(_) => "",
+                    None => ", and none is chosen",
+                };
                 format!(
-                    "the texts differ, and none is chosen: {}; {provided} mm are provided",
+                    "the texts differ{chosen}: {}; {provided} mm are provided",
                     all.join(", ")
                 )
             };
+            let short = format!("{case}/short_anyway");
+            if answer.at(&short).is_object() {
+                let level = answer.at(&format!("{short}/level")).as_u64();
+                let level = level.map_or(0, |level| level.saturating_sub(1));
+                points.push(format!(
+                    "{ownership}too small under any records: {} asks for {} mm at level {}, whatever the displacements are.",
+                    answer.quote(&format!("{short}/provision")),
+                    answer.say(&format!("{short}/required"), 1.0e3),
+                    answer.quote(&at(&format!("levels/{level}/level"))),
+                ));
+            }
             points.push(format!(
                 "{ownership}{required}, at level {place} ({name}{clause}, <strong>{}</strong>: {}).",
                 answer.quote(&format!("{rule}/status")),
@@ -188,6 +203,26 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
         }
     } else {
         points.push(format!("<strong>Gap {name} {}.</strong>", word(adequate)));
+    }
+    for o in 0..answer.list(&at("openings")).len() {
+        let opening = |key: &str| at(&format!("openings/{o}/{key}"));
+        let (peak, seat) = (
+            answer.at(&opening("peak")).as_f64(),
+            answer.at(&at("seat")).as_f64(),
+        );
+        let level = answer.at(&opening("level")).as_u64();
+        let level = level.map_or(0, |level| level.saturating_sub(1));
+        points.push(format!(
+            "At level {} the joint opens by {} mm under {}: {} its seat of {} mm.",
+            answer.quote(&at(&format!("levels/{level}/level"))),
+            answer.say(&opening("peak"), 1.0e3),
+            answer.quote(&opening("record")),
+            match peak > seat {
+                true => "<strong>the deck falls</strong>, as that is more than",
+                false => "within",
+            },
+            answer.say(&at("seat"), 1.0e3),
+        ));
     }
     let collapsed = answer.list("/collapsed").len();
     let records = answer.list("/records").len() + collapsed;

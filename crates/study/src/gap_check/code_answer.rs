@@ -1,7 +1,8 @@
 //! The answer of one code for a suite of records.
 
 use pounding_separation::{
-    Code, CodeWidth, Date, Ownership, Rules, SeparationError, Sides, Situation, Statistic,
+    Code, CodeWidth, Date, LeastWidth, Ownership, Rules, SeparationError, Sides, Situation,
+    Statistic,
 };
 
 use super::SAME;
@@ -71,13 +72,47 @@ impl LevelAnswer {
     }
 
     /// Whether the provided width is no less; `None` for a rule that does not hold for
-    /// displacements of buildings that yield, for one that is disputed, and under records that are
-    /// not what the code asks for.
+    /// displacements of buildings that yield, for one whose readings differ in it, and under records
+    /// that are not what the code asks for. A width that takes no displacements is asked for under
+    /// any records.
     #[must_use]
     pub fn satisfied(&self) -> Option<bool> {
-        let required = self.width.requirement.width;
-        let decides = self.records_suffice && self.width.requirement.undecided().is_none();
-        decides.then_some(self.provided >= required * (1.0 - SAME))
+        if self.falls_short_anyway().is_some() {
+            return Some(false);
+        }
+        self.by_width()
+    }
+
+    /// Whether its width itself decides, not only what of it takes no displacements.
+    #[must_use]
+    pub fn has_answer(&self) -> bool {
+        self.by_width().is_some()
+    }
+
+    fn by_width(&self) -> Option<bool> {
+        let requirement = &self.width.requirement;
+        if !self.records_suffice || requirement.caution.is_some() {
+            return None;
+        }
+        match (
+            self.reaches(requirement.width),
+            self.reaches(requirement.least()),
+        ) {
+            (true, _) => Some(true),
+            (_, false) => Some(false),
+            (false, true) => None,
+        }
+    }
+
+    /// What the code asks for whatever the displacements are, where the provided width is less.
+    #[must_use]
+    pub fn falls_short_anyway(&self) -> Option<&LeastWidth> {
+        let least = self.width.without_displacements.as_ref();
+        least.filter(|least| !self.reaches(least.width))
+    }
+
+    fn reaches(&self, required: f64) -> bool {
+        self.provided >= required * (1.0 - SAME)
     }
 }
 
@@ -108,9 +143,25 @@ impl OwnershipAnswer {
         if self.refusal().is_some() {
             return None;
         }
-        let levels = self.levels.iter().flatten().map(LevelAnswer::satisfied);
-        let all: Option<Vec<bool>> = levels.collect();
-        all.map(|all| all.into_iter().all(|reached| reached))
+        all_of(self.levels.iter().flatten().map(LevelAnswer::satisfied))
+    }
+
+    /// Where widths that take displacements are no answer and the gap is too small by one that takes
+    /// none: the level at which it is by most, and what is asked for there.
+    #[must_use]
+    pub fn falls_short_anyway(&self) -> Option<(usize, &LeastWidth)> {
+        let all_decide = self.levels.iter().flatten().all(LevelAnswer::has_answer);
+        if all_decide || self.refusal().is_some() {
+            return None;
+        }
+        let levels = self.levels.iter().enumerate();
+        let short = levels.filter_map(|(l, answer)| {
+            let answer = answer.as_ref().ok()?;
+            let least = answer.falls_short_anyway()?;
+            Some((answer.provided / least.width, (l, least)))
+        });
+        let worst = short.min_by(|a, b| a.0.total_cmp(&b.0));
+        worst.map(|(_, found)| found)
     }
 }
 
@@ -144,13 +195,26 @@ impl CodeAnswer {
 
     /// Whether the gap is wide enough by the code; `None` if it gives no answer, as where
     /// buildings collapse without contact, or where displacements count and there are fewer records
-    /// than it asks for, or their mean spectrum is below what it asks for. Where the case does not say
-    /// who owns the ground, it must be for both.
+    /// than it asks for, or their mean spectrum is below what it asks for, unless the gap is less than
+    /// it asks for without displacements. Where the case does not say who owns the ground, it must be
+    /// for both.
     #[must_use]
     pub fn satisfied(&self) -> Option<bool> {
-        let answers: Option<Vec<bool>> = self.deciding().map(OwnershipAnswer::satisfied).collect();
-        answers.map(|all| all.into_iter().all(|reached| reached))
+        all_of(self.deciding().map(OwnershipAnswer::satisfied))
     }
+}
+
+/// Whether all are true: one that is not settles it, whatever those are that are not known.
+fn all_of(answers: impl Iterator<Item = Option<bool>>) -> Option<bool> {
+    let mut all = Some(true);
+    for answer in answers {
+        match answer {
+            Some(true) => {}
+            Some(false) => return Some(false),
+            None => all = None,
+        }
+    }
+    all
 }
 
 /// Whether records are what a code asks for.

@@ -55,23 +55,34 @@ impl CodeGap {
         !self.provision.status().readings().is_empty()
     }
 
-    /// Whether its widths are held against gaps: not those with a caution, of a disputed
-    /// provision, or of seats.
+    /// Whether its widths are held against what is provided: not those with a caution, or of a
+    /// disputed provision.
     #[must_use]
     pub fn judges(&self) -> bool {
-        self.caution().is_none() && !self.is_disputed() && self.provision.judges()
+        self.caution().is_none() && !self.is_disputed()
     }
 
-    /// Whether these provided widths are no less than what is required at any level under
-    /// any record; `None` if nothing is, and for a provision that does not judge.
+    /// Whether its widths are those of a seat, which what closes a gap says nothing of.
     #[must_use]
-    pub fn satisfied_by(&self, levels: &[GapLevel]) -> Option<bool> {
+    pub fn is_of_seat(&self) -> bool {
+        self.provision.place() == Place::Seat
+    }
+
+    /// Whether what is provided is no less than what is required at any level under any record: of a
+    /// provision of seats the seat, of any other the width of the gap. `None` if nothing is, and for a
+    /// provision that does not judge.
+    #[must_use]
+    pub fn satisfied_by(&self, levels: &[GapLevel], seat: Option<f64>) -> Option<bool> {
         if !self.judges() || self.refusal().is_some() {
             return None;
         }
+        let provided = |level: &GapLevel| match self.is_of_seat() {
+            true => seat,
+            false => Some(level.width),
+        };
         let records = self.records.iter();
         let pairs = records.flat_map(|r| r.iter().zip(levels));
-        let known = pairs.filter_map(|(r, l)| Some((r.as_ref().ok()?.width, l.width)));
+        let known = pairs.filter_map(|(r, l)| Some((r.as_ref().ok()?.width, provided(l)?)));
         satisfied(known)
     }
 

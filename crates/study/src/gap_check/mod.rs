@@ -58,7 +58,7 @@ pub(crate) use records::{of_each_record, of_reading, said_in_reading};
 pub use systems::rebuilt;
 
 use pounding_case::{Case, Separation};
-use pounding_time_history::NamedPeak;
+use pounding_time_history::{LevelOutcome, NamedPeak};
 
 use crate::dealt::{Deal, identity};
 
@@ -119,7 +119,11 @@ pub struct GapReport {
     pub adequate: bool,
     /// Shear of columns that are hit, at the provided widths: of each such level the record
     /// under which it is a maximum; none where no run could be made.
-    pub columns: Vec<ColumnDemand>,
+    pub columns: Vec<LevelDemand>,
+    /// Seat of the deck (m), where there is one.
+    pub seat: Option<f64>,
+    /// How far the joint opens at the provided widths, where there is a seat, as of columns.
+    pub openings: Vec<LevelDemand>,
 }
 
 /// Where a gap is nearest to contact, or goes furthest beyond it: the level with the least
@@ -168,15 +172,16 @@ impl Governing {
     }
 }
 
-/// Maximum shear of the columns that are hit at a level, over all records.
+/// Maximum of a response at a level, over all records.
 #[derive(Debug, Clone, PartialEq)]
-pub struct ColumnDemand {
+pub struct LevelDemand {
     /// Level of the gap, from zero.
     pub level: usize,
     /// Record, from zero.
     pub record: usize,
-    /// The shear, below or above the hit, with its capacity if that is known.
-    pub shear: NamedPeak,
+    /// The response, such as the shear of columns below or above the hit, with its capacity if
+    /// that is known.
+    pub response: NamedPeak,
 }
 
 /// The whole check.
@@ -449,6 +454,11 @@ fn report(
     let required = required::required_gap(&demand, collapsed, options);
     let allowed = required.allowed_contacts;
     let widths: Vec<f64> = levels.iter().map(|l| l.width).collect();
+    let most_of = |response| {
+        let levels = 0..levels.len();
+        let found = levels.filter_map(|level| level_demand(records, (place.gap, level), response));
+        found.collect()
+    };
     Ok(GapReport {
         name: gap.name.clone(),
         between: gap.between.clone(),
@@ -463,36 +473,40 @@ fn report(
         code: None,
         demand,
         demand_by_level: by_record,
-        columns: (0..levels.len())
-            .filter_map(|level| column_demand(records, (place.gap, level)))
-            .collect(),
+        columns: most_of(LevelOutcome::column_shear),
+        seat: gap.seat,
+        openings: most_of(LevelOutcome::joint_opening),
         levels,
         codes,
         combinations,
     })
 }
 
-/// The record under which the shear of the columns at a level of a gap is a maximum; `None`
+/// The record under which a response of a level of a gap is a maximum; `None`
 /// where floors hit floors.
-fn column_demand(records: &[RecordDemand], (gap, level): (usize, usize)) -> Option<ColumnDemand> {
+fn level_demand(
+    records: &[RecordDemand],
+    (gap, level): (usize, usize),
+    response: fn(&LevelOutcome) -> Option<&NamedPeak>,
+) -> Option<LevelDemand> {
     let of = |(number, record): (usize, &RecordDemand)| {
         let (_, gaps) = record.pounding.as_ref().ok()?;
-        let shear = gaps[gap].levels[level].column_shear()?.clone();
-        Some((number, shear))
+        let found = response(&gaps[gap].levels[level])?.clone();
+        Some((number, found))
     };
-    let shears = records.iter().enumerate().filter_map(of);
+    let all = records.iter().enumerate().filter_map(of);
     // Of equals the first record.
-    let most = shears.reduce(|a, b| {
+    let most = all.reduce(|a, b| {
         if b.1.peak.value > a.1.peak.value {
             b
         } else {
             a
         }
     });
-    most.map(|(record, shear)| ColumnDemand {
+    most.map(|(record, response)| LevelDemand {
         level,
         record,
-        shear,
+        response,
     })
 }
 

@@ -156,6 +156,7 @@ fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
     text.push_str(&statistic(answer, records, times));
     text.push_str(&cases(gap, answer));
     for case in &answer.cases {
+        text.push_str(&short_anyway(gap, case));
         text.push_str(&explained(case));
     }
     if answer.cases.len() > 1 {
@@ -336,6 +337,21 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
     format!("{table}\n")
 }
 
+/// By which rule the gap is too small under any records, where the widths that take them are no answer.
+fn short_anyway(gap: &GapReport, case: &OwnershipAnswer) -> String {
+    match case.falls_short_anyway() {
+        Some((level, least)) => format!(
+            "  {}too small under any records: {} asks for {:.1} mm at level {}, whatever the displacements are\n",
+            case.ownership
+                .map_or(String::new(), |o| format!("{}: ", o.name())),
+            least.provision.name(),
+            least.width * 1e3,
+            gap.levels[level].place.label()
+        ),
+        None => String::new(),
+    }
+}
+
 /// Why a code gives no answer, or its formula with what is not verified.
 fn explained(case: &OwnershipAnswer) -> String {
     let ownership = case
@@ -364,7 +380,12 @@ fn explained(case: &OwnershipAnswer) -> String {
         add("to know", remark);
     }
     if let Some(undecided) = requirement.undecided() {
-        add("no verdict", &undecided);
+        // Where every reading asks for less than is provided, or for more, none need be chosen.
+        match governing.satisfied().filter(|_| governing.has_answer()) {
+            Some(true) => add("every reading", "the provided width reaches all of them"),
+            Some(false) => add("every reading", "the provided width reaches none of them"),
+            None => add("no verdict", &undecided),
+        }
     }
     text
 }

@@ -80,18 +80,15 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
                 start.push(gap.levels[level].width.to_string());
                 start.push(demand.to_string());
                 start.push(record.ground_moves(index, level).to_string());
+                let over_demand = |width: f64| (width, (width / demand).to_string());
                 let mut add = |rule: &str,
                                status: &str,
-                               width: Result<f64, String>,
+                               width: Result<(f64, String), String>,
                                [factor, caution]: [Option<&str>; 2]| {
                     let mut row = start.clone();
                     row.extend([rule.to_owned(), status.to_owned()]);
                     match width {
-                        Ok(width) => row.extend([
-                            width.to_string(),
-                            (width / demand).to_string(),
-                            String::new(),
-                        ]),
+                        Ok((width, ratio)) => row.extend([width.to_string(), ratio, String::new()]),
                         Err(refusal) => row.extend([String::new(), String::new(), refusal]),
                     }
                     row.extend([factor, caution].map(|x| x.unwrap_or_default().to_owned()));
@@ -103,7 +100,7 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
                         None => c.rule.name().to_owned(),
                     };
                     let width = c.records[r][level].width;
-                    add(&name, c.status.name(), Ok(width), [None; 2]);
+                    add(&name, c.status.name(), Ok(over_demand(width)), [None; 2]);
                 }
                 for c in &gap.codes {
                     let p = &c.provision;
@@ -114,10 +111,16 @@ pub fn codes(check: &GapCheck) -> Result<String, Failure> {
                     // A row for each reading of a disputed provision.
                     for reading in required.map_or(&[][..], |r| &r.readings) {
                         let name = format!("{} ({})", p.name(), reading.text);
-                        add(&name, status, Ok(reading.width), [factor, caution]);
+                        let width = Ok(over_demand(reading.width));
+                        add(&name, status, width, [factor, caution]);
                     }
                     if !required.is_ok_and(|r| !r.readings.is_empty()) {
-                        let width = required.map(|w| w.width).map_err(ToString::to_string);
+                        let width = required.map(|w| match c.is_of_seat() {
+                            // What closes a gap says nothing of a seat.
+                            true => (w.width, String::new()),
+                            false => over_demand(w.width),
+                        });
+                        let width = width.map_err(ToString::to_string);
                         add(p.name(), status, width, [factor, caution]);
                     }
                 }

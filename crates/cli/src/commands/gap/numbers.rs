@@ -239,6 +239,11 @@ struct Gap<'c> {
     provisions: Vec<Provision<'c>>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     columns: Vec<Column<'c>>,
+    /// Seat of the deck, and how far its joint opens at the provided widths.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    seat: Option<f64>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    openings: Vec<Opening<'c>>,
 }
 
 /// What decides the verdict: width and demand at the level of the least margin.
@@ -249,6 +254,15 @@ struct Governing<'c> {
     required: f64,
     provided: f64,
     margin: f64,
+}
+
+/// How far a joint with a seat opens at a level, at most.
+#[derive(Serialize)]
+struct Opening<'c> {
+    level: usize,
+    record: &'c str,
+    #[serde(flatten)]
+    opening: Peak,
 }
 
 /// Maximum shear of the columns that are hit at a level.
@@ -423,7 +437,18 @@ struct CodeCase<'c> {
     refusal: Option<String>,
     /// What else is to be known of the provision that governs.
     remarks: &'static [&'static str],
+    /// What makes the gap too small under any records, where the widths that take them are no answer.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    short_anyway: Option<ShortAnyway<'c>>,
     levels: Vec<CodeLevel<'c>>,
+}
+
+/// A width that takes no displacements, at its level.
+#[derive(Serialize)]
+struct ShortAnyway<'c> {
+    level: usize,
+    provision: &'c str,
+    required: f64,
 }
 
 /// The width of a code at a level.
@@ -496,6 +521,11 @@ impl<'c> CodeCase<'c> {
             provided: governing.map(|(_, l)| l.provided),
             refusal: case.refusal().map(ToString::to_string),
             remarks: governing.map_or(&[], |(_, l)| l.width.provision.remarks()),
+            short_anyway: case.falls_short_anyway().map(|(level, least)| ShortAnyway {
+                level: level + 1,
+                provision: least.provision.name(),
+                required: least.width,
+            }),
             levels: case.levels.iter().map(level).collect(),
         }
     }
@@ -556,8 +586,16 @@ impl<'c> Gap<'c> {
                 .map(|c| Column {
                     level: c.level + 1,
                     record: &check.records[c.record].name,
-                    demand_over_capacity: c.shear.demand_ratio(),
-                    shear: &c.shear,
+                    demand_over_capacity: c.response.demand_ratio(),
+                    shear: &c.response,
+                })
+                .collect(),
+            seat: gap.seat,
+            openings: (gap.openings.iter())
+                .map(|o| Opening {
+                    level: o.level + 1,
+                    record: &check.records[o.record].name,
+                    opening: Peak::of(&o.response.peak),
                 })
                 .collect(),
             demand: &gap.demand,
@@ -670,7 +708,8 @@ impl<'c> Provision<'c> {
             let at = |level| c.width_at(r, level).filter(|_| decides);
             OfRecord {
                 width: c.width(r).filter(|_| decides),
-                ratio_to_demand: gap.ratio_to_demand(r, at),
+                // What closes a gap says nothing of a seat.
+                ratio_to_demand: (gap.ratio_to_demand(r, at)).filter(|_| !c.is_of_seat()),
                 levels: levels.iter().map(level).collect(),
             }
         });
@@ -678,7 +717,7 @@ impl<'c> Provision<'c> {
             descriptor: Descriptor::of(&c.provision),
             refusal: c.refusal().map(ToString::to_string),
             caution: c.caution(),
-            satisfied: c.satisfied_by(&gap.levels),
+            satisfied: c.satisfied_by(&gap.levels, gap.seat),
             records: records.collect(),
         }
     }

@@ -22,6 +22,8 @@ enum Judgement {
     ElasticOnly,
     /// Texts on it differ.
     Disputed,
+    /// It is of the seat, not of the gap: whether there is one that reaches it.
+    OfSeat(Option<bool>),
 }
 
 /// A rule with what it asks for.
@@ -80,7 +82,8 @@ impl Rule {
         let judgement = match c.caution() {
             Some(_) => Judgement::ElasticOnly,
             None if c.is_disputed() => Judgement::Disputed,
-            None => Judgement::Satisfied(c.satisfied_by(&gap.levels)),
+            None if c.is_of_seat() => Judgement::OfSeat(c.satisfied_by(&gap.levels, gap.seat)),
+            None => Judgement::Satisfied(c.satisfied_by(&gap.levels, gap.seat)),
         };
         let judged = (judgement, p.status().name());
         let factor = p.elastic_displacement_factor();
@@ -118,12 +121,17 @@ impl Rule {
     fn cells(&self, records: usize) -> [String; 5] {
         let few = format!("{} of {records}", self.beyond);
         let ratio = self.ratio.map_or("-".to_owned(), |x| format!("{x:.3}"));
+        let none = || "-".to_owned();
+        let said = |satisfied: Option<bool>| match satisfied {
+            Some(true) => "yes",
+            Some(false) => "no",
+            None => "-",
+        };
         let (satisfied, ratio, few) = match self.judgement {
-            Judgement::Satisfied(Some(true)) => ("yes", ratio, few),
-            Judgement::Satisfied(Some(false)) => ("no", ratio, few),
-            Judgement::Satisfied(None) => ("-", ratio, few),
-            Judgement::ElasticOnly => (ELASTIC_ONLY, "-".to_owned(), "-".to_owned()),
-            Judgement::Disputed => (DISPUTED, "-".to_owned(), "-".to_owned()),
+            Judgement::Satisfied(satisfied) => (said(satisfied), ratio, few),
+            Judgement::OfSeat(satisfied) => (said(satisfied), none(), none()),
+            Judgement::ElasticOnly => (ELASTIC_ONLY, none(), none()),
+            Judgement::Disputed => (DISPUTED, none(), none()),
         };
         let satisfied = satisfied.to_owned();
         [self.range(), satisfied, ratio, few, self.status.to_owned()]

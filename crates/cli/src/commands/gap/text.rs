@@ -4,7 +4,7 @@ use pounding_case::Case;
 use pounding_catalogue::wording::counted;
 use pounding_shear_building::OVERTURNING_RATIO;
 use pounding_study::gap_check::{
-    Amplification, GapCheck, GapSweep, RecordDemand, collapsed_building,
+    Amplification, GapCheck, GapSweep, LevelDemand, RecordDemand, collapsed_building,
 };
 use pounding_time_history::VELOCITY_JUMPS;
 
@@ -49,6 +49,7 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
     }
     if folded {
         text.push_str(&columns(check));
+        text.push_str(&openings(check));
         text.push_str(&what_is_folded(check));
         return text;
     }
@@ -265,8 +266,9 @@ fn provided(check: &GapCheck) -> String {
     let jumps = rigid(check).then(|| format!("{VELOCITY_JUMPS}\n"));
     let jumps = jumps.unwrap_or_default();
     format!(
-        "\nAt the provided gaps: maximum over storeys of the ratio of a storey's peak with pounding to that without contact\n{table}\n{failures}{jumps}{}",
-        columns(check)
+        "\nAt the provided gaps: maximum over storeys of the ratio of a storey's peak with pounding to that without contact\n{table}\n{failures}{jumps}{}{}",
+        columns(check),
+        openings(check)
     )
 }
 
@@ -275,7 +277,7 @@ fn columns(check: &GapCheck) -> String {
     let mut text = String::new();
     for gap in &check.gaps {
         for column in gap.columns.iter().rev() {
-            let shear = &column.shear;
+            let shear = &column.response;
             text.push_str(&format!(
                 "Gap {}, level {}: columns that are hit bear a {} of {} kN at {:.2} s under {}{}\n",
                 gap.name,
@@ -285,6 +287,34 @@ fn columns(check: &GapCheck) -> String {
                 shear.peak.time,
                 check.records[column.record].name,
                 against_capacity(shear)
+            ));
+        }
+    }
+    text
+}
+
+/// How far joints with a seat open, a line each.
+fn openings(check: &GapCheck) -> String {
+    let mut text = String::new();
+    for gap in &check.gaps {
+        for LevelDemand {
+            level,
+            record,
+            response,
+        } in gap.openings.iter().rev()
+        {
+            let seat = gap.seat.unwrap_or(f64::INFINITY);
+            let falls = response.peak.value > seat;
+            text.push_str(&format!(
+                "Gap {}, level {}: the joint opens by {:.1} mm at {:.2} s under {}, {} its seat of {:.1} mm{}\n",
+                gap.name,
+                gap.levels[*level].place,
+                1e3 * response.peak.value,
+                response.peak.time,
+                check.records[*record].name,
+                if falls { "more than" } else { "within" },
+                1e3 * seat,
+                if falls { ": the deck falls" } else { "" },
             ));
         }
     }

@@ -452,7 +452,7 @@ fn a_minimum_by_height_decides_under_any_records() {
         assert_eq!(shown.contains("TOO SMALL"), short, "{shown}");
         assert_eq!(shown.contains("NO ANSWER"), !short, "{shown}");
         assert_eq!(shown.contains(why), short, "{shown}");
-        assert_eq!(said.contains("Too small under any records"), short);
+        assert_eq!(said.contains("too small under any records"), short);
         assert_eq!(said.contains("gives no answer"), !short);
         let json = json(&gap(path, &[&arguments[..], &["--json"]].concat()));
         let code = &json["gaps"][0]["code"];

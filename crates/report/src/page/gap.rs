@@ -148,7 +148,7 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
                 let level = answer.at(&format!("{short}/level")).as_u64();
                 let level = level.map_or(0, |level| level.saturating_sub(1));
                 points.push(format!(
-                    "{ownership}Too small under any records: {} asks for {} mm at level {}, whatever the displacements are.",
+                    "{ownership}<strong>too small under any records</strong>: {} asks for {} mm at level {}, whatever the displacements are.",
                     answer.quote(&format!("{short}/provision")),
                     answer.say(&format!("{short}/required"), 1.0e3),
                     answer.quote(&at(&format!("levels/{level}/level"))),

@@ -133,6 +133,8 @@ pub(crate) struct Draft {
     pub peak: Option<DraftPeak>,
     /// The same peak where the header repeats it, and lesser ones.
     pub other_peaks: Vec<DraftPeak>,
+    /// Peaks without a unit that may be in another one, or of something else: what differs is only said.
+    pub told_peaks: Vec<DraftPeak>,
     /// What the header says in words that the values are.
     pub quantities: Vec<NamedQuantity>,
     pub initial: Option<(f64, f64)>,
@@ -190,6 +192,7 @@ impl Draft {
             step_conflict: None,
             peak: None,
             other_peaks: Vec::new(),
+            told_peaks: Vec::new(),
             quantities: Vec::new(),
             initial: None,
             processing: Processing::Unstated,
@@ -298,6 +301,10 @@ impl Draft {
                     self.warnings.push(message);
                 }
             }
+        }
+        for peak in &self.told_peaks {
+            self.warnings
+                .extend(in_no_unit(&series, peak, self.lines.0));
         }
         series.origin.warnings = self.warnings;
         Ok(series)
@@ -672,6 +679,31 @@ pub(crate) fn gravity(given: Option<f64>) -> f64 {
 /// header does not state.
 const PEAK_TOLERANCE: f64 = 0.05;
 const PEAK_REMEDY: &str = "header and samples contradict one another: check the unit, get the record again, or set `lenient = true` to use the samples as they are";
+
+/// What to say of a peak without a unit that the samples have in none.
+fn in_no_unit(series: &Series, peak: &DraftPeak, line: usize) -> Option<String> {
+    let found = series.signed_peak().0.abs();
+    let value = peak.value.0.abs();
+    let gravity = AccelerationUnit::StandardGravity.in_si();
+    let near = |in_si: f64| (found - value * in_si).abs() <= PEAK_TOLERANCE * value * in_si;
+    let known = [
+        series.unit_in_si,
+        gravity,
+        0.001 * gravity,
+        1.0,
+        0.01,
+        0.001,
+    ];
+    (value != 0.0 && !known.into_iter().any(near)).then(|| {
+        format!(
+            "line {}: the header says a peak of {} without a unit, that of the samples is {} {}",
+            peak.line.unwrap_or(line),
+            peak.value.0,
+            bound(found / series.unit_in_si),
+            series.unit
+        )
+    })
+}
 
 /// Holds the header's peak against the samples: magnitudes, for agencies print
 /// either sign, within the last printed digit; times within one step. Headers of

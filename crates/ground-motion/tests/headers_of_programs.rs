@@ -276,6 +276,9 @@ fn count_and_step_with_exponents() {
     }
     let text = column(&[1.0, 0.005]) + &column(&all);
     refused(&text, &at(0.005), "a factor or a count, and a time step");
+    let text = format!("1\n{}", column(&[0.005]) + &column(&all));
+    let (_, help) = refused(&text, &at(0.02), "a factor or a count, and a time step");
+    assert!(help.contains("`skip_lines = 2`"), "{help}");
     // An impulse, and a strong first sample.
     let mut pulse = vec![0.0; 60];
     pulse[0] = 1.0;

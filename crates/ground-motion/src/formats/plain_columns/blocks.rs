@@ -8,7 +8,7 @@ use crate::text::Line;
 /// What to do about several records in one file.
 const REMEDY: &str = "give each record a file of its own, the lines of its header with the rows below them; the values of two records must not follow one another. If all values are of one record, the line is wrong there: take it out";
 /// First words of two lines by which they are the same line of two headers.
-const WORDS: usize = 3;
+const WORDS: usize = 2;
 
 /// Words of a line, in lower case, without the signs of a comment.
 fn words(line: &Line<'_>) -> Vec<String> {

@@ -679,14 +679,19 @@ impl Survey {
             return Ok(());
         };
         let (first, second) = (value(line)?, value(next)?);
-        let mut largest = 0.0_f64;
+        let (mut largest, mut before, mut jump) = (0.0_f64, second, 0.0_f64);
         for line in lines {
-            largest = largest.max(value(line)?.abs());
+            let found = value(line)?;
+            largest = largest.max(found.abs());
+            jump = jump.max((found - before).abs());
+            before = found;
         }
         let is_stated = stated.is_some_and(|step| (second - step).abs() <= 1.0e-9 * step);
         let least = if is_stated { STEP_BELOW } else { FAR_OUT };
-        // `1` above the step is a factor, too.
-        let is_factor = is_stated && first == 1.0;
+        // `1` above the step that is known is a factor, too, and so is a whole number farther from the value below it
+        // than any other is from the next one.
+        let is_whole = first >= 1.0 && first.fract() == 0.0 && !line.bytes.contains(&b'.');
+        let is_factor = first == 1.0 && is_stated || is_whole && (first - second).abs() > jump;
         let far_out = largest > 0.0 && (first.abs() > least * largest || is_factor);
         if !(far_out && (SHORTEST_STEP..=LONGEST_STEP).contains(&second)) {
             return Ok(());

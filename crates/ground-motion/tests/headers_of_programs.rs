@@ -134,7 +134,18 @@ fn count_and_peak_beside_a_step() {
         "the header says 60 samples, but 80 stand",
     );
     assert!(read_with(&of(96, 0.25), &in_g()).is_err());
-    refused(&of(80, 0.5), &in_g(), "the header's peak is 0.50000 g");
+    refused(
+        &of(80, 0.5),
+        &in_g(),
+        "a peak of 0.5 without a unit, that of the samples is 0.25 g",
+    );
+    // In m/s2 and in cm/s2.
+    for peak in [2.4517, 245.17] {
+        assert!(
+            one(&of(80, peak), &in_g()).origin.warnings.is_empty(),
+            "{peak}"
+        );
+    }
     let told = one(&of(80, 0.5), &lenient(in_g()));
     assert!(
         told.origin.warnings[0].contains("peak"),
@@ -171,11 +182,7 @@ fn equally_spaced_intervals() {
     );
     refused(&of(120, 0.25, 0.4), &plain, "the header says 120 samples");
     refused(&of(40, 0.25, 0.4), &plain, "the header says 40 samples");
-    refused(
-        &of(80, -0.4, 0.4),
-        &plain,
-        "the header's peak is -0.40000 cm/s2",
-    );
+    refused(&of(80, -0.4, 0.4), &plain, "a peak of -0.4 without a unit");
     let told = one(&of(80, 0.25, 0.9), &plain).origin.warnings;
     assert!(told[0].contains("a duration of 0.9 s"), "{told:?}");
     let given = ReadOptions {

@@ -489,9 +489,9 @@ impl Stated {
                 line: Some(*line),
                 of_sign: false,
             };
-            match peak.unit.is_some() || peak.is_of_values {
-                true => draft.other_peaks.push(stated),
-                false => draft.told_peaks.push(stated),
+            match peak.unit {
+                Some(_) => draft.other_peaks.push(stated),
+                None => draft.bare_peaks.push((stated, peak.is_of_values)),
             }
         }
         for At { line, value } in &self.durations {

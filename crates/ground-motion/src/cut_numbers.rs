@@ -110,6 +110,37 @@ struct Exponents {
     decimals: Option<usize>,
     decimals_differ: bool,
     ends_in_zero: bool,
+    wholes: Wholes,
+}
+
+/// Whole numbers without a point among numbers with exponents, as `%d` of MATLAB writes them where a value is whole,
+/// and how far they are from their neighbours.
+#[derive(Debug, Default)]
+struct Wholes {
+    count: usize,
+    before: Option<(f64, bool)>,
+    /// Largest difference between neighbours, of which one is such a number, and of which none is.
+    far: f64,
+    usual: f64,
+}
+
+impl Wholes {
+    fn see(&mut self, value: f64, is_whole: bool) {
+        self.count += usize::from(is_whole);
+        if let Some((before, was_whole)) = self.before.replace((value, is_whole)) {
+            let step = (value - before).abs();
+            let largest = match is_whole || was_whole {
+                true => &mut self.far,
+                false => &mut self.usual,
+            };
+            *largest = largest.max(step);
+        }
+    }
+
+    /// Whether all lie as near their neighbours as other values do.
+    fn follow(&self) -> bool {
+        self.far <= self.usual
+    }
 }
 
 /// A value without an exponent.
@@ -136,6 +167,8 @@ impl Exponents {
         };
         let end = (1..field.len())
             .find(|i| b"eEdD".contains(&field[*i]) || matches!(field[*i], b'+' | b'-'));
+        let is_whole = end.is_none() && !field.contains(&b'.');
+        self.wholes.see(value, is_whole);
         let Some(end) = end else {
             if value != 0.0 {
                 self.without += 1;
@@ -165,6 +198,11 @@ impl Exponents {
     fn lost(&self) -> Option<&Bare> {
         let few = self.with + self.without > MANY && self.without <= self.with / 100 + 1;
         let bare = self.first.as_ref().filter(|_| few)?;
+        // Of a writer that has whole numbers without a point; one that was cut off is far from its neighbours.
+        let all_whole = self.wholes.count >= self.without && !self.decimals_differ;
+        if all_whole && self.wholes.follow() {
+            return None;
+        }
         // As many digits as with an exponent: printed by a `G` format.
         let of_g = bare.value >= BELOW_G && Some(bare.digits) == self.decimals;
         let always = self.of_tenths
@@ -226,6 +264,14 @@ impl Forms {
         let has_exponent = self.usual.is_some_and(|form| form.exponent > 0);
         let few = self.others <= self.count / 100 + 1;
         if let Some(bare) = self.exponents.lost() {
+            let whole = !bare.field.contains('.');
+            let decimals = self.exponents.decimals.filter(|_| whole).unwrap_or(0);
+            let remedy = match number::parse(bare.field.as_bytes()) {
+                Ok(value) if whole => format!(
+                    "some programs write whole numbers so: if it is one, write it as the others, {value:.decimals$e}; if it is no value, pass it over by `skip_lines`; else the file is damaged: correct the value, or get the record again"
+                ),
+                _ => "the file is damaged: correct the value, or get the record again".to_owned(),
+            };
             return Err(source.error(
                 bare.line,
                 bare.column,
@@ -233,7 +279,7 @@ impl Forms {
                     "\"{}\" has no exponent, which the other values have",
                     bare.field
                 ),
-                "the file is damaged: correct the value, or get the record again",
+                &remedy,
             ));
         }
         if let Some((line, column, field)) = self.decimals.lost() {

@@ -133,6 +133,9 @@ pub(crate) struct Draft {
     pub peak: Option<DraftPeak>,
     /// The same peak where the header repeats it, and lesser ones.
     pub other_peaks: Vec<DraftPeak>,
+    /// Peaks without a unit, which may be in another one than the samples, and whether they are of the samples: what
+    /// differs is only said of the others, which may be of something else.
+    pub bare_peaks: Vec<(DraftPeak, bool)>,
     /// What the header says in words that the values are.
     pub quantities: Vec<NamedQuantity>,
     pub initial: Option<(f64, f64)>,
@@ -190,6 +193,7 @@ impl Draft {
             step_conflict: None,
             peak: None,
             other_peaks: Vec::new(),
+            bare_peaks: Vec::new(),
             quantities: Vec::new(),
             initial: None,
             processing: Processing::Unstated,
@@ -297,6 +301,25 @@ impl Draft {
                 if !self.warnings.contains(&message) {
                     self.warnings.push(message);
                 }
+            }
+        }
+        for (peak, is_of_samples) in std::mem::take(&mut self.bare_peaks) {
+            let line = peak.line.unwrap_or(self.lines.0);
+            match in_no_unit(&series, &peak) {
+                Some(message) if is_of_samples && !source.options.lenient => {
+                    return Err(source.error(line, 0, message, PEAK_REMEDY));
+                }
+                Some(message) => self.warnings.push(format!("line {line}: {message}")),
+                // What differs in this unit is in another one.
+                None if is_of_samples => {
+                    drop(compare_peak(
+                        &series,
+                        &peak,
+                        (symbol, factor),
+                        &mut self.warnings,
+                    ));
+                }
+                None => {}
             }
         }
         series.origin.warnings = self.warnings;
@@ -672,6 +695,30 @@ pub(crate) fn gravity(given: Option<f64>) -> f64 {
 /// header does not state.
 const PEAK_TOLERANCE: f64 = 0.05;
 const PEAK_REMEDY: &str = "header and samples contradict one another: check the unit, get the record again, or set `lenient = true` to use the samples as they are";
+
+/// What to say of a peak without a unit that the samples have in none.
+fn in_no_unit(series: &Series, peak: &DraftPeak) -> Option<String> {
+    let found = series.signed_peak().0.abs();
+    let value = peak.value.0.abs();
+    let gravity = AccelerationUnit::StandardGravity.in_si();
+    let near = |in_si: f64| (found - value * in_si).abs() <= PEAK_TOLERANCE * value * in_si;
+    let known = [
+        series.unit_in_si,
+        gravity,
+        0.001 * gravity,
+        1.0,
+        0.01,
+        0.001,
+    ];
+    (value != 0.0 && !known.into_iter().any(near)).then(|| {
+        format!(
+            "the header says a peak of {} without a unit, that of the samples is {} {}",
+            peak.value.0,
+            bound(found / series.unit_in_si),
+            series.unit
+        )
+    })
+}
 
 /// Holds the header's peak against the samples: magnitudes, for agencies print
 /// either sign, within the last printed digit; times within one step. Headers of

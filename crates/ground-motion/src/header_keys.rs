@@ -95,6 +95,30 @@ impl<'t> Entry<'t> {
         last_unit(&plain).map(str::to_owned)
     }
 
+    /// Whether another key follows on the line.
+    pub(crate) fn is_followed(&self) -> bool {
+        self.value.contains([':', '='])
+    }
+
+    /// The number behind ` at ` behind the first one, with its digits: `-16.986   AT   27.06 SEC`.
+    pub(crate) fn time(&self) -> Option<(f64, &'t str)> {
+        let (digits, _) = split_number(self.value);
+        let behind = self.value[digits.len()..].trim_start();
+        // A unit may stand between them.
+        let at = behind.strip_prefix("at ").or_else(|| {
+            let (unit, rest) = behind.split_once([' ', '\t'])?;
+            let rest = rest.trim_start().strip_prefix("at ")?;
+            (!unit.contains([':', '='])).then_some(rest)
+        })?;
+        let (time, _) = split_number(at.trim_start());
+        Some((number::parse(time.as_bytes()).ok()?, time))
+    }
+
+    /// Whether the key is one of times: `@ Time (sec)`.
+    pub(crate) fn is_of_time(&self) -> bool {
+        ["time", "at time"].contains(&self.words().as_str())
+    }
+
     /// Whether a number stands under the key.
     pub(crate) fn has_number(&self) -> bool {
         self.value
@@ -258,7 +282,12 @@ pub(crate) fn keyed(lower: &str) -> Vec<Entry<'_>> {
 /// Where the key starts that ends a text: behind the last separator, unless its unit alone follows that, as
 /// in `time step, s`.
 fn start_of_key(text: &str) -> usize {
-    let last = text.rfind(SEPARATORS);
+    // A sentence may end in brackets: `component (E-W). Acc. in cm/s2 and dt`.
+    let sentence = [").", "]."].iter().filter_map(|end| {
+        let at = text.rfind(end)? + 1;
+        text[at + 1..].starts_with([' ', '\t']).then_some(at)
+    });
+    let last = text.rfind(SEPARATORS).max(sentence.max());
     let unit = last.filter(|at| LAST_UNITS.contains(&text[at + 1..].trim()));
     let last = unit.map_or(last, |at| text[..at].rfind(SEPARATORS));
     last.map_or(0, |at| at + 1)
@@ -295,6 +324,12 @@ fn behind_value(text: &str) -> &str {
         };
     }
     let rest = text.trim_start_matches(number).trim_start();
+    // `-16.9 at 27.06 sec duration`: the time of a value.
+    if let Some(time) = rest.strip_prefix("at ").map(str::trim_start)
+        && time.starts_with(number)
+    {
+        return behind_value(time);
+    }
     let units = ["s", "sec", "secs", "ms", "msec", "hz", "sps", "g", "gal"];
     match rest.split_once([' ', '\t']) {
         Some((unit, key)) if units.contains(&unit.trim_end_matches('.')) => key.trim_start(),
@@ -403,6 +438,10 @@ fn is_count(key: &str) -> bool {
         .split([' ', '.', '_'])
         .filter(|w| !w.is_empty())
         .collect();
+    // `Total No. of Points`.
+    if words.len() > 2 && words[0] == "total" {
+        words.remove(0);
+    }
     if words
         .first()
         .is_some_and(|w| ["number", "no", "num", "nr"].contains(w))

@@ -47,8 +47,39 @@ pub(crate) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
         draft.header_durations = durations(&header);
         series.push(draft.finish(source)?);
         end_of_channel(source, &mut lines);
+        if ends_in_a_remark(source, &lines, &header) {
+            break;
+        }
     }
     Ok(series)
+}
+
+/// Bytes of a line behind the last channel that is no header of another one.
+const REMARK: usize = 20;
+
+/// Whether a short line or two end the file that have nothing of the header of a channel, as `VLEE $` of an old
+/// computer's job: they are passed over.
+fn ends_in_a_remark(source: &Source<'_>, lines: &Lines<'_>, header: &ChannelHeader<'_>) -> bool {
+    let rest: Vec<Line<'_>> = lines.clone().filter(|l| !l.is_blank()).take(3).collect();
+    let first = header.text.first().map_or(String::new(), Line::lower);
+    let alike = |line: &Line<'_>| {
+        let lower = line.lower();
+        let mut words = lower.split(|c: char| !c.is_alphanumeric());
+        words.any(|word| word.len() > 2 && first.contains(word))
+    };
+    let short = |line: &Line<'_>| line.bytes.len() < REMARK && line.is_text() && !alike(line);
+    let Some(line) = rest
+        .first()
+        .filter(|_| rest.len() < 3 && rest.iter().all(short))
+    else {
+        return false;
+    };
+    source.warn(&format!(
+        "line {}: \"{}\" behind the last channel is no header of another one, and is not read",
+        line.number,
+        line.text().trim()
+    ));
+    true
 }
 
 /// The count in the header: integer 33 where it is there, for 28 is an I5 field

@@ -57,6 +57,10 @@ fn filling_behind_smc() {
         filled.extend([0; 512]);
         let found = read_all_bytes("f", &filled, &fixture.options).unwrap();
         assert!(says(&found, "512 NUL bytes"), "{}", fixture.name);
+        // An end of line may stand behind them.
+        filled.extend(b"\r\n");
+        let found = read_all_bytes("f", &filled, &fixture.options).unwrap();
+        assert!(says(&found, "512 NUL bytes"), "{}", fixture.name);
         // Within the rows they are missing values.
         let end = fixture.bytes.len() - 20;
         let mut cut = fixture.bytes[..end].to_vec();

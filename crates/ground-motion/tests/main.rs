@@ -22,6 +22,7 @@ mod formats;
 mod generators;
 mod header_lines;
 mod header_units;
+mod headers_of_programs;
 mod hostile;
 mod impossible_start_times;
 mod initial_motion;

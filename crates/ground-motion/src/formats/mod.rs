@@ -162,14 +162,26 @@ fn every_series(
     let filled = filling(format, bytes);
     let source = Source::new(file, &bytes[..bytes.len() - filled], options, path);
     if filled > 0 {
+        let end = &bytes[bytes.len() - filled..];
         source.warn(&format!(
-            "{filled} NUL bytes behind the last row were passed over"
+            "{} NUL bytes behind the last row were passed over",
+            end.iter().filter(|b| **b == 0).count()
         ));
     }
     if !is_binary(format) {
         source.is_text()?;
     }
     let mut series = (format.read)(&source)?;
+    // A line of NUL bytes may stand for one of values that are missing.
+    let is_line = bytes[bytes.len() - filled..].contains(&b'\n');
+    let lacks = |s: &Series| {
+        s.origin
+            .header_count
+            .is_some_and(|count| count > s.samples.len())
+    };
+    if is_line && series.iter().any(lacks) {
+        Source::new(file, bytes, options, path).is_text()?;
+    }
     if series.is_empty() {
         return Err(source.error(
             1,
@@ -224,7 +236,13 @@ fn every_series(
 
 /// NUL bytes at the end of a text behind whole rows, of a format that counts its values.
 fn filling(format: &Format, bytes: &[u8]) -> usize {
-    let end = bytes.iter().rposition(|b| *b != 0).map_or(0, |n| n + 1);
+    // Ends of lines may stand behind them.
+    let is_end = |b: &u8| matches!(b, 0 | b'\r' | b'\n');
+    let ends = bytes.iter().rposition(|b| !is_end(b)).map_or(0, |n| n + 1);
+    let Some(first) = bytes[ends..].iter().position(|b| *b == 0) else {
+        return 0;
+    };
+    let end = ends + first;
     let whole = matches!(bytes[..end].last(), Some(b'\n' | b'\r'));
     match whole && *format == usgs_smc::FORMAT {
         true => bytes.len() - end,

@@ -294,19 +294,24 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     let Some(line) = position.map(|(line, _)| line).or(spaced) else {
         return Err(source.error(1, 0, "no line with NPTS and DT", REMEDY));
     };
-    let last = match position {
-        Some((_, last)) => last,
-        None => source
-            .lines()
-            .take(FREE_LINES)
-            .find(|l| l.lower().contains("begin data"))
-            .map_or(line.number, |l| l.number),
-    };
+    let begins = source
+        .lines()
+        .take(FREE_LINES)
+        .find(|l| l.lower().contains("begin data"))
+        .filter(|_| spaced.is_some());
+    let counts = position.map_or(line.number, |(_, last)| last);
+    let last = begins.map_or(counts, |l| l.number.max(counts));
     let mut text = Vec::new();
     while lines.number() < last
         && let Some(l) = lines.next()
     {
-        text.push(l.text().trim().to_owned());
+        let line = l.text();
+        // Other programs take such lines for comments.
+        let bare = match position {
+            None => line.trim().trim_start_matches('#'),
+            Some(_) => &line,
+        };
+        text.push(bare.trim().to_owned());
     }
     // `Units: gal` may follow.
     while let Some(l) = lines.peek().filter(|l| l.is_text() && is_key(l)) {
@@ -475,7 +480,9 @@ fn statements(
         }
     }
     if counts.is_empty() && (is_counts(&line) || is_spaced(&line)) {
-        let mut numbers = line.fields().filter_map(|(_, f)| number::parse(f).ok());
+        // `#1559 points at equal spacing of 0.02 sec`.
+        let bare = |field: &'_ [u8]| number::parse(field.strip_prefix(b"#").unwrap_or(field)).ok();
+        let mut numbers = line.fields().filter_map(|(_, field)| bare(field));
         let count = numbers
             .next()
             .filter(|n| n.fract() == 0.0 && (0.0..1.0e9).contains(n));

@@ -2,7 +2,10 @@
 //! underscores.
 
 /// Ends of keys of a time step.
-pub(super) const STEPS: [&str; 50] = [
+pub(super) const STEPS: [&str; 53] = [
+    "equally spaced intervals of",
+    "equal intervals of",
+    "equal spacing of",
     "intervalo de amostra",
     "dt",
     "delta t",
@@ -121,7 +124,9 @@ pub(super) const DURATIONS: [&str; 6] = [
     "length of record",
 ];
 /// Keys of a largest acceleration.
-pub(super) const PEAKS: [&str; 10] = [
+pub(super) const PEAKS: [&str; 12] = [
+    "amax",
+    "acc max",
     "pga",
     "peak acceleration",
     "peak acc",

@@ -322,6 +322,7 @@ pub(super) fn columns(
         if others {
             // That of one of them, or of all.
             draft.other_peaks.clear();
+            draft.bare_peaks.clear();
         }
         if own < longest {
             draft.header_count = None;

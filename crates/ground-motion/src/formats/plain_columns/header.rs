@@ -241,8 +241,14 @@ impl Cells {
 
     fn beside_times(&self, row: &Line<'_>) -> Option<Header> {
         let prose = |name: &String| PROSE.contains(&plain(name).as_str());
+        // `Column 1: Time (s)` speaks of one column.
+        let numbered = |name: &String| {
+            let digits = name.strip_suffix(':').unwrap_or_default();
+            !digits.is_empty() && digits.bytes().all(|b| b.is_ascii_digit())
+        };
         if self.names.len() < 2
             || self.is_key()
+            || self.separator.is_none() && self.names.iter().any(numbered)
             || are_of_spectrum(&self.names, self.separator)
             || !self.fits(row)
             || self.separator.is_none() && self.names.iter().any(prose)
@@ -525,7 +531,7 @@ fn divided_at_brackets(cell: &str) -> Option<String> {
 pub(super) fn divided(cell: &str) -> Option<(String, String)> {
     let cell = cell.trim().trim_matches(['"', '\'']).trim();
     if let Some((name, rest)) = cell.split_once(['(', '[']) {
-        let unit = rest.strip_suffix([')', ']'])?;
+        let unit = without_sign(rest).strip_suffix([')', ']'])?;
         return Some((plain(name.trim_end_matches('/')), unit.trim().to_owned()));
     }
     let (name, unit) = cell
@@ -536,6 +542,15 @@ pub(super) fn divided(cell: &str) -> Option<(String, String)> {
     let takes = |names: &[&str]| names.contains(&known.as_str());
     let may = takes(&LONG) || motion(&known).is_some() || is_component(&known);
     (may && !unit.is_empty()).then(|| (known, unit.to_owned()))
+}
+
+/// What stands behind the first bracket of a name, without what it says of its sign: `cm/s2) (+ is upward)`.
+fn without_sign(rest: &str) -> &str {
+    let sign = rest.find(") (+").or_else(|| rest.find("] (+"));
+    match sign {
+        Some(at) if rest.ends_with(')') => &rest[..=at],
+        _ => rest,
+    }
 }
 
 /// What a column of velocities or displacements holds, by its unit or else by its name.
@@ -578,7 +593,7 @@ pub(super) fn role(cell: &str) -> Option<Role> {
         .or(cell.strip_suffix("[-]"))
         .map_or(cell, str::trim_end);
     if let Some((name, rest)) = cell.split_once(['(', '[']) {
-        let unit = rest.strip_suffix([')', ']'])?;
+        let unit = without_sign(rest).strip_suffix([')', ']'])?;
         // `a/(m/s2)`, as standards on quantities write.
         return named(name.trim_end_matches('/'), unit);
     }

@@ -15,6 +15,7 @@ use crate::source::Source;
 use crate::text::Line;
 use crate::time_column::mostly_times;
 
+mod blocks;
 mod columns;
 mod counter;
 mod decimal;
@@ -291,6 +292,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     if let Some(error) = faulty.as_ref().and_then(|f| f.refused(source)) {
         return Err(error);
     }
+    blocks::are_of_one_record(outer)?;
     thousands::are_no_groups(source)?;
     let bytes = decimal::with_points(source, header.as_ref())?;
     let pointed = Source::new(source.file, &bytes, source.options, source.path);
@@ -362,6 +364,8 @@ struct Said {
     /// Keys of our CSV.
     keys: Keys,
     stated: Stated,
+    /// Whether the user says the unit.
+    is_given: bool,
 }
 
 impl Said {
@@ -370,14 +374,30 @@ impl Said {
         Ok(Self {
             keys: Keys::before(source, before(source)),
             stated: Stated::before(source, before(source), line)?,
+            is_given: source.options.unit.is_some(),
         })
+    }
+
+    /// The unit of values for which a header says `unit`, with what to say of it: else that which the lines before
+    /// the rows state, or that of a peak which the values have.
+    fn unit(&self, unit: Option<SeriesUnit>, samples: &[f64]) -> (DraftUnit, Option<String>) {
+        let unit = unit.or_else(|| self.stated.unit_of_values());
+        let of_peak = || self.stated.unit_of_peak(samples);
+        match unit {
+            Some(unit) => (DraftUnit::Stated(unit), None),
+            None if self.is_given => (DraftUnit::Unstated, None),
+            None => match of_peak() {
+                Some((unit, told)) => (DraftUnit::Stated(unit), Some(told)),
+                None => (DraftUnit::Unstated, None),
+            },
+        }
     }
 
     /// A draft of values that stand in lines `first..=last` among so many numbers.
     fn draft(&self, samples: Vec<f64>, unit: Option<SeriesUnit>, survey: &Survey) -> Draft {
-        let unit = unit.or_else(|| self.stated.unit_of_values());
-        let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
+        let (unit, told) = self.unit(unit, &samples);
         let mut draft = Draft::new(samples, unit, (survey.first, survey.first, survey.last));
+        draft.warnings.extend(told);
         draft.initial = self.keys.initial();
         draft.first_time = self.keys.first_time();
         self.stated.state(&mut draft, survey.numbers);
@@ -428,7 +448,11 @@ fn numbers(
         return below_head(source, header, said, below);
     }
     match survey.arrangement(source)? {
-        Arrangement::Wrapped => wrapped(source, &survey, None, said),
+        Arrangement::Wrapped => {
+            let step = source.options.time_step.or(said.stated.first_step());
+            survey.starts_as_samples(source, step)?;
+            wrapped(source, &survey, None, said)
+        }
         Arrangement::Headed(head) => wrapped(source, &survey, Some(head), said),
         Arrangement::Columns(names) => {
             let mut columns = Columns::new(names, None);
@@ -537,6 +561,7 @@ fn headed(
         let samples = along(source, survey, 0)?;
         without_times(source, survey.first, &samples, survey.width())?;
         let mut draft = said.draft(samples, columns.units[0], survey);
+        fills_a_row(&mut draft, survey.width());
         draft.times = Times::Step(said.stated.step(source, None)?);
         draft.component.clone_from(name);
         return Ok(vec![draft.finish(source)?]);
@@ -636,12 +661,13 @@ fn fixed(
         return Err(left_over(source, line, width));
     }
     without_times(source, first, &samples, layout.per_line)?;
-    let unit = said.stated.unit_of_values();
-    let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
+    let (unit, told) = said.unit(None, &samples);
     let mut draft = Draft::new(samples, unit, (first, first, last));
+    draft.warnings.extend(told);
     draft.initial = said.keys.initial();
     draft.first_time = said.keys.first_time();
     said.stated.state(&mut draft, 0);
+    fills_a_row(&mut draft, layout.per_line);
     draft.times = Times::Step(said.stated.step(source, None)?);
     Ok(vec![draft.finish(source)?])
 }
@@ -709,6 +735,7 @@ fn wrapped(
     let samples = along(source, survey, head.map_or(0, |head| head.rows))?;
     without_times(source, survey.first, &samples, survey.width())?;
     let mut draft = said.draft(samples, None, survey);
+    fills_a_row(&mut draft, survey.width());
     let mut found = None;
     if let Some(head) = head {
         draft.header_count = Some(head.count);
@@ -716,6 +743,23 @@ fn wrapped(
     }
     draft.times = Times::Step(said.stated.step(source, found)?);
     Ok(vec![draft.finish(source)?])
+}
+
+/// Takes zeros off the end of a series along rows of several values, at most a row of them, that stand there beyond
+/// the count of the header: programs write so many that the last row is whole.
+fn fills_a_row(draft: &mut Draft, width: usize) {
+    let found = draft.samples.len();
+    let Some(stated) = draft.header_count.filter(|stated| *stated < found) else {
+        return;
+    };
+    let surplus = found - stated;
+    if width < 2 || surplus > width || draft.samples[stated..].iter().any(|a| *a != 0.0) {
+        return;
+    }
+    draft.samples.truncate(stated);
+    draft.warnings.push(format!(
+        "header says {stated} samples, {found} found; the surplus, zeros that fill the last row, is not used"
+    ));
 }
 
 /// Refuses a series along the rows with times among its values, whoever says that it is one.

@@ -330,7 +330,14 @@ pub(super) fn is_spectral(cell: &str) -> bool {
         "sa",
         "psa",
     ];
+    // `Psa5_N`: of so many per cent of damping.
+    let of_damping = ["psa", "psv"].iter().any(|name| {
+        let behind = words[0].strip_prefix(name).unwrap_or_default();
+        let digits = behind.bytes().take_while(u8::is_ascii_digit).count();
+        digits > 0 && !behind[digits..].starts_with(char::is_alphanumeric)
+    });
     named(words.len())
+        || of_damping
         || (1..words.len()).any(with_unit)
         || starts.iter().any(|start| known.starts_with(start))
             && (words.len() == 1 || motions.iter().any(|motion| words.contains(motion)))

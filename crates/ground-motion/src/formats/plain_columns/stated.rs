@@ -52,15 +52,31 @@ struct Step {
     is_rate: bool,
 }
 
+/// A stated largest acceleration.
+#[derive(Clone, Copy)]
+struct Peak {
+    value: Printed,
+    /// Digits of it but zeros before the first other one.
+    digits: usize,
+    unit: Option<SeriesUnit>,
+    /// Its time (s).
+    time: Option<Printed>,
+    /// Whether it is one of the values themselves: it stands beside count and step, or has a time.
+    is_of_values: bool,
+}
+
+/// Digits that a peak must have to tell in which unit the values are.
+const SURE_DIGITS: usize = 3;
+
 /// What the lines before the rows state.
 #[derive(Default)]
 pub(super) struct Stated {
     unit: Option<At<SeriesUnit>>,
     steps: Vec<At<Step>>,
     counts: Vec<At<usize>>,
-    /// Numbers under the letter N, which may be counts.
-    letters: Vec<At<usize>>,
-    peaks: Vec<At<(Printed, SeriesUnit)>>,
+    /// Numbers under the letter N, or under a length without a unit, which may be counts.
+    letters: Vec<At<(&'static str, usize)>>,
+    peaks: Vec<At<Peak>>,
     durations: Vec<At<f64>>,
     /// What the values are, in words.
     quantities: Vec<At<(Quantity, String)>>,
@@ -87,7 +103,7 @@ impl Stated {
             if line.bytes.len() > header::LONGEST {
                 continue;
             }
-            let lower = lower(&line);
+            let lower = without_cells(lower(&line));
             if is_history(&lower) {
                 continue;
             }
@@ -188,11 +204,35 @@ impl Stated {
             .extend(header_keys::factors(lower).into_iter().map(at));
         self.decimations
             .extend(header_keys::decimation(lower).map(at));
-        self.letters
-            .extend(letter_n(&entries).map(|value| At { line, value }));
+        let has_step = |entry: &Entry<'_>| {
+            let of_time = matches!(meaning(entry), Some(Meaning::Step | Meaning::Rate));
+            of_time && entry.has_number()
+        };
+        let beside_step = entries.iter().any(has_step);
+        // Beside a time step, N counts the samples: `N =  4096 DT =  0.020`.
+        let count = count_n(&entries).filter(|_| beside_step);
+        match count {
+            Some(value) => self.counts.push(At { line, value }),
+            None => {
+                let letters = letters(&entries);
+                self.letters
+                    .extend(letters.into_iter().map(|value| At { line, value }));
+            }
+        }
         let alone = entries.len() == 1;
-        for entry in entries {
-            let Some(meaning) = meaning(&entry) else {
+        for (i, entry) in entries.iter().enumerate() {
+            let next = entries.get(i + 1);
+            // What follows a number may be the key behind it.
+            let begins_next = |word: &str| next.is_some_and(|next| next.key.starts_with(word));
+            if entry.is_of_time()
+                && let Some((found, digits, unit)) = entry.number()
+                && let Some(peak) = self.peaks.last_mut().filter(|peak| peak.line == line)
+                && ["", "s", "sec"].contains(&unit)
+            {
+                let time = (found, number::resolution(digits.as_bytes()));
+                peak.value.time.get_or_insert(time);
+            }
+            let Some(meaning) = meaning(entry) else {
                 continue;
             };
             if meaning == Meaning::Quantity {
@@ -266,7 +306,8 @@ impl Stated {
                 Meaning::Count
                     if found >= 2.0
                         && found.fract() == 0.0
-                        && ["", "points", "samples", "values", "pts"].contains(&unit) =>
+                        && (["", "points", "samples", "values", "pts"].contains(&unit)
+                            || begins_next(unit)) =>
                 {
                     let value = found as usize;
                     self.counts.push(At { line, value });
@@ -279,15 +320,49 @@ impl Stated {
                     self.durations.extend(value.map(|value| At { line, value }));
                 }
                 Meaning::Peak => {
-                    let unit = names::motion_unit(unit)
-                        .filter(|unit| unit.quantity == Quantity::Acceleration);
-                    let printed = (found, number::resolution(digits.as_bytes()));
-                    let value = unit.map(|unit| (printed, unit));
-                    self.peaks.extend(value.map(|value| At { line, value }));
+                    let printed = |digits: &str| number::resolution(digits.as_bytes());
+                    let stated = names::motion_unit(unit);
+                    let accelerates = |unit: &SeriesUnit| unit.quantity == Quantity::Acceleration;
+                    let bare = stated.is_none()
+                        && (["", "at"].contains(&unit) || begins_next(unit) || entry.is_followed());
+                    if !(bare || stated.as_ref().is_some_and(accelerates)) {
+                        continue;
+                    }
+                    let time = entry.time().map(|(time, digits)| (time, printed(digits)));
+                    let value = Peak {
+                        value: (found, printed(digits)),
+                        digits: significant(digits),
+                        unit: stated,
+                        time,
+                        is_of_values: count.is_some() || time.is_some(),
+                    };
+                    self.peaks.push(At { line, value });
                 }
                 _ => {}
             }
         }
+    }
+
+    /// The unit of the first peak whose number is that of the largest of these values, with what to say of it.
+    pub(super) fn unit_of_peak(&self, samples: &[f64]) -> Option<(SeriesUnit, String)> {
+        let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+        self.peaks.iter().find_map(|At { line, value: peak }| {
+            let (value, digit) = (peak.value.0.abs(), peak.value.1);
+            let near = (largest - value).abs() <= digit.max(1.0e-4 * value);
+            let unit = peak.unit.filter(|_| near && peak.digits >= SURE_DIGITS)?;
+            Some((
+                unit,
+                format!(
+                    "line {line}: the unit of the values is that of the peak, {value} {}, which is the largest of them",
+                    unit.symbol
+                ),
+            ))
+        })
+    }
+
+    /// The time step (s) that is stated first.
+    pub(super) fn first_step(&self) -> Option<f64> {
+        self.steps.first().map(|step| step.value.seconds)
     }
 
     /// The unit of values that no column states.
@@ -405,16 +480,19 @@ impl Stated {
 
     /// States to a draft what it is held against; `numbers` are all that stand in the rows.
     pub(super) fn state(&self, draft: &mut Draft, numbers: usize) {
-        for At { line, value } in &self.peaks {
-            let (value, unit) = *value;
-            draft.other_peaks.push(DraftPeak {
-                value,
-                time: None,
-                unit: Some(unit),
+        for At { line, value: peak } in &self.peaks {
+            let stated = DraftPeak {
+                value: peak.value,
+                time: peak.time,
+                unit: peak.unit,
                 shift: 0.0,
                 line: Some(*line),
                 of_sign: false,
-            });
+            };
+            match peak.unit {
+                Some(_) => draft.other_peaks.push(stated),
+                None => draft.bare_peaks.push((stated, peak.is_of_values)),
+            }
         }
         for At { line, value } in &self.durations {
             draft.other_durations.push(StatedDuration {
@@ -439,11 +517,15 @@ impl Stated {
 
     fn count(&self, draft: &mut Draft, numbers: usize) {
         let found = draft.samples.len();
-        for count in &self.letters {
-            if ![found, numbers].contains(&count.value) {
+        for At { line, value } in &self.letters {
+            let (key, value) = *value;
+            // A length may be one of time.
+            let seconds = self.first_step().map(|step| step * found as f64);
+            let near = |seconds: f64| (seconds - value as f64).abs() <= 1.0;
+            let lasts = key != "N" && seconds.is_some_and(near);
+            if ![found, numbers].contains(&value) && !lasts {
                 draft.warnings.push(format!(
-                    "line {}: N is {} here, but {found} samples are read",
-                    count.line, count.value
+                    "line {line}: {key} is {value} here, but {found} samples are read"
                 ));
             }
         }
@@ -550,6 +632,12 @@ fn unit_of(lower: &str) -> Unit {
     }
     let by_name = named_with_unit(lower).filter(|found| {
         let rest = found.rest.trim_matches([' ', '\t', '.', ',', ';']);
+        let rest = rest.strip_prefix("and ").unwrap_or(rest);
+        // `(cm/s/s) (+ is upward)`.
+        let sign = rest.strip_suffix(')').and_then(|r| r.strip_prefix("(+"));
+        if sign.is_some_and(|sign| !sign.contains(['(', '*', '/'])) {
+            return true;
+        }
         let key = rest.trim_start_matches(|c: char| c.is_ascii_alphabetic());
         rest.is_empty() || key.len() < rest.len() && key.trim_start().starts_with('=')
     });
@@ -572,12 +660,61 @@ pub(super) fn is_history(lower: &str) -> bool {
     HISTORY.contains(&key)
 }
 
-/// The number under the letter N alone, `n=300`, where it may count samples.
-fn letter_n(entries: &[Entry<'_>]) -> Option<usize> {
+/// The numbers alone under the letter N, `n=300`, or under a length, `length: 300`, where they may count samples.
+fn letters(entries: &[Entry<'_>]) -> Vec<(&'static str, usize)> {
+    let count = |entry: &Entry<'_>| {
+        let name = match entry.key {
+            "n" => "N",
+            "length" => "the length",
+            _ => return None,
+        };
+        let (found, digits, _) = entry.number()?;
+        let alone = entry.value.trim() == digits && found.fract() == 0.0 && found >= LEAST_COUNT;
+        alone.then_some((name, found as usize))
+    };
+    entries.iter().filter_map(count).collect()
+}
+
+/// The number under the letter N, whatever key follows it.
+fn count_n(entries: &[Entry<'_>]) -> Option<usize> {
     let entry = entries.iter().find(|entry| entry.key == "n")?;
-    let (found, digits, _) = entry.number()?;
-    let alone = entry.value.trim() == digits && found.fract() == 0.0 && found >= LEAST_COUNT;
-    alone.then_some(found as usize)
+    let (found, digits, behind) = entry.number()?;
+    let whole = digits.bytes().all(|b| b.is_ascii_digit()) && found >= LEAST_COUNT;
+    (whole && behind.is_empty()).then_some(found as usize)
+}
+
+/// Digits of a printed number but zeros before the first other one.
+fn significant(printed: &str) -> usize {
+    let digits = printed.bytes().take_while(|b| !b"eEdD".contains(b));
+    let digits = digits.filter(u8::is_ascii_digit);
+    digits.skip_while(|b| *b == b'0').count()
+}
+
+/// A line in lower case whose keys and values stand in cells of their own, as BASIC writes them: `"dt =",.02,"npts
+/// :",300` as `dt = .02, npts : 300`.
+fn without_cells(lower: String) -> String {
+    let keys = [":\",", ": \",", "=\",", "= \","];
+    if !keys.iter().any(|end| lower.contains(end)) {
+        return lower;
+    }
+    let joined = keys.iter().fold(lower, |text, end| {
+        text.replace(end, &format!("{} ", &end[..1]))
+    });
+    joined.replace('"', " ")
+}
+
+/// What a line states that no record states twice: keys of a count, of a time step, of a rate or of the quantity
+/// with their values.
+pub(super) fn states_a_record(line: &Line<'_>) -> bool {
+    let lower = without_cells(lower(line));
+    if is_history(&lower) {
+        return false;
+    }
+    keyed(&lower).iter().any(|entry| match meaning(entry) {
+        Some(Meaning::Step | Meaning::Rate | Meaning::Count) => entry.has_number(),
+        Some(Meaning::Quantity) => named_quantity(entry.value).is_some(),
+        _ => false,
+    })
 }
 
 /// Whether a line states a number under a key, `# dt: 0.01`, and so names no columns.

@@ -6,6 +6,7 @@ use crate::error::{GroundMotionError, bound};
 use crate::number;
 use crate::row_widths::{OddRow, RowWidths};
 use crate::source::Source;
+use crate::text::Line;
 use crate::time_column::TimeColumn;
 
 /// Rows from which on a column that increases evenly is one of times: fewer values of a series
@@ -49,6 +50,10 @@ const LONGEST_STEP: f64 = 1.0;
 /// also among whole numbers.
 const SURE_COUNT: usize = 20;
 
+/// Times by which a first sample may be as large as all others, and as others behind the time step that is known.
+const FAR_OUT: f64 = 20.0;
+const STEP_BELOW: f64 = 3.0;
+
 /// What to do about a row with another number of values than its neighbours.
 const ODD_REMEDY: &str = "correct the row: a value is missing, was parted, as by a decimal comma, or the row is out of its place";
 
@@ -83,12 +88,7 @@ impl Survey {
         };
         for line in rows(source) {
             if line.is_text() {
-                return Err(source.error(
-                    line.number,
-                    0,
-                    "text among the numbers",
-                    "remove the line, or start it with #",
-                ));
+                return Err(super::blocks::text_among_numbers(source, line));
             }
             let length = line.fields().count();
             survey.last_ends(declared);
@@ -483,7 +483,9 @@ impl Survey {
         let mut step = None;
         for (column, field) in line.fields() {
             let value = source.number(line, column + source.options.skip_columns, field)?;
-            match value == count as f64 && !field.contains(&b'.') && said.is_none() {
+            let is_count = value == count as f64;
+            let sure = count >= SURE_COUNT || !field.contains(&b'.');
+            match is_count && sure && said.is_none() {
                 true => said = Some(count),
                 false => step = Some(value),
             }
@@ -566,13 +568,21 @@ impl Survey {
             let step = number::parse(field).ok()?;
             Some(step).filter(|step| is_step(*step) && !signed(field))
         };
+        // As `7.6150000e+03`, which counts where so many values are behind it.
+        let exact = |field: &[u8], rest: usize| {
+            let is_rest = number::parse(field).is_ok_and(|count| count == rest as f64);
+            (is_rest && rest >= SURE_COUNT).then_some(rest)
+        };
         if self.first_length == 2 {
             let Some((_, second)) = fields.next() else {
                 return Ok(None);
             };
             let rest = self.numbers - 2;
             let unlike = self.second_length != 2 && !declared;
-            let of = |count: &[u8], step: &[u8]| whole(count).zip(step_in(step));
+            let of = |count: &[u8], step: &[u8]| {
+                let count = whole(count).or_else(|| exact(count, rest));
+                count.zip(step_in(step))
+            };
             let head = of(first, second)
                 .filter(|(count, _)| unlike || rest == *count)
                 .or_else(|| of(second, first).filter(|(count, _)| rest == *count));
@@ -594,7 +604,10 @@ impl Survey {
         let second = next.fields().next().filter(|_| self.second_length == 1);
         if let Some((_, second)) = second {
             let either = [(first, second), (second, first)];
-            let both = |(count, step): (&[u8], &[u8])| whole(count).zip(step_in(step));
+            let both = |(count, step): (&[u8], &[u8])| {
+                let count = whole(count).or_else(|| exact(count, self.numbers - 2));
+                count.zip(step_in(step))
+            };
             let fits = |(count, _): &(usize, f64)| count + 2 == self.numbers && sure(*count, 2);
             if let Some((count, step)) = either.into_iter().filter_map(both).find(fits) {
                 let other = |given: f64| (given - step).abs() > 1.0e-6 * step;
@@ -614,7 +627,8 @@ impl Survey {
             let along = self.second_length == 1 || self.second_length > 3;
             fits || along && *count >= SURE_COUNT && pointed(1)
         };
-        if let Some(count) = whole(first).filter(alone) {
+        let count = whole(first).or_else(|| exact(first, self.numbers - 1));
+        if let Some(count) = count.filter(alone) {
             return Ok(Some(Head {
                 rows: 1,
                 count,
@@ -641,6 +655,59 @@ impl Survey {
             ));
         }
         Ok(None)
+    }
+
+    /// Refuses a first value, of values that stand one in a row, that is many times as large as all behind the second
+    /// one, which may be a time step: a factor or a count and a step. `stated`: the time step (s) that is known.
+    ///
+    /// # Errors
+    /// At the first value.
+    pub(super) fn starts_as_samples(
+        &self,
+        source: &Source<'_>,
+        stated: Option<f64>,
+    ) -> Result<(), GroundMotionError> {
+        if self.first_length != 1 || self.second_length != 1 || self.numbers < SURE_COUNT {
+            return Ok(());
+        }
+        let value = |line: Line<'_>| {
+            let (column, field) = line.fields().next().unwrap_or_default();
+            source.number(line, column + source.options.skip_columns, field)
+        };
+        let mut lines = rows(source);
+        let (Some(line), Some(next)) = (lines.next(), lines.next()) else {
+            return Ok(());
+        };
+        let (first, second) = (value(line)?, value(next)?);
+        let (mut largest, mut before, mut jump) = (0.0_f64, second, 0.0_f64);
+        for line in lines {
+            let found = value(line)?;
+            largest = largest.max(found.abs());
+            jump = jump.max((found - before).abs());
+            before = found;
+        }
+        let is_stated = stated.is_some_and(|step| (second - step).abs() <= 1.0e-9 * step);
+        let least = if is_stated { STEP_BELOW } else { FAR_OUT };
+        // `1` above the step that is known is a factor, too, and so is a whole number farther from the value below it
+        // than any other is from the next one.
+        let is_whole = first >= 1.0 && first.fract() == 0.0 && !line.bytes.contains(&b'.');
+        let is_factor = first == 1.0 && is_stated || is_whole && (first - second).abs() > jump;
+        let far_out = largest > 0.0 && (first.abs() > least * largest || is_factor);
+        if !(far_out && (SHORTEST_STEP..=LONGEST_STEP).contains(&second)) {
+            return Ok(());
+        }
+        Err(source.error(
+            line.number,
+            0,
+            format!(
+                "the first value is {first} and the second {second}, where the largest behind them is {}: a factor or a count, and a time step, before the samples?",
+                bound(largest)
+            ),
+            &format!(
+                "{}, give `time_step`, and a factor of the samples by `scale`; if both are samples, say so by `layout = \"a\"`",
+                super::skipping(next.number)
+            ),
+        ))
     }
 
     /// Whether the first column increases from row to row, as times do, and starts

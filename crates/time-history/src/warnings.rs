@@ -491,9 +491,12 @@ impl fmt::Display for Warning {
                     None => f.write_str("; correct its parameters, or take")?,
                     Some((factor, meant)) => write!(
                         f,
-                        "; a number without unit is in N, m and s: a parameter {} times as large, as with MN in place of {}, makes it {}; write the unit that is meant, or take",
-                        if *factor > 1.0e3 { "a million" } else { "a thousand" },
-                        if *factor > 1.0e3 { "N" } else { "kN" },
+                        "; {} would be {}: write the unit that is meant, or take",
+                        if *factor > 1.0e3 {
+                            "a million times as much (MN for N, in which a number without unit is)"
+                        } else {
+                            "a thousand times as much (MN for kN)"
+                        },
                         stiffness_text(*meant)
                     )?,
                 }

@@ -7,9 +7,9 @@ use crate::outcome::LevelOutcome;
 use crate::system::{ContactLevel, Gap, System};
 use crate::warnings::{APPROACH_VELOCITY, Warning};
 
-/// Contact over storey stiffness from which floors hardly overlap: contacts of floors have 10 to 100
-/// times the stiffness of a storey.
-const USUAL_RATIO: f64 = 10.0;
+/// Contact over storey stiffness from which an overlap wider than the gap is that of a narrow gap: at usual
+/// stiffnesses floors overlap by some centimetres.
+const STIFF_RATIO: f64 = 2.0;
 /// The ratio that contacts do not fall below.
 const LEAST_RATIO: f64 = 1.0;
 /// Factors of a unit that was taken for another (kN for MN, N for MN), and the greatest ratio that
@@ -42,7 +42,7 @@ pub(crate) fn soft_contacts(system: &System) -> impl Iterator<Item = Warning> {
 }
 
 /// The level of each gap whose floors overlapped most, if by more than the gap is wide, in contacts
-/// that are not as stiff as usual.
+/// that are hardly stiffer than a storey.
 pub(crate) fn deep_penetrations(
     system: &System,
     outcomes: &[LevelOutcome],
@@ -62,7 +62,7 @@ pub(crate) fn deep_penetrations(
         }
         let storey = Storey::softest_beside(system, level)?;
         let ratio = outcome.peak_force.value / penetration / storey.stiffness;
-        (ratio < USUAL_RATIO).then(|| Warning::DeepPenetration {
+        (ratio < STIFF_RATIO).then(|| Warning::DeepPenetration {
             place: system.name_of_level(deepest),
             penetration,
             width: level.width,

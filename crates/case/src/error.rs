@@ -115,6 +115,8 @@ pub struct Errors {
     incomplete: RefCell<Vec<Range<usize>>>,
     /// Parameters whose values could not be read.
     unread: RefCell<Vec<UnreadParameter>>,
+    /// Values that were probably meant otherwise, in words.
+    asked: RefCell<Vec<String>>,
 }
 
 impl Errors {
@@ -187,6 +189,16 @@ impl Errors {
     /// Parameters whose values were not read.
     pub(crate) fn all_unread(&self) -> Vec<UnreadParameter> {
         self.unread.borrow().clone()
+    }
+
+    /// Says of a value that something else was probably meant: no error.
+    pub(crate) fn ask(&self, question: String) {
+        self.asked.borrow_mut().push(question);
+    }
+
+    /// What was said of such values.
+    pub(crate) fn all_asked(&self) -> Vec<String> {
+        self.asked.borrow().clone()
     }
 
     /// The value, unless anything was wrong.

@@ -77,6 +77,10 @@ fn unusual_values_are_warned_of() {
             "spectral_acceleration_1s = 0.35",
             &["was \"0.35 g\" meant?"],
         ),
+        (
+            "spectral_acceleration_1s = 0.9",
+            &["0.1 g to 4 g", "was \"0.9 g\" meant?"],
+        ),
         ("seismic_coefficient = 12", &["at most 1", "a factor, 0.12"]),
         (
             "isolation_damping_coefficient = 150",
@@ -109,7 +113,7 @@ fn unusual_values_are_warned_of() {
         }
     }
     let ends = "importance = [0.5, 2]\nresponse_modification = [1, 12]\ndisplacement_amplification = [1, 12]\n\
-        design_ground_acceleration = \"2 g\"\nspectral_acceleration_1s = \"0.05 g\"\nseismic_coefficient = 1\n\
+        design_ground_acceleration = \"2 g\"\nspectral_acceleration_1s = \"0.1 g\"\nseismic_coefficient = 1\n\
         isolation_damping_coefficient = [0.8, 2]\nisolation_period = \"10 s\"\nplan_length = 40\nplan_eccentricity = 20\n\
         yield_amplification = [1, 2]\nplan_width = [1, 1000]";
     assert_eq!(warnings(ends), [""; 0]);
@@ -154,6 +158,47 @@ fn unusual_spectra_are_warned_of() {
         warnings("pga = 0.25"),
     ] {
         assert_eq!(usual, [""; 0]);
+    }
+}
+
+/// Peaks and ordinates to which records are scaled, without a unit: as small as none, and usual in g.
+#[test]
+fn bare_scales_are_asked_about() {
+    let asked = |keys: &str| {
+        let scale = format!("[ground_motion]\n{keys}\n");
+        let text = CASE.replace("[ground_motion]\n", &scale);
+        assert_ne!(text, CASE);
+        Case::parse(&text, Path::new("case.toml")).unwrap().asked
+    };
+    for (keys, number) in [
+        ("scale = { pga = 0.3 }", "0.3"),
+        ("scale = { psa = 0.5, period = 0.6 }", "0.5"),
+        ("scale.pga = 0.02", "0.02"),
+        ("process = [{ scale = { pga = 0.9 } }]", "0.9"),
+        (
+            "across = { file = \"b.csv\", scale = { pga = 0.4 } }",
+            "0.4",
+        ),
+    ] {
+        let found = asked(keys);
+        assert_eq!(found.len(), 1, "{keys}: {found:?}");
+        let question = format!("was \"{number} g\" meant?");
+        assert!(found[0].contains(&question), "{keys}: {found:?}");
+        assert!(
+            found[0].contains(&format!("write \"{number} m/s2\"")),
+            "{found:?}"
+        );
+    }
+    for usual in [
+        "scale = { pga = \"0.3 m/s2\" }",
+        "scale = { pga = \"0.03 g\" }",
+        "scale = { pga = 3 }",
+        "scale = { pga = 0.001 }",
+        "scale = { pgv = 0.3 }",
+        "scale = { psa = 0.5, period = 3 }",
+        "scale = 0.3",
+    ] {
+        assert_eq!(asked(usual), [""; 0], "{usual}");
     }
 }
 

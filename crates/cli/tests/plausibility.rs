@@ -190,6 +190,142 @@ fn a_gap_wider_than_a_storey_is_high() {
     assert_eq!(said.run.len(), 1, "{:?}", said.run);
 }
 
+/// 93.5 N/m and kN/m where MN/m are meant, beside storeys of 3.46 MN/m: 2.70e-5 and 0.0270 of them. Of Hertz's law
+/// the stiffness at 0.5 m/s is less by its power 0.8.
+#[test]
+fn a_contact_that_is_softer_than_storeys() {
+    let stiff = |stiffness: &str| said(&CASE.replace("\"93.5 MN/m\"", stiffness));
+    for (stiffness, words) in [
+        (
+            "93.5",
+            ["93.5 N/m", "2.7e-5 times the 3.46 MN/m", "a million times"],
+        ),
+        (
+            "\"93.5 kN/m\"",
+            ["93.5 kN/m", "0.027 times the 3.46 MN/m", "a thousand times"],
+        ),
+    ] {
+        let told = stiff(stiffness);
+        one(&told, &words);
+        one(
+            &told,
+            &[
+                "gap a-b: the contact is softer than the storeys",
+                "of storey 1 of \"a\"",
+                "would be 93.5 MN/m",
+            ],
+        );
+        assert_eq!(told.check.len(), 1, "{:?}", told.check);
+        let overlap = ["gap a-b level 2-2", "more than the 20 mm"];
+        let found = told
+            .run
+            .iter()
+            .filter(|w| overlap.iter().all(|x| w.contains(x)));
+        assert_eq!(found.count(), 1, "{:?}", told.run);
+    }
+    let power = |model: &str, stiffness: &str| {
+        let model = CASE.replace("anagnostopoulos_2004", model);
+        said(&model.replace("93.5 MN/m", stiffness))
+    };
+    let hertz = power("jankowski_2005", "2.75e3 N/m^1.5");
+    one(
+        &hertz,
+        &["gap a-b: the contact is softer", "a million times"],
+    );
+    // As stiff as is usual, softer than usual, and soft by intention.
+    for sound in [
+        power("jankowski_2005", "2.75e9 N/m^1.5"),
+        stiff("\"5 MN/m\""),
+        power("polycarpou_2013", "1e6 N/m^2.65"),
+    ] {
+        assert_eq!(sound.check, [""; 0]);
+    }
+    // Walls have no storeys, and hold as well.
+    let wall = CASE
+        .replace("[\"a\", \"b\"]", "[\"b\", \"wall\"]\nlevels = [1, 2]")
+        .replace("93.5 MN/m", "1 MN/m");
+    one(
+        &said(&wall),
+        &["1 MN/m", "the 30 MN/m of storey 1 of \"b\""],
+    );
+}
+
+/// Peaks and intensities in m/s2 that are usual in g, in every command that scales records.
+#[test]
+fn accelerations_without_a_unit() {
+    let bare = CASE
+        .replace("file =", "scale = { pga = 0.3 }\nfile =")
+        .replace("20 mm", "2.9 m");
+    let question = "`pga` of `scale` is 0.3 m/s2 (0.0305915 g)";
+    one(&said(&bare), &[question, "was \"0.3 g\" meant?"]);
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    std::fs::write(path.join("bare.toml"), &bare).unwrap();
+    std::fs::write(path.join("case.toml"), CASE).unwrap();
+    std::fs::write(path.join("record.csv"), record()).unwrap();
+    let study = |case: &str, variable: &str| {
+        format!(
+            "case = \"{case}\"\n[[variable]]\nrecords = [\"record.csv\"]\n[[variable]]\n{variable}"
+        )
+    };
+    let widths = "path = \"gap.0.width\"\nvalues = [0.02]\n";
+    let intensity = |values: &str| format!("intensity = \"peak_ground_acceleration\"\n{values}\n");
+    for (name, text) in [
+        ("widths.toml", study("bare.toml", widths)),
+        (
+            "list.toml",
+            study("case.toml", &intensity("values = [0.1, 0.2]")),
+        ),
+        (
+            "range.toml",
+            study("case.toml", &intensity("from = 0.05\nto = 0.2\ncount = 2")),
+        ),
+        (
+            "unit.toml",
+            study(
+                "case.toml",
+                &intensity("values = [\"0.1 m/s2\", \"0.2 m/s2\"]"),
+            ),
+        ),
+        (
+            "strong.toml",
+            study("case.toml", &intensity("values = [1, 3]")),
+        ),
+    ] {
+        std::fs::write(path.join(name), text).unwrap();
+    }
+    let of_intensity = "the greatest `intensity`, peak ground acceleration, is 0.2 m/s2";
+    let models = [
+        "--models",
+        "linear_elastic",
+        "--approach-velocity",
+        "0.5 m/s",
+    ];
+    let compare = [&["compare", "bare.toml"][..], &models].concat();
+    for (arguments, words, count) in [
+        (&["gap", "bare.toml", "--points", "0"][..], question, 1),
+        (&compare, question, 1),
+        (&["sweep", "widths.toml", "-o", "a.h5"], question, 1),
+        (&["sweep", "list.toml", "-o", "b.h5"], of_intensity, 1),
+        (&["sweep", "range.toml", "-o", "c.h5"], of_intensity, 1),
+        (
+            &["sweep", "unit.toml", "-o", "d.h5"],
+            "greatest `intensity`",
+            0,
+        ),
+        (
+            &["sweep", "strong.toml", "-o", "e.h5"],
+            "greatest `intensity`",
+            0,
+        ),
+    ] {
+        let told = pounding(path, arguments);
+        let told: Vec<&str> = told.split_whitespace().collect();
+        let told = told.join(" ");
+        assert_eq!(told.matches(words).count(), count, "{arguments:?}: {told}");
+    }
+}
+
 #[test]
 fn a_ground_acceleration_that_no_record_has() {
     let said = said(&CASE.replace(

@@ -93,6 +93,15 @@ impl Descriptor for ModelDescriptor {
 }
 
 impl ModelDescriptor {
+    /// Whether it is of a bumper, by its title: of something between the floors that is meant to be softer
+    /// than they are.
+    #[must_use]
+    pub fn is_of_bumper(&self) -> bool {
+        self.title
+            .split(' ')
+            .any(|word| word.eq_ignore_ascii_case("bumper"))
+    }
+
     /// The example's parameters, with this restitution where the model takes one.
     #[must_use]
     pub fn example_parameters(&self, restitution: f64) -> ModelParameters {

@@ -248,6 +248,10 @@ pub(crate) fn warning(warning: &Warning) -> String {
             "take a longer `duration`, or leave it out; where a filter puts zeros before the record, `keep_pads = false` in the filter leaves them out",
             "take a longer `.duration(...)`, or leave it out",
         ),
+        Warning::SoftContact { .. } => text.replace(
+            "that `pounding stiffness` derives",
+            "from `gap_element::contact_stiffness`",
+        ),
         _ => text,
     }
 }

@@ -1,17 +1,18 @@
 //! Codes as a whole: which of their provisions hold on one property and across a property
 //! line, and what they take of many records.
 
-use pounding_catalogue::{Descriptor, Registry};
+use pounding_catalogue::{DefinitionError, Descriptor, Registry};
 
+use crate::country;
 use crate::descriptor::{Basis, ProvisionDescriptor};
 use crate::edition::{Date, Edition, Validity};
 use crate::error::SeparationError;
 use crate::inputs::{Site, Situation, Structure};
 use crate::provision::Provision;
 use crate::provisions::{
-    as_1170_4, asce_7, asce_7_isolation, asce_41, e_030, eak_2000, eurocode_8, gb_50011, iran_2800,
-    is_1893, is_4326, japan, mexico_city, nbcc, nch_433, nec_se_ds, nsr_10, ntc_2018, nzs_1170_5,
-    rpa_2024, taiwan_2011, turkey, ubc_1997, ufc_3_310_03a,
+    UNAVAILABLE, as_1170_4, asce_7, asce_7_isolation, asce_41, e_030, eak_2000, eurocode_8,
+    gb_50011, iran_2800, is_1893, is_4326, japan, mexico_city, nbcc, nch_433, nec_se_ds, nsr_10,
+    ntc_2018, nzs_1170_5, rpa_2024, taiwan_2011, turkey, ubc_1997, ufc_3_310_03a,
 };
 use crate::remedy;
 use crate::suite_rule::{self, SuiteRule};
@@ -744,7 +745,9 @@ pub fn choose_code(
     let editions: Vec<_> = codes().iter().filter(|c| c.family == name).collect();
     let exact = codes().iter().any(|c| c.name == name);
     if exact || editions.is_empty() {
-        return find_code(name).map(|code| (code, false));
+        return find_code(name)
+            .map(|code| (code, false))
+            .map_err(with_family);
     }
     let possible = editions.iter().map(|c| **c);
     let possible: Vec<_> = possible
@@ -760,6 +763,8 @@ pub fn choose_code(
             what: name.to_owned(),
             date,
             known: editions.iter().map(|c| dated(c)).collect(),
+            newest: newest_of(&editions),
+            unavailable: unavailable_in(editions[0].edition().region),
         }),
     }
 }
@@ -774,15 +779,20 @@ pub fn code_in_country(
     country: &str,
     date: Date,
 ) -> Result<&'static CodeDescriptor, SeparationError> {
-    let plain = |text: &str| text.to_lowercase().replace(['_', '-'], " ");
-    let of_country = |c: &&&CodeDescriptor| plain(c.edition().region) == plain(country);
+    let wanted = country::region(country);
+    let of_country = |c: &&&CodeDescriptor| country::plain(c.edition().region) == wanted;
     let all: Vec<_> = codes().iter().filter(of_country).collect();
     if all.is_empty() {
         let mut known: Vec<_> = codes().iter().map(|c| c.edition().region).collect();
         known.sort_unstable();
         known.dedup();
+        let hint = country::hint(country, &known, |region| code_in_country(region, date));
         let country = country.to_owned();
-        return Err(SeparationError::UnknownCountry { country, known });
+        return Err(SeparationError::UnknownCountry {
+            country,
+            known,
+            hint,
+        });
     }
     let of = |wanted: Validity| {
         let found = all.iter().copied();
@@ -806,6 +816,8 @@ pub fn code_in_country(
             what: country.to_owned(),
             date,
             known: all.iter().map(|c| dated(c)).collect(),
+            newest: newest_of(&all),
+            unavailable: unavailable_in(all[0].edition().region),
         }),
         several => Err(SeparationError::SeveralCodes {
             country: country.to_owned(),
@@ -823,6 +835,36 @@ fn day_not_known(what: &str, date: Date, possible: &[&'static CodeDescriptor]) -
         known: possible.iter().map(|c| dated(c)).collect(),
         codes: possible.iter().map(|c| c.name).collect(),
     }
+}
+
+/// The error of an unknown code, with the family of the one that is meant where its name does not say it.
+fn with_family(error: SeparationError) -> SeparationError {
+    let SeparationError::UnknownProvision(DefinitionError::UnknownName { nearest, .. }) = &error
+    else {
+        return error;
+    };
+    let meant = codes().iter().find(|c| c.name == *nearest);
+    let meant = meant.filter(|c| c.is_chosen_by_dates() && !c.name.starts_with(c.family));
+    match (meant, error) {
+        (Some(code), SeparationError::UnknownProvision(error)) => SeparationError::UnknownCode {
+            error,
+            family: code.family,
+        },
+        (_, error) => error,
+    }
+}
+
+/// The newest of some editions.
+fn newest_of(editions: &[&&'static CodeDescriptor]) -> &'static str {
+    let from = |c: &&&&CodeDescriptor| c.edition().in_force.map(|known| known.from);
+    let newest = editions.iter().max_by_key(from);
+    newest.map_or("", |c| c.name)
+}
+
+/// Editions of a country or city that have no formula here.
+fn unavailable_in(region: &str) -> Vec<&'static str> {
+    let here = UNAVAILABLE.iter().filter(|u| u.region == region);
+    here.map(|u| u.edition).collect()
 }
 
 /// A code with the dates of its edition.
@@ -1145,6 +1187,69 @@ mod tests {
         assert_eq!(unknown.help().unwrap(), "did you mean \"Italy\"?");
         let none = code_in_country("Italy", on("2000-01-01")).unwrap_err();
         assert!(matches!(none, SeparationError::NotInForce { .. }), "{none}");
+    }
+
+    /// Other names, countries of EN 1998-1, and what to take where no edition known is in force.
+    #[test]
+    fn names_of_countries_that_are_no_regions() {
+        let day = on("2026-11-27");
+        for (name, code) in [
+            ("T\u{fc}rkiye", "tbdy_2018"),
+            ("NZ", "nzs_1170_5"),
+            ("new_zealand", "nzs_1170_5"),
+            ("Europe", "eurocode_8_2004"),
+        ] {
+            let found = code_in_country(name, day).unwrap();
+            assert_eq!(found.name, code, "{name}");
+        }
+        for name in ["USA", "u.s.", "United States of America"] {
+            let error = code_in_country(name, on("2020-01-01")).unwrap_err();
+            assert!(
+                matches!(error, SeparationError::SeveralCodes { .. }),
+                "{name}: {error}"
+            );
+        }
+        for name in ["France", "germany", "Czech_Republic", "UK"] {
+            let help = code_in_country(name, day).unwrap_err().help().unwrap();
+            assert!(
+                help.contains("EN 1998-1") && help.contains("\"Europe\""),
+                "{name}: {help}"
+            );
+            assert!(help.contains("National Annex"), "{name}: {help}");
+        }
+        let city = code_in_country("Mexico City", day).unwrap_err();
+        let country = code_in_country("Mexico", day).unwrap_err();
+        for help in [city.help().unwrap(), country.help().unwrap()] {
+            for part in ["--code mexico_city_2020", "NTC-Sismo 2017 and 2023"] {
+                assert!(help.contains(part), "{part}: {help}");
+            }
+        }
+        assert!(
+            country
+                .help()
+                .unwrap()
+                .contains("did you mean \"Mexico City\"?")
+        );
+        let help = code_in_country("Atlantis", day)
+            .unwrap_err()
+            .help()
+            .unwrap();
+        assert!(help.starts_with("known are "), "{help}");
+    }
+
+    /// Where the family is called otherwise than the edition that is meant, it is named, too.
+    #[test]
+    fn families_of_codes_that_are_meant() {
+        let day = on("2026-11-27");
+        let error = choose_code("tbdy", day).unwrap_err();
+        assert_eq!(error.to_string(), "unknown code \"tbdy\"");
+        let help = error.help().unwrap();
+        assert!(
+            help.starts_with("did you mean \"tbdy_2018\"? \"turkey\""),
+            "{help}"
+        );
+        let other = choose_code("asce7", day).unwrap_err().help().unwrap();
+        assert_eq!(other, "did you mean \"asce_7_2016\"?");
     }
 
     /// Dates are years or days, an edition ends after it begins, and one that ends names what

@@ -12,6 +12,14 @@ pub enum SeparationError {
     /// No provision of this name.
     #[error(transparent)]
     UnknownProvision(#[from] DefinitionError),
+    /// No code of this name; the one that is meant has a family of another name.
+    #[error("{error}")]
+    UnknownCode {
+        /// What is wrong, with the name that is meant.
+        error: DefinitionError,
+        /// Family of the code that is meant.
+        family: &'static str,
+    },
     /// An input that the provision needs is not given.
     #[error("{provision} needs {} ({}){}", input.key(), input.explanation(), of(structure))]
     MissingInput {
@@ -61,6 +69,10 @@ pub enum SeparationError {
         date: Date,
         /// The editions that are known, with their dates.
         known: Vec<String>,
+        /// The name of the newest.
+        newest: &'static str,
+        /// Editions without a formula here.
+        unavailable: Vec<&'static str>,
     },
     /// An edition begins or ends in the year of a day, and its own day is not known.
     #[error("the edition of {what} in force on {date} is not known, of these only years are: {}", known.join("; "))]
@@ -91,6 +103,8 @@ pub enum SeparationError {
         country: String,
         /// The countries and cities that have one.
         known: Vec<&'static str>,
+        /// What is known of it all the same: another name, or a code that it shares with others.
+        hint: Option<String>,
     },
     /// An input that no structure can have.
     #[error("{quantity} = {value} is outside {range}")]
@@ -127,6 +141,10 @@ impl SeparationError {
     pub fn help(&self) -> Option<String> {
         Some(match self {
             Self::UnknownProvision(error) => error.help(),
+            Self::UnknownCode { error, family } => {
+                let meant = error.help();
+                format!("{meant} \"{family}\" is the edition in force of that family")
+            }
             Self::MissingInput { input, .. } => {
                 format!("add `{}` to the table [separation]", input.key())
             }
@@ -135,7 +153,21 @@ impl SeparationError {
                 "correct the rule, or the inputs that it is given".to_owned()
             }
             Self::NoDate { .. } => "write year, month and day, such as 2018-03-22".to_owned(),
-            Self::NotInForce { known, .. } => format!("known are {}", known.join("; ")),
+            Self::NotInForce {
+                known,
+                newest,
+                unavailable,
+                ..
+            } => {
+                let missing = match unavailable.as_slice() {
+                    [] => String::new(),
+                    all => format!("; there is no formula here of {}", all.join(", ")),
+                };
+                format!(
+                    "known are {}{missing}; an edition by its name is taken whatever the date: --code {newest}, or `code` in [separation]",
+                    known.join("; ")
+                )
+            }
             Self::DayNotKnown { codes, .. } => format!(
                 "name the edition, with --code or `code` in [separation]: {}",
                 codes.join(" or ")
@@ -143,10 +175,15 @@ impl SeparationError {
             Self::SeveralCodes { .. } => {
                 "name one of them: --code, or `code` in [separation]".to_owned()
             }
-            Self::UnknownCountry { country, known } => match suggestion::misspelt(country, known) {
-                Some(meant) => format!("did you mean \"{meant}\"?"),
-                None => format!("known are {}", known.join(", ")),
-            },
+            Self::UnknownCountry {
+                hint: Some(hint), ..
+            } => hint.clone(),
+            Self::UnknownCountry { country, known, .. } => {
+                match suggestion::misspelt(country, known) {
+                    Some(meant) => format!("did you mean \"{meant}\"?"),
+                    None => format!("known are {}", known.join(", ")),
+                }
+            }
             Self::OutOfRange { .. } => "check the value and its unit".to_owned(),
         })
     }

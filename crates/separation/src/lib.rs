@@ -15,6 +15,7 @@
 mod assumptions;
 mod codes;
 mod combination;
+mod country;
 mod descriptor;
 mod edition;
 mod effective_properties;

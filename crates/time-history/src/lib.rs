@@ -31,6 +31,7 @@ mod recorder;
 mod relative_displacement;
 mod response_row;
 mod small_solver;
+mod soft_contact;
 #[cfg(feature = "serde")]
 mod summary;
 mod system;

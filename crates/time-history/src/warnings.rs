@@ -13,6 +13,7 @@ use pounding_shear_building::{Damping, DampingMatrix, Modes, OVERTURNING_RATIO, 
 use crate::estimate::{StepEstimate, StepLimit, short};
 use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome, Peak};
+use crate::soft_contact::{deep_penetrations, soft_contacts, stiffness_text};
 use crate::system::{ContactLevel, System, more_pairs};
 
 /// Fundamental periods (s) that buildings have.
@@ -254,6 +255,35 @@ pub enum Warning {
         /// The first storey or link whose law is not linear between changes of branch.
         place: String,
     },
+    /// A contact of floors that is softer than the storeys beside it.
+    SoftContact {
+        /// Name of the gap.
+        gap: String,
+        /// Force over penetration in an approach of 0.5 m/s (N/m).
+        stiffness: f64,
+        /// The softest storey of the floors that meet, in words.
+        storey: String,
+        /// Its stiffness (N/m).
+        storey_stiffness: f64,
+        /// A thousand or a million, with the stiffness (N/m) of a contact of so many times the
+        /// force, if that is as stiff as contacts are.
+        meant: Option<(f64, f64)>,
+    },
+    /// Floors that overlap by more than the gap is wide, in a contact that is hardly stiffer than a storey.
+    DeepPenetration {
+        /// Gap and level, in words.
+        place: String,
+        /// Maximum penetration (m).
+        penetration: f64,
+        /// Width of the gap at rest (m).
+        width: f64,
+        /// When the floors overlap most (s).
+        time: f64,
+        /// Maximum force over maximum penetration, over the stiffness of the storey (-).
+        ratio: f64,
+        /// The softest storey of the floors that meet, in words.
+        storey: String,
+    },
 }
 
 impl fmt::Display for Warning {
@@ -475,6 +505,50 @@ impl fmt::Display for Warning {
                 f,
                 "{place} follows a law that is not linear between changes of branch: in place of exact steps the whole run was made by the adaptive pair 8(5,3), which locates every event as well"
             ),
+            Self::SoftContact {
+                gap,
+                stiffness,
+                storey,
+                storey_stiffness,
+                meant,
+            } => {
+                write!(
+                    f,
+                    "gap {gap}: the contact is softer than the storeys beside it: {} at an approach velocity of {APPROACH_VELOCITY} m/s, {} times the {} of {storey}, where contacts have some 10 to 100 times as much",
+                    stiffness_text(*stiffness),
+                    short(stiffness / storey_stiffness),
+                    stiffness_text(*storey_stiffness)
+                )?;
+                match meant {
+                    None => f.write_str("; correct its parameters, or take")?,
+                    Some((factor, meant)) => write!(
+                        f,
+                        "; {} would be {}: write the unit that is meant, or take",
+                        if *factor > 1.0e3 {
+                            "a million times as much (MN for N, in which a number without unit is)"
+                        } else {
+                            "a thousand times as much (MN for kN)"
+                        },
+                        stiffness_text(*meant)
+                    )?,
+                }
+                f.write_str(" a stiffness that `pounding stiffness` derives")
+            }
+            Self::DeepPenetration {
+                place,
+                penetration,
+                width,
+                time,
+                ratio,
+                storey,
+            } => write!(
+                f,
+                "gap {place}: the floors overlap by {} mm at {} s, more than the {} mm of the gap, in a contact that is {} times as stiff as {storey} alone; contacts have some 10 to 100 times as much: stiffen it, or take a model of a bumper (polycarpou_2013) if it is one",
+                short(1e3 * penetration),
+                short(*time),
+                short(1e3 * width),
+                short(*ratio)
+            ),
         }
     }
 }
@@ -587,6 +661,7 @@ impl Warning {
             }
         }
         warnings.extend(system.unequal_floor_warnings());
+        warnings.extend(soft_contacts(system));
         warnings
     }
 
@@ -669,6 +744,7 @@ impl Warning {
         };
         warnings.extend(coarse_step(system, &options.method, (met, true)));
         warnings.extend(unseated(system, levels));
+        warnings.extend(deep_penetrations(system, levels));
         for (l, level) in levels.iter().enumerate() {
             let given = -level.energy_dissipated;
             if given > ROUND_OFF * largest_input {

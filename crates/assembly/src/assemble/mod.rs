@@ -134,6 +134,11 @@ fn unused(case: &Case) -> Vec<String> {
             }
         }
     }
+    for question in &case.asked {
+        if !told.contains(question) {
+            told.push(question.clone());
+        }
+    }
     told
 }
 

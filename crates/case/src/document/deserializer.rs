@@ -33,6 +33,7 @@ pub(super) fn read<T: DeserializeOwned>(
         reader,
         key,
         wanted: "",
+        or_each: false,
         held: Held::Given(value),
     };
     match T::deserialize(value) {
@@ -52,6 +53,8 @@ struct Value<'r> {
     key: &'r str,
     /// What the type that holds this one expects, if it says so.
     wanted: &'r str,
+    /// Whether a list may stand in its place, with one value for each of several things.
+    or_each: bool,
     held: Held<'r>,
 }
 
@@ -83,6 +86,12 @@ enum Held<'r> {
 /// What enums of words expect by `#[serde(expecting)]`, at least at its beginning; others are
 /// tables.
 const WORD: &str = "a text in quotes";
+
+/// A table that a case must have, and what to do where it is missing.
+const GROUND_MOTION: (&str, &str) = (
+    "ground_motion",
+    "add [ground_motion] with `file = \"...\"`, a record; where initial displacements, velocities or forces move the buildings without an earthquake, a record of zeros: a file with the lines `time (s),acceleration (m/s2)`, `0,0` and `0.1,0`, and a `duration` in [analysis]",
+);
 
 /// What counts expect.
 const WHOLE: &str = "a whole number";
@@ -126,6 +135,7 @@ impl<'r> Value<'r> {
         Self {
             key,
             wanted: "",
+            or_each: false,
             held,
             ..self
         }
@@ -183,7 +193,10 @@ impl<'r> Value<'r> {
         Ok(match name {
             ask::ONE_OR_EACH => match self.given()?.get_ref() {
                 DeValue::Array(_) => Asked::Parts(self.entries()?),
-                _ => Asked::Value(self),
+                _ => Asked::Value(Self {
+                    or_each: true,
+                    ..self
+                }),
             },
             ask::WRITTEN | ask::SCALAR => match self.written(visitor)? {
                 Cow::Borrowed(text) => Asked::Text(text),
@@ -304,7 +317,17 @@ impl<'r> Value<'r> {
                 DeValue::Table(_) => Unexpected::Map,
             },
         };
-        Error::invalid_type(found, &wanted)
+        let is_table = found == Unexpected::Map;
+        match Error::invalid_type(found, &wanted) {
+            Error::New(fault) if is_table && self.or_each => Error::New(Fault {
+                help: format!(
+                    "{}, or a list with one for each, in their order: [first, second]",
+                    fault.help
+                ),
+                ..fault
+            }),
+            error => error,
+        }
     }
 
     /// Refuses a value that is of another type.
@@ -783,6 +806,7 @@ impl<'r> Keys<'r> {
     fn lacks(&self, key: &str) -> Error {
         let message = format!("{} has no `{key}`", self.name);
         let help = match self.kinds {
+            "" if key == GROUND_MOTION.0 => GROUND_MOTION.1.to_owned(),
             "" => format!("add `{key} = ...`"),
             kinds => format!("add `{key} = ...`; known are {kinds}"),
         };

@@ -127,6 +127,7 @@ impl CaseFile {
                 ground_motion,
                 analysis: Analysis::from(self.analysis.value().unwrap_or_default()),
                 separation: separation.unwrap_or_default(),
+                asked: reader.errors.all_asked(),
                 source: reader.source.to_owned(),
                 file: file.to_owned(),
                 given_files: None,
@@ -310,6 +311,7 @@ fn spread<T: Into<U>, U: Clone, const LEAST: usize>(
             ),
             match place {
                 "place" => "give one value per storey or level of this law, or a single value without brackets for all".to_owned(),
+                "contact level" => "give one value per contact level, which is a pair of floors that meet, from the bottom, or a single value for all; all points of a level along an edge, where floors turn in plan, share its width".to_owned(),
                 _ => format!("give one value per {place}, or a single value for all"),
             },
         ),

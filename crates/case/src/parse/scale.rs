@@ -13,7 +13,7 @@ use serde::Deserialize;
 use crate::document::{
     Acceleration, Fault, Kinds, Number, Positive, Ratio, Reader, TableOr, Time, Velocity,
 };
-use crate::types::{BandSource, Located, SpectrumFile, SpectrumSource};
+use crate::types::{BandSource, Located, SpectrumFile, SpectrumSource, bare_acceleration};
 
 /// Damping ratio where none is given.
 const DAMPING: f64 = 0.05;
@@ -32,7 +32,7 @@ pub(super) enum ScaleTable {
     },
     Pga {
         /// Peak ground acceleration (m/s2)
-        pga: Positive<Acceleration>,
+        pga: Located<Positive<Acceleration>>,
     },
     Pgv {
         /// Peak ground velocity (m/s)
@@ -40,7 +40,7 @@ pub(super) enum ScaleTable {
     },
     Psa {
         /// Pseudo-acceleration (m/s2) at `period`
-        psa: Positive<Acceleration>,
+        psa: Located<Positive<Acceleration>>,
         /// Period of `psa` (s)
         period: Positive<Time>,
         /// Damping ratio, by default 0.05
@@ -149,6 +149,22 @@ impl From<Located<FilePath>> for Located<PathBuf> {
     }
 }
 
+/// Peaks (g) to which records are scaled.
+const LEAST_PEAK: f64 = 0.1;
+
+/// Asks about the acceleration (m/s2) of a key whose value stands here, if it has no unit and is less
+/// than usual (g).
+fn ask(reader: &Reader<'_>, (key, value): (&str, f64), place: &Range<usize>, least: f64) {
+    let written = reader.source.get(place.clone()).unwrap_or_default();
+    if written.starts_with(['"', '\'']) {
+        return;
+    }
+    let what = format!("`{key}` of `scale`");
+    if let Some(question) = bare_acceleration(&what, value, least) {
+        reader.errors.ask(question);
+    }
+}
+
 /// The scale that a value says, which stands at `place`.
 pub(super) fn scale_of(
     reader: &Reader<'_>,
@@ -164,17 +180,31 @@ pub(super) fn scale_of(
     ascending(reader, place, &table)?;
     Some(match table {
         ScaleTable::Factor { factor } => Scale::Factor(factor.into()),
-        ScaleTable::Pga { pga } => Scale::PeakAcceleration(pga.into()),
+        ScaleTable::Pga { pga } => {
+            let target = pga.value.into();
+            ask(reader, ("pga", target), &pga.span, LEAST_PEAK);
+            Scale::PeakAcceleration(target)
+        }
         ScaleTable::Pgv { pgv } => Scale::PeakVelocity(pgv.into()),
         ScaleTable::Psa {
             psa,
             period,
             damping,
-        } => Scale::SpectralAcceleration {
-            period: period.into(),
-            damping: or_default(damping),
-            target: psa.into(),
-        },
+        } => {
+            let (period, target) = (f64::from(period), f64::from(psa.value));
+            // Spectra fall with the period, from 1 s on.
+            ask(
+                reader,
+                ("psa", target),
+                &psa.span,
+                LEAST_PEAK / period.max(1.0),
+            );
+            Scale::SpectralAcceleration {
+                period,
+                damping: or_default(damping),
+                target,
+            }
+        }
         ScaleTable::Target {
             target,
             from,

@@ -49,6 +49,9 @@ pub struct Case {
     pub analysis: Analysis,
     /// What provisions for the gap need to know.
     pub separation: Separation,
+    /// Scales of ground motions that were probably meant in another unit, in words: a warning for
+    /// each.
+    pub asked: Vec<String>,
     /// The TOML text.
     pub source: String,
     /// Name of the file in messages, and the base of relative paths.
@@ -639,6 +642,14 @@ pub struct Separation {
 #[must_use]
 pub fn unusual_parameters(spectrum: &CodeSpectrum) -> Vec<String> {
     usual::of_spectrum(spectrum)
+}
+
+/// What is said of an acceleration (m/s2) to which records are scaled and that was written without a
+/// unit, where it is as small as no such record and the same number of g is a usual one. `least` is
+/// the least usual value (g), and `what` the words for the value and where it stands.
+#[must_use]
+pub fn bare_acceleration(what: &str, value: f64, least: f64) -> Option<String> {
+    usual::bare_acceleration(what, value, least)
 }
 
 impl GroundMotion {

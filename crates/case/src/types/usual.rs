@@ -59,8 +59,9 @@ const USUAL: [Usual; 11] = [
         given: |s| s.design_ground_acceleration.as_slice(),
     },
     Usual {
+        // S_M1 is 1.5 times S_D1, which below 0.067 g has no design but the least.
         key: "spectral_acceleration_1s",
-        bounds: Bounds::of((0.05, 4.0), Kind::Acceleration),
+        bounds: Bounds::of((0.1, 4.0), Kind::Acceleration),
         given: |s| s.spectral_acceleration_1s.as_slice(),
     },
     Usual {
@@ -98,6 +99,21 @@ const USUAL: [Usual; 11] = [
         given: |s| s.plan_width.as_deref().unwrap_or_default(),
     },
 ];
+
+/// Least number that is usual in g.
+const LEAST_IN_GRAVITY: f64 = 0.02;
+
+/// What is said of an acceleration (m/s2) without a unit that is below what is usual (g).
+pub(super) fn bare_acceleration(what: &str, value: f64, least: f64) -> Option<String> {
+    let meant = LEAST_IN_GRAVITY..least * STANDARD_GRAVITY;
+    meant.contains(&value).then(|| {
+        let number = six_digits(value);
+        format!(
+            "{what} is {}, little for a record that is scaled; a number without unit is in m/s2: was \"{number} g\" meant? If not, write \"{number} m/s2\"",
+            Kind::Acceleration.shown(value)
+        )
+    })
+}
 
 /// Dimensions in plan (m) of buildings.
 const PLAN: (f64, f64) = (1.0, 1000.0);

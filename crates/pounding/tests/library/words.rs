@@ -316,6 +316,18 @@ fn warnings_are_in_our_words() {
     );
 }
 
+#[test]
+fn a_soft_contact_is_told_in_our_words() {
+    let gap = Gap::between("a", "b").width(Length::millimetres(20.0));
+    let gap = gap.model("linear_elastic", [("stiffness", 93.5)]);
+    let pair = Simulation::of([building("a", 25.0, 3.46), building("b", 25.0, 3.46)]);
+    let model = pair.gap(gap).ground_motion(el_centro()).build().unwrap();
+    let said = model.warnings(&model.run().unwrap()).join("\n");
+    assert!(said.contains("the contact is softer"), "{said}");
+    assert!(said.contains("`gap_element::contact_stiffness`"), "{said}");
+    assert!(!said.contains("pounding stiffness"), "{said}");
+}
+
 /// Each mistake has its place and its own remedy.
 #[test]
 fn sides_and_storeys_that_cannot_be() {

@@ -144,6 +144,7 @@ impl<'s> Runner<'s> {
                 v.name, v.unit
             ))
         }));
+        warnings.extend(study.variables.iter().filter_map(|v| v.asked.clone()));
         warnings.extend(study.variables.iter().filter_map(without_result));
         warnings.extend(study.variables.iter().filter_map(model_named_twice));
         warnings.extend(

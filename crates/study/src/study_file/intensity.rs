@@ -3,7 +3,7 @@
 use pounding_case::document::{
     AboveZero, Amount, Entry, Fault, Number, OneOrEach, Optional, Positive, Reader, Time, Within,
 };
-use pounding_case::{Dimension, Located};
+use pounding_case::{Dimension, Located, bare_acceleration};
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::GroundMotion;
 use pounding_ground_motion::spectra::{Evaluation, response_spectrum};
@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::context::Context;
-use super::values::{all, not_both};
+use super::values::{Values, all, not_both};
 use crate::error::StudyError;
 
 /// What is held at a value by scaling a record. Every measure grows in proportion to the
@@ -41,6 +41,9 @@ pub enum IntensityMeasure {
         damping: f64,
     },
 }
+
+/// What the greatest intensity of a study is at least (g).
+const GREATEST_AT_LEAST: f64 = 0.2;
 
 /// Periods of a default average, 0.2 to 3 times the building's, evenly spaced in their
 /// logarithm.
@@ -88,6 +91,21 @@ impl IntensityMeasure {
                 format!("average Sa over {}, {}", from_to(periods), damped(*damping))
             }
         }
+    }
+
+    /// What is said of these values without a unit, where the greatest is as small as in no study of
+    /// records that are scaled.
+    pub(super) fn asked(&self, values: &Values) -> Option<String> {
+        if self.dimension() != Dimension::ACCELERATION {
+            return None;
+        }
+        let greatest = match values {
+            Values::Numbers(numbers) => numbers.iter().copied().fold(0.0, f64::max),
+            Values::Range { from, to, .. } => from.max(*to),
+            Values::Choices(_) => return None,
+        };
+        let what = format!("the greatest `intensity`, {},", self.title());
+        bare_acceleration(&what, greatest, GREATEST_AT_LEAST)
     }
 
     /// Dimension of its values.

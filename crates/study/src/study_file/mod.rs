@@ -77,6 +77,8 @@ pub struct Variable {
     /// The values that it takes.
     pub values: Values,
     pub(crate) target: Target,
+    /// That its numbers were probably meant in another unit, in words.
+    pub(crate) asked: Option<String>,
 }
 
 /// What a variable changes.

@@ -198,6 +198,7 @@ impl VariableTable {
             unit: String::new(),
             values: Values::Choices(labels),
             target: Target::Record,
+            asked: None,
         };
         Some((variable, Some(records)))
     }
@@ -227,14 +228,17 @@ impl VariableTable {
             .numbers(reader)
             .read(reader, (TABLE, span.clone()), &read);
         let (name, long_name) = names?;
-        let (values, _) = values?;
+        let (values, places) = values?;
         let measure = measure?;
+        let is_bare = places.iter().all(|written| written.value.is_plain());
+        let asked = measure.asked(&values).filter(|_| is_bare);
         Some(Variable {
             name,
             long_name,
             unit: unit_of(measure.dimension()),
             values,
             target: Target::Intensity(measure),
+            asked,
         })
     }
 
@@ -342,6 +346,7 @@ impl VariableTable {
             unit,
             values,
             target,
+            asked: None,
         })
     }
 }

@@ -1,0 +1,158 @@
+//! Contacts that are softer than the storeys beside them: a stiffness in the wrong unit.
+
+use pounding_gap_element::{Memory, Phase};
+
+use crate::estimate::short;
+use crate::outcome::LevelOutcome;
+use crate::system::{ContactLevel, Gap, System};
+use crate::warnings::{APPROACH_VELOCITY, Warning};
+
+/// Contact over storey stiffness from which an overlap wider than the gap is that of a narrow gap: at usual
+/// stiffnesses floors overlap by some centimetres.
+const STIFF_RATIO: f64 = 2.0;
+/// The ratio that contacts do not fall below.
+const LEAST_RATIO: f64 = 1.0;
+/// Factors of a unit that was taken for another (kN for MN, N for MN), and the greatest ratio that
+/// one of them may lead to.
+const FACTORS: ([f64; 2], f64) = ([1.0e3, 1.0e6], 1.0e3);
+
+/// The softest contact of each gap, where it is softer than the storeys beside it.
+pub(crate) fn soft_contacts(system: &System) -> impl Iterator<Item = Warning> {
+    system.gaps().iter().filter_map(|gap| {
+        let levels = compliant(system, gap).filter_map(|level| {
+            let storey = Storey::softest_beside(system, level)?;
+            let stiffness = secant(level, 1.0)?;
+            Some((stiffness / storey.stiffness, stiffness, storey, level))
+        });
+        let (ratio, stiffness, storey, level) = levels.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let meant = FACTORS.0.into_iter().find_map(|factor| {
+            let meant = secant(level, factor)?;
+            let usual = LEAST_RATIO..=FACTORS.1;
+            let fits = usual.contains(&(meant / storey.stiffness));
+            fits.then_some((factor, meant))
+        });
+        (ratio < LEAST_RATIO).then(|| Warning::SoftContact {
+            gap: gap.name.clone(),
+            stiffness,
+            storey: storey.name,
+            storey_stiffness: storey.stiffness,
+            meant,
+        })
+    })
+}
+
+/// The level of each gap whose floors overlapped most, if by more than the gap is wide, in contacts
+/// that are hardly stiffer than a storey.
+pub(crate) fn deep_penetrations(
+    system: &System,
+    outcomes: &[LevelOutcome],
+) -> impl Iterator<Item = Warning> {
+    system.gaps().iter().filter_map(|gap| {
+        let levels = gap.first_level..gap.first_level + gap.levels;
+        let deepest = levels.max_by(|a, b| {
+            let of = |l: &usize| outcomes[*l].peak_penetration.value;
+            of(a).total_cmp(&of(b))
+        })?;
+        let level = &system.levels()[deepest];
+        let outcome = &outcomes[deepest];
+        let penetration = outcome.peak_penetration.value;
+        let deep = level.width > 0.0 && penetration > level.width;
+        if !deep || !is_of_floors(level) {
+            return None;
+        }
+        let storey = Storey::softest_beside(system, level)?;
+        let ratio = outcome.peak_force.value / penetration / storey.stiffness;
+        (ratio < STIFF_RATIO).then(|| Warning::DeepPenetration {
+            place: system.name_of_level(deepest),
+            penetration,
+            width: level.width,
+            time: outcome.peak_penetration.time,
+            ratio,
+            storey: storey.name,
+        })
+    })
+}
+
+/// A stiffness (N/m) in the unit in which it is short.
+pub(crate) fn stiffness_text(stiffness: f64) -> String {
+    let (unit, size) = match stiffness {
+        k if k < 1.0e4 => ("N/m", 1.0),
+        k if k < 1.0e6 => ("kN/m", 1.0e3),
+        _ => ("MN/m", 1.0e6),
+    };
+    format!("{} {unit}", short(stiffness / size))
+}
+
+/// Levels of a gap where floors meet as floors do.
+fn compliant<'s>(system: &'s System, gap: &Gap) -> impl Iterator<Item = &'s ContactLevel> {
+    system.levels_of(gap).iter().filter(|l| is_of_floors(l))
+}
+
+/// Whether floors meet here, in a contact that deforms: no bumper, which is meant to be soft, and no
+/// column, which bends.
+fn is_of_floors(level: &ContactLevel) -> bool {
+    let model = &level.model;
+    model.rigid_restitution().is_none()
+        && model.spring_behind().is_none()
+        && !model.descriptor().is_of_bumper()
+}
+
+/// What holds a floor.
+struct Storey {
+    name: String,
+    stiffness: f64,
+}
+
+impl Storey {
+    /// The softest of the storeys below and above the floors that meet at a level. Of a building without
+    /// storey stiffnesses what its first mode alone holds a floor with, which is more than all modes do.
+    fn softest_beside(system: &System, level: &ContactLevel) -> Option<Self> {
+        let floors = level.between.iter().filter_map(|f| system.storey_of(*f));
+        let storeys = floors.filter_map(|(building, floor)| {
+            let building = &system.buildings()[building];
+            let named = |what: &str, storey: usize, stiffness: f64| Self {
+                name: format!("{what} {storey} of \"{}\"", building.name()),
+                stiffness,
+            };
+            let own = building.stiffness().iter().enumerate();
+            let own = own.skip(floor).take(2);
+            if let Some((storey, stiffness)) = own.min_by(|a, b| a.1.total_cmp(b.1)) {
+                return Some(named("storey", storey + 1, *stiffness));
+            }
+            let (modes, first) = (building.modes(), building.fundamental_mode());
+            let shape = *modes.shape.get((floor, first))?;
+            let rate = modes.circular_frequency[first] / shape;
+            let stiffness = rate * rate;
+            stiffness
+                .is_finite()
+                .then(|| named("the first mode at floor", floor + 1, stiffness))
+        });
+        storeys.min_by(|a, b| a.stiffness.total_cmp(&b.stiffness))
+    }
+}
+
+/// Force over penetration (N/m) of the contact at this many times its force, at the penetration in which a linear spring
+/// of that stiffness holds the energy of the approach: its own stiffness where the law is linear.
+fn secant(level: &ContactLevel, factor: f64) -> Option<f64> {
+    let model = level.model.as_ref();
+    let energy = level.effective_mass * APPROACH_VELOCITY * APPROACH_VELOCITY;
+    let collision = model.begin(APPROACH_VELOCITY, level.effective_mass);
+    let force = |delta: f64| {
+        let memory = Memory::default();
+        let force = model.force(&collision, &memory, Phase::Approach, delta, 0.0);
+        factor * force.value
+    };
+    // The logarithm of the penetration by bisection: forces grow with it.
+    let (mut low, mut high) = (-40.0_f64, 40.0_f64);
+    for _ in 0..50 {
+        let middle = 0.5 * (low + high);
+        let delta = libm::exp(middle);
+        match force(delta) * delta < energy {
+            true => low = middle,
+            false => high = middle,
+        }
+    }
+    let delta = libm::exp(0.5 * (low + high));
+    let stiffness = force(delta) / delta;
+    (stiffness.is_finite() && stiffness > 0.0).then_some(stiffness)
+}

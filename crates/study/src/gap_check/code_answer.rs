@@ -72,7 +72,7 @@ impl LevelAnswer {
     }
 
     /// Whether the provided width is no less; `None` for a rule that does not hold for
-    /// displacements of buildings that yield, for one whose readings differ in it, and under records
+    /// displacements of buildings that yield, for a disputed one whose least reading it reaches, and under records
     /// that are not what the code asks for. A width that takes no displacements is asked for under
     /// any records.
     #[must_use]
@@ -89,18 +89,16 @@ impl LevelAnswer {
         self.by_width().is_some()
     }
 
+    /// Of a disputed width it cannot be known which reading is that of the code: none is chosen, but a gap
+    /// that reaches none is too small.
     fn by_width(&self) -> Option<bool> {
         let requirement = &self.width.requirement;
         if !self.records_suffice || requirement.caution.is_some() {
             return None;
         }
-        match (
-            self.reaches(requirement.width),
-            self.reaches(requirement.least()),
-        ) {
-            (true, _) => Some(true),
-            (_, false) => Some(false),
-            (false, true) => None,
+        match requirement.readings.is_empty() {
+            true => Some(self.reaches(requirement.width)),
+            false => (!self.reaches(requirement.least())).then_some(false),
         }
     }
 

@@ -380,11 +380,10 @@ fn explained(case: &OwnershipAnswer) -> String {
         add("to know", remark);
     }
     if let Some(undecided) = requirement.undecided() {
-        // Where every reading asks for less than is provided, or for more, none need be chosen.
-        match governing.satisfied().filter(|_| governing.has_answer()) {
-            Some(true) => add("every reading", "the provided width reaches all of them"),
-            Some(false) => add("every reading", "the provided width reaches none of them"),
-            None => add("no verdict", &undecided),
+        // Where every reading asks for more than is provided, none need be chosen.
+        match governing.has_answer() {
+            true => add("every reading", "asks for more than is provided"),
+            false => add("no verdict", &undecided),
         }
     }
     text

@@ -488,3 +488,71 @@ fn remarks_behind_volumes() {
         );
     }
 }
+
+/// A peak without a unit may be of another quantity, component or stage: what a line names so is held against nothing.
+#[test]
+fn peaks_of_something_else() {
+    let rows = rows_of_eight(&values(400));
+    let above = |line: &str| format!("{line}\ndt = 0.02 s\nunits: g\n{rows}");
+    for line in [
+        "Acceleration: peak value: 0.25 at 0.1 sec\nVelocity: peak value: 24.3 at 3.20 sec",
+        "Peak value: 24.3 at 2.58 sec (velocity)",
+        "Vertical: Peak value: 90.3 at 3.2 sec",
+        "Raw record, peak value: 260.1 at 2.6 sec",
+        "Sa, peak value: 612.1 at 0.3 sec, 5 %",
+        "Peak value: 1.0 at 2.58 sec (normalised)",
+    ] {
+        assert_eq!(
+            one(&above(line), &ReadOptions::default()).samples.len(),
+            400
+        );
+    }
+    refused(
+        &above("Peak value: 24.3 at 2.58 sec"),
+        &ReadOptions::default(),
+        "a peak of 24.3",
+    );
+}
+
+/// Times that go on across a comment are those of one record; a range counts nothing; a heading of another quantity
+/// among rows without times begins another record.
+#[test]
+fn comments_among_the_rows() {
+    let values = values(400);
+    let line = |(i, a): (usize, &f64)| format!("{:.2} {a:.6}\n", 0.02 * i as f64);
+    let times: Vec<String> = values.iter().enumerate().map(line).collect();
+    let (first, second) = times.split_at(200);
+    let head = "# dt = 0.02 s\n# units: g\n";
+    for comment in [
+        "# count: 200",
+        "# dt = 0.02 s",
+        "# npts 400",
+        "# time step 201",
+        "# Velocity (cm/s)",
+    ] {
+        let text = format!("{head}{}{comment}\n{}", first.concat(), second.concat());
+        assert_eq!(one(&text, &ReadOptions::default()).samples.len(), 400);
+    }
+    let rows = rows_of_eight(&values);
+    let rows: Vec<&str> = rows.split_inclusive('\n').collect();
+    let (first, second) = rows.split_at(25);
+    let with = |comment: &str| format!("{head}{}{comment}\n{}", first.concat(), second.concat());
+    for comment in ["# samples 201 to 400", "# points 201-400"] {
+        assert_eq!(
+            one(&with(comment), &ReadOptions::default()).samples.len(),
+            400
+        );
+    }
+    for comment in [
+        "# Velocity (cm/s)",
+        "# Acceleration (cm/s2)",
+        "# displacement",
+        "# dt = 0.01 s",
+    ] {
+        refused(
+            &with(comment),
+            &ReadOptions::default(),
+            "several records in one file",
+        );
+    }
+}

@@ -104,28 +104,19 @@ struct Storey {
 }
 
 impl Storey {
-    /// The softest of the storeys below and above the floors that meet at a level. Of a building without
-    /// storey stiffnesses what its first mode alone holds a floor with, which is more than all modes do.
+    /// The softest of the storeys below and above the floors that meet at a level, of the buildings that
+    /// have storey stiffnesses.
     fn softest_beside(system: &System, level: &ContactLevel) -> Option<Self> {
         let floors = level.between.iter().filter_map(|f| system.storey_of(*f));
         let storeys = floors.filter_map(|(building, floor)| {
             let building = &system.buildings()[building];
-            let named = |what: &str, storey: usize, stiffness: f64| Self {
-                name: format!("{what} {storey} of \"{}\"", building.name()),
-                stiffness,
-            };
             let own = building.stiffness().iter().enumerate();
             let own = own.skip(floor).take(2);
-            if let Some((storey, stiffness)) = own.min_by(|a, b| a.1.total_cmp(b.1)) {
-                return Some(named("storey", storey + 1, *stiffness));
-            }
-            let (modes, first) = (building.modes(), building.fundamental_mode());
-            let shape = *modes.shape.get((floor, first))?;
-            let rate = modes.circular_frequency[first] / shape;
-            let stiffness = rate * rate;
-            stiffness
-                .is_finite()
-                .then(|| named("the first mode at floor", floor + 1, stiffness))
+            let (storey, stiffness) = own.min_by(|a, b| a.1.total_cmp(b.1))?;
+            Some(Self {
+                name: format!("storey {} of \"{}\"", storey + 1, building.name()),
+                stiffness: *stiffness,
+            })
         });
         storeys.min_by(|a, b| a.stiffness.total_cmp(&b.stiffness))
     }

@@ -152,7 +152,8 @@ impl OwnershipAnswer {
         if all_decide || self.refusal().is_some() {
             return None;
         }
-        let levels = self.levels.iter().enumerate();
+        // Of equals the highest level, as where its own widths decide.
+        let levels = self.levels.iter().enumerate().rev();
         let short = levels.filter_map(|(l, answer)| {
             let answer = answer.as_ref().ok()?;
             let least = answer.falls_short_anyway()?;

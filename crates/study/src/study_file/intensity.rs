@@ -42,7 +42,7 @@ pub enum IntensityMeasure {
     },
 }
 
-/// What the greatest intensity of a study is at least (g).
+/// What the greatest intensity of a study is at least (g), of long periods over the period (s).
 const GREATEST_AT_LEAST: f64 = 0.2;
 
 /// Periods of a default average, 0.2 to 3 times the building's, evenly spaced in their
@@ -105,7 +105,20 @@ impl IntensityMeasure {
             Values::Choices(_) => return None,
         };
         let what = format!("the greatest `intensity`, {},", self.title());
-        bare_acceleration(&what, greatest, GREATEST_AT_LEAST)
+        bare_acceleration(&what, greatest, GREATEST_AT_LEAST / self.long_period())
+    }
+
+    /// The geometric mean of its periods (s) where that is above 1 s, from which on accelerations fall
+    /// with the period; else 1.
+    fn long_period(&self) -> f64 {
+        match self {
+            Self::SpectralAcceleration { periods, .. }
+            | Self::AverageSpectralAcceleration { periods, .. } => {
+                let sum: f64 = periods.iter().map(|period| period.ln()).sum();
+                (sum / periods.len() as f64).exp().max(1.0)
+            }
+            Self::PeakGroundAcceleration | Self::PeakGroundVelocity => 1.0,
+        }
     }
 
     /// Dimension of its values.

@@ -207,8 +207,12 @@ fn statistic(answer: &CodeAnswer, (records, distinct): (usize, usize), times: f6
     let collapsed = match answer.collapsed {
         0 => String::new(),
         count => format!(
-            "  warning: a building collapses without contact under {}: the code gives no answer, and displacements and widths are those of the others\n",
-            counted(count, "record")
+            "  warning: a building collapses without contact under {}: {}displacements and widths are those of the others\n",
+            counted(count, "record"),
+            match answer.satisfied() {
+                None => "the code gives no answer, and ",
+                Some(_) => "",
+            }
         ),
     };
     if !answer.has_widths() {

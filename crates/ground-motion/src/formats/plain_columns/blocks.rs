@@ -2,6 +2,7 @@
 
 use super::{COMMENTS, before, is_comment, rows, stated};
 use crate::error::GroundMotionError;
+use crate::number;
 use crate::source::Source;
 use crate::text::Line;
 
@@ -62,6 +63,30 @@ fn several(source: &Source<'_>, line: Line<'_>, why: &str) -> GroundMotionError 
     )
 }
 
+/// Whether the first numbers of the rows around a line are times that go on by the step before it: rows of one record.
+fn times_go_on(source: &Source<'_>, line: usize) -> bool {
+    let time = |row: &Line<'_>| {
+        let mut fields = row.fields();
+        let (_, first) = fields.next()?;
+        // Values along rows are no times.
+        fields.next()?;
+        number::parse(first).ok()
+    };
+    let mut before = [None; 2];
+    for row in rows(source) {
+        if row.number < line {
+            before = [before[1], time(&row)];
+            continue;
+        }
+        let ([Some(a), Some(b)], Some(c)) = (before, time(&row)) else {
+            return false;
+        };
+        let step = b - a;
+        return step > 0.0 && (c - b - step).abs() <= 0.01 * step;
+    }
+    false
+}
+
 /// Refuses comments among the rows that state a count, a time step or what the values are, or that repeat a line of
 /// the header which does.
 ///
@@ -85,7 +110,7 @@ pub(super) fn are_of_one_record(source: &Source<'_>) -> Result<(), GroundMotionE
             ..line
         };
         let repeats = || like(source, &bare).is_some_and(|l| stated::states_a_record(&l));
-        if !(stated::states_a_record(&bare) || repeats()) {
+        if !(stated::states_a_record(&bare) || repeats()) || times_go_on(source, line.number) {
             continue;
         }
         let why = of_header(source, &bare).unwrap_or_default();

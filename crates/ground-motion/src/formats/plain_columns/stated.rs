@@ -329,6 +329,10 @@ impl Stated {
                         continue;
                     }
                     let time = entry.time().map(|(time, digits)| (time, printed(digits)));
+                    // Without a unit it may be of anything that the line names.
+                    if stated.is_none() && count.is_none() && !is_of_the_values(lower) {
+                        continue;
+                    }
                     let value = Peak {
                         value: (found, printed(digits)),
                         digits: significant(digits),
@@ -703,6 +707,50 @@ fn without_cells(lower: String) -> String {
     joined.replace('"', " ")
 }
 
+/// Whether a line begins with a peak, and names nothing but the values of which it may be: no other quantity, no
+/// other stage of the processing.
+fn is_of_the_values(lower: &str) -> bool {
+    const OTHERS: [&str; 10] = [
+        "veloc", "displ", "spectr", "response", "psa", "normal", "raw", "uncorr", "vert", "damp",
+    ];
+    let begins = lower.trim_start_matches(|c: char| !c.is_alphabetic());
+    ["peak", "max", "amax", "pga", "largest"]
+        .iter()
+        .any(|word| begins.starts_with(word))
+        && !OTHERS.iter().any(|word| lower.contains(word))
+}
+
+/// Whether a line is a heading of values, `Velocity (cm/s)`: the name of a motion first, and few words.
+fn is_heading(lower: &str) -> bool {
+    const MOTIONS: [&str; 6] = [
+        "acceleration",
+        "accelerations",
+        "velocity",
+        "velocities",
+        "displacement",
+        "displacements",
+    ];
+    let mut words = lower.split_whitespace();
+    let first = words.next().unwrap_or_default();
+    MOTIONS.contains(&first.trim_end_matches([':', ','])) && words.count() <= 3
+}
+
+/// Whether a line has a range, of which no number counts anything: `samples 201 to 400`, `points 201-400`.
+fn has_range(lower: &str) -> bool {
+    let is_number = |word: &str| !word.is_empty() && word.bytes().all(|b| b.is_ascii_digit());
+    let words: Vec<&str> = lower.split_whitespace().collect();
+    let apart = |three: &[&str]| {
+        let between = ["to", "-", "..", "\u{2013}", "through", "of"].contains(&three[1]);
+        between && is_number(three[0]) && is_number(three[2])
+    };
+    let together = |word: &&str| {
+        let signs = ["-", "..", "\u{2013}"];
+        let mut parts = signs.iter().filter_map(|sign| word.split_once(*sign));
+        parts.any(|(from, to)| is_number(from) && is_number(to))
+    };
+    words.windows(3).any(apart) || words.iter().any(together)
+}
+
 /// What a line states that no record states twice: keys of a count, of a time step, of a rate or of the quantity
 /// with their values.
 pub(super) fn states_a_record(line: &Line<'_>) -> bool {
@@ -710,11 +758,13 @@ pub(super) fn states_a_record(line: &Line<'_>) -> bool {
     if is_history(&lower) {
         return false;
     }
-    keyed(&lower).iter().any(|entry| match meaning(entry) {
-        Some(Meaning::Step | Meaning::Rate | Meaning::Count) => entry.has_number(),
-        Some(Meaning::Quantity) => named_quantity(entry.value).is_some(),
-        _ => false,
-    })
+    is_heading(&lower)
+        || keyed(&lower).iter().any(|entry| match meaning(entry) {
+            Some(Meaning::Count) => entry.has_number() && !has_range(&lower),
+            Some(Meaning::Step | Meaning::Rate) => entry.has_number(),
+            Some(Meaning::Quantity) => named_quantity(entry.value).is_some(),
+            _ => false,
+        })
 }
 
 /// Whether a line states a number under a key, `# dt: 0.01`, and so names no columns.

@@ -501,6 +501,7 @@ fn peaks_of_something_else() {
         "Raw record, peak value: 260.1 at 2.6 sec",
         "Sa, peak value: 612.1 at 0.3 sec, 5 %",
         "Peak value: 1.0 at 2.58 sec (normalised)",
+        "Peak value: 0.25 at 0.1 sec (NS), peak value: 0.3 at 3.1 sec (EW)",
     ] {
         assert_eq!(
             one(&above(line), &ReadOptions::default()).samples.len(),

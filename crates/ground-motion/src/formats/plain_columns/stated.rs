@@ -714,9 +714,9 @@ fn is_of_the_values(lower: &str) -> bool {
         "veloc", "displ", "spectr", "response", "psa", "normal", "raw", "uncorr", "vert", "damp",
     ];
     let begins = lower.trim_start_matches(|c: char| !c.is_alphabetic());
-    ["peak", "max", "amax", "pga", "largest"]
-        .iter()
-        .any(|word| begins.starts_with(word))
+    // Of two peaks in a line one may be that of another component.
+    let once = |word: &&str| begins.starts_with(*word) && begins.matches(*word).count() == 1;
+    ["peak", "max", "amax", "pga", "largest"].iter().any(once)
         && !OTHERS.iter().any(|word| lower.contains(word))
 }
 

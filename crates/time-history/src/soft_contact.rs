@@ -16,25 +16,29 @@ const LEAST_RATIO: f64 = 1.0;
 /// one of them may lead to.
 const FACTORS: ([f64; 2], f64) = ([1.0e3, 1.0e6], 1.0e3);
 
-/// The softest contact of each gap, where it is softer than the storeys beside it.
+/// The softest contact of each gap, where it is softer than the storeys beside it. Every run of a study asks: one force
+/// of each level decides.
 pub(crate) fn soft_contacts(system: &System) -> impl Iterator<Item = Warning> {
     system.gaps().iter().filter_map(|gap| {
-        let levels = compliant(system, gap).filter_map(|level| {
+        let soft = compliant(system, gap).filter_map(|level| {
             let storey = Storey::softest_beside(system, level)?;
+            if !is_softer(level, LEAST_RATIO * storey.stiffness) {
+                return None;
+            }
             let stiffness = secant(level, 1.0)?;
             Some((stiffness / storey.stiffness, stiffness, storey, level))
         });
-        let (ratio, stiffness, storey, level) = levels.min_by(|a, b| a.0.total_cmp(&b.0))?;
+        let (_, stiffness, storey, level) = soft.min_by(|a, b| a.0.total_cmp(&b.0))?;
         let meant = FACTORS.0.into_iter().find_map(|factor| {
             let meant = secant(level, factor)?;
             let usual = LEAST_RATIO..=FACTORS.1;
             let fits = usual.contains(&(meant / storey.stiffness));
             fits.then_some((factor, meant))
         });
-        (ratio < LEAST_RATIO).then(|| Warning::SoftContact {
+        Some(Warning::SoftContact {
             gap: gap.name.clone(),
             stiffness,
-            storey: storey.name,
+            storey: storey.name(system),
             storey_stiffness: storey.stiffness,
             meant,
         })
@@ -68,7 +72,7 @@ pub(crate) fn deep_penetrations(
             width: level.width,
             time: outcome.peak_penetration.time,
             ratio,
-            storey: storey.name,
+            storey: storey.name(system),
         })
     })
 }
@@ -97,9 +101,11 @@ fn is_of_floors(level: &ContactLevel) -> bool {
         && !model.descriptor().is_of_bumper()
 }
 
-/// What holds a floor.
+/// What holds a floor: a storey of a building, both from zero.
 struct Storey {
-    name: String,
+    building: usize,
+    storey: usize,
+    /// Its stiffness (N/m).
     stiffness: f64,
 }
 
@@ -109,41 +115,58 @@ impl Storey {
     fn softest_beside(system: &System, level: &ContactLevel) -> Option<Self> {
         let floors = level.between.iter().filter_map(|f| system.storey_of(*f));
         let storeys = floors.filter_map(|(building, floor)| {
-            let building = &system.buildings()[building];
-            let own = building.stiffness().iter().enumerate();
+            let own = system.buildings()[building].stiffness().iter().enumerate();
             let own = own.skip(floor).take(2);
             let (storey, stiffness) = own.min_by(|a, b| a.1.total_cmp(b.1))?;
             Some(Self {
-                name: format!("storey {} of \"{}\"", storey + 1, building.name()),
+                building,
+                storey,
                 stiffness: *stiffness,
             })
         });
         storeys.min_by(|a, b| a.stiffness.total_cmp(&b.stiffness))
     }
+
+    fn name(&self, system: &System) -> String {
+        let building = system.buildings()[self.building].name();
+        format!("storey {} of \"{building}\"", self.storey + 1)
+    }
+}
+
+/// Force (N) of the contact at a penetration (m), on the approach at [`APPROACH_VELOCITY`].
+fn force_of(level: &ContactLevel) -> impl Fn(f64) -> f64 {
+    let model = level.model.as_ref();
+    let collision = model.begin(APPROACH_VELOCITY, level.effective_mass);
+    move |delta| {
+        let memory = Memory::default();
+        let force = model.force(&collision, &memory, Phase::Approach, delta, 0.0);
+        force.value
+    }
+}
+
+/// Whether the [`secant`] of the contact is less than a stiffness (N/m): at the penetration at which that one holds the
+/// energy of the approach, the contact holds less.
+fn is_softer(level: &ContactLevel, stiffness: f64) -> bool {
+    let delta = APPROACH_VELOCITY * (level.effective_mass / stiffness).sqrt();
+    force_of(level)(delta) < stiffness * delta
 }
 
 /// Force over penetration (N/m) of the contact at this many times its force, at the penetration in which a linear spring
 /// of that stiffness holds the energy of the approach: its own stiffness where the law is linear.
 fn secant(level: &ContactLevel, factor: f64) -> Option<f64> {
-    let model = level.model.as_ref();
     let energy = level.effective_mass * APPROACH_VELOCITY * APPROACH_VELOCITY;
-    let collision = model.begin(APPROACH_VELOCITY, level.effective_mass);
-    let force = |delta: f64| {
-        let memory = Memory::default();
-        let force = model.force(&collision, &memory, Phase::Approach, delta, 0.0);
-        factor * force.value
-    };
+    let force = force_of(level);
     // The logarithm of the penetration by bisection: forces grow with it.
     let (mut low, mut high) = (-40.0_f64, 40.0_f64);
     for _ in 0..50 {
         let middle = 0.5 * (low + high);
         let delta = libm::exp(middle);
-        match force(delta) * delta < energy {
+        match factor * force(delta) * delta < energy {
             true => low = middle,
             false => high = middle,
         }
     }
     let delta = libm::exp(0.5 * (low + high));
-    let stiffness = force(delta) / delta;
+    let stiffness = factor * force(delta) / delta;
     (stiffness.is_finite() && stiffness > 0.0).then_some(stiffness)
 }

@@ -18,6 +18,7 @@ mod combination;
 mod country;
 mod descriptor;
 mod edition;
+mod edition_choice;
 mod effective_properties;
 mod error;
 mod inputs;
@@ -33,12 +34,12 @@ mod working;
 
 pub use assumptions::{Assumptions, Ground, HeightDatum};
 pub use codes::{
-    Cases, Code, CodeDescriptor, CodeWidth, LeastWidth, Ownership, Rules, Sides, choose_code,
-    code_in_country, codes, find_code,
+    Cases, Code, CodeDescriptor, CodeWidth, LeastWidth, Ownership, Rules, Sides, codes, find_code,
 };
 pub use combination::{CombinationRule, Oscillator, correlation_coefficient};
 pub use descriptor::{Basis, Place, ProvisionDescriptor, Unavailable};
 pub use edition::{Date, Edition, InForce, Validity};
+pub use edition_choice::{choose_code, code_in_country};
 pub use effective_properties::{EffectiveProperties, YieldingOscillator};
 pub use error::SeparationError;
 pub use inputs::{Input, Site, Situation, SoilZone, StructuralSystem, Structure};

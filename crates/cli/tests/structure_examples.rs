@@ -140,6 +140,99 @@ fn bridge_with_seats(width: &str) -> (tempfile::TempDir, std::path::PathBuf) {
     (place, case)
 }
 
+/// The headline of the study beside the bridge; its openings are those of the runs, and limits on levels without a seat are
+/// refused.
+#[test]
+fn openings_of_joints_in_studies() {
+    let (place, case) = bridge_with_seats("0.35 m");
+    let folder = place.path();
+    let beside = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../examples/three_frame_bridge/unseating.toml");
+    let motions = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../ground_motions");
+    let motions = motions.canonicalize().unwrap();
+    let text = std::fs::read_to_string(beside).unwrap();
+    let text = text.replace("../../ground_motions", &motions.display().to_string());
+    let pounding = |arguments: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .current_dir(folder)
+            .args(arguments.split(' '))
+            .output()
+            .unwrap();
+        let told = String::from_utf8(output.stdout).unwrap();
+        (
+            output.status.code(),
+            told,
+            String::from_utf8(output.stderr).unwrap(),
+        )
+    };
+    std::fs::write(folder.join("study.toml"), &text).unwrap();
+    let (code, told, complaint) = pounding("ida study.toml -o study.h5 --json --csv rows.csv");
+    assert_eq!(code, Some(0), "{complaint}");
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let state = |name: &str| {
+        let limits = told["limits"].as_array().unwrap();
+        let state = limits.iter().find(|s| s["name"] == name).unwrap();
+        let levels = state["counts"].as_array().unwrap();
+        levels
+            .iter()
+            .map(|c| c["reached"].as_u64().unwrap())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(
+        state("a joint opens by 100 mm"),
+        [0, 0, 2, 2, 2, 2, 2, 2, 2, 2]
+    );
+    assert_eq!(
+        state("a deck leaves its seat"),
+        [0, 0, 0, 0, 0, 0, 0, 0, 0, 1]
+    );
+    // Its rows hold what a run of their case says.
+    let rows = std::fs::read_to_string(folder.join("rows.csv")).unwrap();
+    let rows: Vec<Vec<&str>> = rows.lines().map(|line| line.split(',').collect()).collect();
+    let columns = ["west-middle 1-1", "middle-east 1-1"].map(|level| {
+        let of = format!("peak_opening: {level}");
+        rows[0].iter().position(|c| c.starts_with(&of)).unwrap()
+    });
+    let (_, shown, _) = pounding("sweep study.toml --show 13");
+    std::fs::write(folder.join("alone.toml"), shown).unwrap();
+    let (_, alone, _) = pounding("run alone.toml --no-output --json");
+    let alone: Value = serde_json::from_str(&alone).unwrap();
+    for (gap, column) in columns.into_iter().enumerate() {
+        let level = &alone["gaps"][gap]["levels"][0];
+        let opening = response(level, "opening").as_f64().unwrap();
+        assert_eq!(rows[14][column].parse::<f64>().unwrap(), opening);
+    }
+    let (_, compared, _) =
+        pounding("compare case.toml --models anagnostopoulos_2004,linear_elastic --json");
+    assert!(compared.contains("\"opening\""), "{compared}");
+    // Of the gaps one has no seat, or none has.
+    let bridge = std::fs::read_to_string(&case).unwrap();
+    let one = bridge.replacen("seat = \"0.35 m\"\n", "", 1);
+    std::fs::write(&case, &one).unwrap();
+    let at_level = |level: usize| {
+        let limit = format!("exceeds = \"0.35 m\"\nlevel = {level}");
+        std::fs::write(
+            folder.join("level.toml"),
+            text.replace("exceeds = \"0.35 m\"", &limit),
+        )
+        .unwrap();
+        pounding("ida level.toml -o level.h5")
+    };
+    let (code, _, complaint) = at_level(1);
+    assert_eq!(code, Some(2), "{complaint}");
+    assert!(complaint.contains("of a gap without a seat"), "{complaint}");
+    let (code, told, complaint) = at_level(2);
+    assert_eq!(code, Some(0), "{complaint}");
+    assert!(!told.contains("peak_opening: west-middle"), "{told}");
+    std::fs::write(&case, one.replace("seat = \"0.35 m\"\n", "")).unwrap();
+    let (code, _, complaint) = pounding("ida study.toml -o none.h5");
+    assert_eq!(code, Some(2), "{complaint}");
+    assert!(
+        complaint.contains("no gap of the case is a joint with a seat"),
+        "{complaint}"
+    );
+}
+
 /// The check of the gap says how far joints with a seat open, as the run does, and holds rules of seats against the
 /// seat: TBDY 2018 asks for 297.7 and 316.3 mm, more than 60 mm and less than 350 mm, and what closes the gap is no
 /// measure of it.

@@ -2,7 +2,8 @@
 
 use pounding_shear_building::{EDGE_DISPLACEMENTS, OVERTURNING_RATIO};
 use pounding_time_history::{
-    BuildingOutcome, COLUMN_SHEARS, LevelOutcome, LevelPlace, LinkedMotion, Outcome, System,
+    BuildingOutcome, COLUMN_SHEARS, LevelMotion, LevelOutcome, LevelPlace, LinkedMotion, NamedPeak,
+    Outcome, System,
 };
 
 use crate::run::with_base_moment;
@@ -298,20 +299,51 @@ pub static RESPONSES: [Response; 9] = [
         ),
     ),
 ];
-/// The quantity of studies in which floors hit columns.
-const COLUMN_SHEAR: Quantity = quantity(
-    Axis::Level,
-    "peak_column_shear",
-    "N",
-    "maximum shear of the columns that are hit, below or above the hit, missing where floors hit floors",
-);
+
+/// A response of contact levels that studies keep, where some level has it.
+#[derive(Debug)]
+pub struct LevelQuantity {
+    /// Whether a response of this name belongs to it.
+    pub is: fn(&str) -> bool,
+    /// It in the outcome of a level, if the level has it.
+    pub of: fn(&LevelOutcome) -> Option<&NamedPeak>,
+    /// Its peaks in the results, one a level; NaN where a level has no such response.
+    pub peak: Quantity,
+}
+
+/// The responses of levels that studies keep.
+pub static LEVEL_QUANTITIES: [LevelQuantity; 2] = [COLUMN_SHEAR, OPENING];
+
+/// The larger of the shears of a column that is hit, below and above the hit.
+pub const COLUMN_SHEAR: LevelQuantity = LevelQuantity {
+    is: |name| COLUMN_SHEARS.contains(&name),
+    of: LevelOutcome::column_shear,
+    peak: quantity(
+        Axis::Level,
+        "peak_column_shear",
+        "N",
+        "maximum shear of the columns that are hit, below or above the hit, missing where floors hit floors",
+    ),
+};
+
+/// How far a joint with a seat opens.
+pub const OPENING: LevelQuantity = LevelQuantity {
+    is: |name| name == LevelMotion::Opening.name(),
+    of: LevelOutcome::joint_opening,
+    peak: quantity(
+        Axis::Level,
+        "peak_opening",
+        "m",
+        "maximum opening of the joint beyond its width at rest, missing where gaps have no seat",
+    ),
+};
 
 /// Names of all quantities that results may have.
 pub fn quantity_names() -> impl Iterator<Item = &'static str> {
-    let more = [&BASE_MOMENT, &COLUMN_SHEAR, &ISOLATED_DEMAND];
     QUANTITIES
         .iter()
-        .chain(more)
+        .chain([&BASE_MOMENT, &ISOLATED_DEMAND])
+        .chain(LEVEL_QUANTITIES.iter().map(|q| &q.peak))
         .chain(RESPONSES.iter().map(|r| &r.peak))
         .map(|q| q.name)
 }
@@ -412,8 +444,6 @@ impl Layout {
             })
         });
         let buildings = with_base_moment(system).map(str::to_owned);
-        let mut shears = system.level_responses();
-        let columns = shears.any(|(_, r)| COLUMN_SHEARS.contains(&r.name.as_str()));
         Self::from_places(
             (storeys.collect(), levels.collect()),
             buildings.collect(),
@@ -421,18 +451,19 @@ impl Layout {
                 let mut rows = system.buildings().iter().flat_map(|b| b.responses());
                 rows.any(|row| response.is(&row.name))
             },
-            (columns, isolated_demand),
+            |own| system.level_responses().any(|(_, r)| (own.is)(&r.name)),
+            isolated_demand,
         )
     }
 
     /// The shape with these storeys and levels, these buildings with a base moment, and the
-    /// responses that some of them have; whether columns are hit, and whether isolated demands
-    /// are known.
+    /// responses that some of them and some of the levels have; whether isolated demands are known.
     pub(super) fn from_places(
         (storeys, levels): (Vec<Place>, Vec<Place>),
         buildings: Vec<String>,
         has: impl Fn(&Response) -> bool,
-        (columns, isolated_demand): (bool, bool),
+        levels_have: impl Fn(&LevelQuantity) -> bool,
+        isolated_demand: bool,
     ) -> Self {
         let mut quantities = QUANTITIES.to_vec();
         if !buildings.is_empty() {
@@ -440,9 +471,8 @@ impl Layout {
             let responses = RESPONSES.iter().filter(|r| has(r));
             quantities.extend(responses.map(|r| r.peak));
         }
-        if columns {
-            quantities.push(COLUMN_SHEAR);
-        }
+        let of_levels = LEVEL_QUANTITIES.iter().filter(|q| levels_have(q));
+        quantities.extend(of_levels.map(|q| q.peak));
         if isolated_demand {
             quantities.push(ISOLATED_DEMAND);
         }
@@ -524,13 +554,14 @@ impl Layout {
                     let moments = outcome.buildings.iter().filter_map(|b| b.base_moment);
                     out.extend(moments.map(|m| m.value));
                 }
-                "peak_column_shear" => {
-                    let shear =
-                        |l: &LevelOutcome| l.column_shear().map_or(f64::NAN, |r| r.peak.value);
-                    out.extend(levels().map(shear));
-                }
                 "isolated_demand" => out.extend(demand),
                 _ => {
+                    if let Some(own) = LEVEL_QUANTITIES.iter().find(|q| q.peak == *quantity) {
+                        out.extend(
+                            levels().map(|l| (own.of)(l).map_or(f64::NAN, |r| r.peak.value)),
+                        );
+                        continue;
+                    }
                     let own = RESPONSES.iter().find(|r| r.peak == *quantity);
                     out.extend(own.into_iter().flat_map(|r| Self::response(r, outcome)));
                 }

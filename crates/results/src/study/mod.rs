@@ -11,7 +11,10 @@ mod shards;
 mod writing;
 
 pub use error::StudyFileError;
-pub use layout::{Axis, Layout, Place, Quantity, RESPONSES, Response, is_result, quantity_names};
+pub use layout::{
+    Axis, COLUMN_SHEAR, LEVEL_QUANTITIES, Layout, LevelQuantity, OPENING, Place, Quantity,
+    RESPONSES, Response, is_result, quantity_names,
+};
 pub use part::{MOST_SHARDS, Part, numbers, ranges};
 pub use reading::ResultReader;
 pub use row::{Ending, ID, Row, Value};

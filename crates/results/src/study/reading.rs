@@ -472,10 +472,8 @@ fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
         (storeys.collect(), levels.collect()),
         buildings,
         |response| file.link_exists(response.peak.name),
-        (
-            file.link_exists("peak_column_shear"),
-            file.link_exists("isolated_demand"),
-        ),
+        |own| file.link_exists(own.peak.name),
+        file.link_exists("isolated_demand"),
     );
     if let Some(names) = chosen {
         layout.keep(names);

@@ -1,9 +1,9 @@
 //! What models are compared by.
 
-use pounding_time_history::{BuildingOutcome, COLUMN_SHEARS, Outcome, Peak, StoreyPeaks, System};
+use pounding_time_history::{BuildingOutcome, Outcome, Peak, StoreyPeaks, System};
 
 use crate::gap_check::{Amplification, closes};
-use crate::runs::{Axis, RESPONSES, Response};
+use crate::runs::{Axis, COLUMN_SHEAR, OPENING, RESPONSES, Response};
 
 /// Kind of a quantity.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -27,6 +27,8 @@ pub enum QuantityKind {
     PeakForce,
     /// Maximum shear of columns that are hit across a gap (N).
     ColumnShear,
+    /// Maximum opening of a joint with a seat, beyond its width at rest (m).
+    Opening,
     /// Maximum impulse of one impact in a gap (N s).
     Impulse,
     /// Maximum approach velocity in a gap (m/s).
@@ -66,6 +68,7 @@ impl QuantityKind {
             Self::Impacts => "impacts",
             Self::PeakForce => "peak_force",
             Self::ColumnShear => "column_shear",
+            Self::Opening => "opening",
             Self::Impulse => "impulse",
             Self::ApproachVelocity => "approach_velocity",
             Self::ImpactEnergy => "impact_energy",
@@ -77,7 +80,7 @@ impl QuantityKind {
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Displacement => "m",
+            Self::Displacement | Self::Opening => "m",
             Self::StoreyShear | Self::PeakForce | Self::ColumnShear => "N",
             Self::AccelerationAbsolute => "m/s2",
             Self::BaseMoment => "N m",
@@ -107,7 +110,7 @@ impl QuantityKind {
             }
             Self::Response(_) => "of the building",
             Self::Impacts | Self::ImpactEnergy => "sum over levels",
-            Self::PeakForce | Self::ColumnShear => "maximum over levels",
+            Self::PeakForce | Self::ColumnShear | Self::Opening => "maximum over levels",
             Self::Impulse | Self::ApproachVelocity => "maximum over levels and impacts",
             Self::AchievedRestitution => "over all levels and impacts",
         }
@@ -195,9 +198,18 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
     for (index, g) in system.gaps().iter().enumerate() {
         all.extend(QuantityKind::OF_GAPS.map(|kind| quantity(kind, &g.name, index)));
         let levels = g.first_level..g.first_level + g.levels;
-        let mut responses = system.level_responses();
-        if responses.any(|(l, r)| levels.contains(&l) && COLUMN_SHEARS.contains(&r.name.as_str())) {
-            all.push(quantity(QuantityKind::ColumnShear, &g.name, index));
+        let own: Vec<&str> = system
+            .level_responses()
+            .filter(|(level, _)| levels.contains(level))
+            .map(|(_, response)| response.name.as_str())
+            .collect();
+        for (of_levels, kind) in [
+            (COLUMN_SHEAR, QuantityKind::ColumnShear),
+            (OPENING, QuantityKind::Opening),
+        ] {
+            if own.iter().any(|name| (of_levels.is)(name)) {
+                all.push(quantity(kind, &g.name, index));
+            }
         }
     }
     all
@@ -246,6 +258,9 @@ pub(super) fn value(quantity: &Quantity, outcome: &Outcome, jumps: bool) -> f64 
         QuantityKind::PeakForce => maximum(|l| l.peak_force.value),
         QuantityKind::ColumnShear => {
             maximum(|l| l.column_shear().map_or(0.0, |shear| shear.peak.value))
+        }
+        QuantityKind::Opening => {
+            maximum(|l| l.joint_opening().map_or(0.0, |opening| opening.peak.value))
         }
         QuantityKind::Impulse => maximum(|l| l.impulse_max),
         QuantityKind::ApproachVelocity => maximum(|l| l.approach_velocity_max),

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pounding_case::{Case, Side};
 
-use crate::runs::{Axis, Layout};
+use crate::runs::{Axis, LEVEL_QUANTITIES, Layout};
 use crate::study_file::{DemandKind, Limit};
 
 /// The demand that asks the buildings without gaps.
@@ -35,6 +35,8 @@ enum Needs {
     Itself,
     /// No jump of a building of its own: columns of impacts and of forces at its levels.
     NoJump(Vec<(usize, usize)>),
+    /// A level that has it, as one with columns that are hit.
+    Level,
 }
 
 /// What a demand lacks.
@@ -44,6 +46,8 @@ pub(super) enum Lack {
     Force,
     /// The accelerations during rigid impacts.
     Acceleration,
+    /// Levels of its kind.
+    Level,
 }
 
 /// The quantity that rigid impacts do not have.
@@ -72,6 +76,10 @@ impl Demand {
                     values[impacts] > 0.0 && values[force].is_nan()
                 };
                 levels.iter().any(jump).then_some(Lack::Acceleration)
+            }
+            Needs::Level => {
+                let nowhere = self.columns.iter().all(|c| values[*c].is_nan());
+                nowhere.then_some(Lack::Level)
             }
         }
     }
@@ -143,10 +151,11 @@ pub(super) fn usual(layout: &Layout, gaps: &[(String, Vec<String>)]) -> Vec<Dema
             ("isolated_demand", "m"),
             (FORCE, "N"),
             ("peak_column_shear", "N"),
+            ("peak_opening", "m"),
             ("impulse_max", "N s"),
             (IMPACTS, "1"),
         ] {
-            // Not all studies have columns that are hit.
+            // Not all studies have columns that are hit, or joints with a seat.
             if layout.range(name).is_empty() {
                 continue;
             }
@@ -163,6 +172,7 @@ pub(super) fn usual(layout: &Layout, gaps: &[(String, Vec<String>)]) -> Vec<Dema
                 isolated: name == ISOLATED,
                 needs: match name {
                     FORCE => Needs::Itself,
+                    _ if LEVEL_QUANTITIES.iter().any(|q| q.peak.name == name) => Needs::Level,
                     _ => Needs::Nothing,
                 },
             });
@@ -200,6 +210,7 @@ pub(super) fn of_limit(
         DemandKind::AccelerationAcross => (ACCELERATION_ACROSS, "m s-2", Axis::Storey),
         DemandKind::ContactForce => (FORCE, "N", Axis::Level),
         DemandKind::ColumnShear => ("peak_column_shear", "N", Axis::Level),
+        DemandKind::Opening => ("peak_opening", "m", Axis::Level),
         DemandKind::Impulse => ("impulse_max", "N s", Axis::Level),
         DemandKind::Impacts => (IMPACTS, "1", Axis::Level),
         DemandKind::IsolatedDemand => ("isolated_demand", "m", Axis::Level),

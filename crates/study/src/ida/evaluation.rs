@@ -283,7 +283,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     let of_limits = limits.iter().zip(&lacking[shown.len()..]);
     for ((limit, _), lack) in of_limits {
         let (reason, help) = match lack {
-            None => continue,
+            None | Some(Lack::Level) => continue,
             Some(Lack::Force) => (
                 "rigid impacts have no contact force",
                 "ask for the impulse instead: demand = \"impulse\"",

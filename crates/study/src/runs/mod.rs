@@ -14,6 +14,7 @@ pub(crate) use motions::motion;
 pub use pounding_results::study::{
     Axis, Ending, Layout, Place, Quantity, RESPONSES, Response, Row,
 };
+pub(crate) use pounding_results::study::{COLUMN_SHEAR, LEVEL_QUANTITIES, OPENING};
 pub(crate) use pounding_results::study::{ID, is_result};
 pub(crate) use proportion::{
     FurtherFactors, factors_of_further, further_motions, intensity_of_case,

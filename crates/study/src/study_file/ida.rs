@@ -9,7 +9,7 @@ use pounding_case::document::{
     AboveZero, Amount, Entry, Fault, Field, FromZero, List, Number, Optional, Reader, TableOr,
     Within, Written,
 };
-use pounding_case::{Building, ContactLevel, Dimension, Located, Support};
+use pounding_case::{Building, ContactLevel, Dimension, Gap, Located, Support};
 use pounding_catalogue::wording::one_line;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -62,6 +62,8 @@ pub enum DemandKind {
     ContactForce,
     /// Maximum shear of columns that are hit (N).
     ColumnShear,
+    /// Maximum opening of joints with a seat, beyond their width at rest (m).
+    Opening,
     /// Maximum impulse of one impact (N s).
     Impulse,
     /// Number of impacts.
@@ -110,6 +112,7 @@ impl DemandKind {
             self,
             Self::ContactForce
                 | Self::ColumnShear
+                | Self::Opening
                 | Self::Impulse
                 | Self::Impacts
                 | Self::IsolatedDemand
@@ -133,6 +136,7 @@ impl DemandKind {
         match self {
             Self::Displacement
             | Self::IsolatedDemand
+            | Self::Opening
             | Self::FoundationSway
             | Self::EdgeDisplacement
             | Self::DisplacementAcross => Dimension::LENGTH,
@@ -602,13 +606,40 @@ impl LimitTable {
                 return reader.refuse(demand_at?, message, help);
             }
         }
-        if demand == DemandKind::ColumnShear {
+        // What not all levels have, and what to do where the asked ones have it not.
+        type Has = fn(&Gap, &ContactLevel) -> bool;
+        let rare: Option<(Has, _, _, _)> = match demand {
+            DemandKind::ColumnShear => Some((
+                |_, l| l.left.is_column() || l.right.is_column(),
+                "no gap of the case lets floors hit columns",
+                "no columns are hit at this level",
+                "ask for `contact_force`, or add `column` to a gap of the case",
+            )),
+            DemandKind::Opening => Some((
+                |gap, _| gap.seat.is_some(),
+                "no gap of the case is a joint with a seat",
+                "this level is of a gap without a seat",
+                "add `seat`, its width, to a gap of the case",
+            )),
+            _ => None,
+        };
+        if let Some((has, nowhere, not_here, help)) = rare {
             let gaps = &context.base.as_ref()?.case.gaps;
-            let hit = |l: &ContactLevel| l.left.is_column() || l.right.is_column();
-            if !gaps.iter().flat_map(|g| &g.levels).any(hit) {
-                let message = "no gap of the case lets floors hit columns";
-                let help = "ask for `contact_force`, or add `column` to a gap of the case";
-                return reader.refuse(demand_at?, message, help);
+            let levels = gaps
+                .iter()
+                .flat_map(|gap| gap.levels.iter().map(move |l| has(gap, l)));
+            let levels: Vec<bool> = levels.collect();
+            if !levels.contains(&true) {
+                return reader.refuse(demand_at?, nowhere, help);
+            }
+            if let Some(level) = &level
+                && levels.get(level.value.0 - 1) == Some(&false)
+            {
+                return reader.refuse(
+                    level.span.clone(),
+                    not_here,
+                    "leave it out, or ask for another level",
+                );
             }
         }
         Some(Limit {

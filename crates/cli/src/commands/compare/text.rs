@@ -15,7 +15,7 @@ const LISTED: usize = 6;
 const ROWS: usize = 24;
 
 /// Kinds that a table of a record shows.
-const SHOWN: [QuantityKind; 10] = [
+const SHOWN: [QuantityKind; 11] = [
     QuantityKind::Displacement,
     QuantityKind::StoreyShear,
     QuantityKind::AccelerationAbsolute,
@@ -23,6 +23,7 @@ const SHOWN: [QuantityKind; 10] = [
     QuantityKind::Impacts,
     QuantityKind::PeakForce,
     QuantityKind::ColumnShear,
+    QuantityKind::Opening,
     QuantityKind::ApproachVelocity,
     QuantityKind::ImpactEnergy,
     QuantityKind::AchievedRestitution,
@@ -31,7 +32,7 @@ const SHOWN: [QuantityKind; 10] = [
 /// Unit of tables, its size in SI, and digits after the point.
 fn shown_in(kind: QuantityKind) -> (&'static str, f64, usize) {
     match kind {
-        QuantityKind::Displacement => ("mm", 1e-3, 1),
+        QuantityKind::Displacement | QuantityKind::Opening => ("mm", 1e-3, 1),
         QuantityKind::DriftRatio => ("%", 1e-2, 3),
         QuantityKind::StoreyShear | QuantityKind::PeakForce | QuantityKind::ColumnShear => {
             ("kN", 1e3, 1)

@@ -123,11 +123,12 @@ pub struct CodeWidth {
     /// Whether displacements count in it: whether the provision takes them, or one that was held
     /// against it.
     pub takes_displacements: bool,
-    /// What it asks for whatever the displacements are; `None` where they count in all of it.
+    /// What it asks for whatever the displacements are: its least width, of a rule of displacements that
+    /// of buildings which stand still, such as a minimum within it. `None` where that is nothing.
     pub without_displacements: Option<LeastWidth>,
 }
 
-/// What a code asks for at least, as one of its provisions does that takes no displacements.
+/// What a code asks for at least, as one of its provisions does without displacements.
 #[derive(Debug, Clone)]
 pub struct LeastWidth {
     /// The provision.
@@ -207,21 +208,29 @@ impl Rules {
     /// # Errors
     /// An input that is missing, or no rule that applies.
     pub fn width(&self, sides: &Sides) -> Result<CodeWidth, SeparationError> {
+        let ground = sides.site().relative_ground_displacement;
         let of = |provision: &Provision| {
-            let (requirement, site) = match sides {
-                Sides::Between(situation) => (provision.between(situation), &situation.site),
-                Sides::Wall { structure, site } => (provision.boundary(structure, site), site),
-            };
-            requirement.map(|requirement| {
+            sides.asks(provision).map(|requirement| {
                 let takes_displacements = provision.basis() == Basis::Displacement;
-                let least = || LeastWidth {
-                    provision: provision.clone(),
-                    width: requirement.least() - site.relative_ground_displacement,
+                let least = match (takes_displacements, provision) {
+                    (false, _) => Some(requirement.least()),
+                    // No width of the registry falls where displacements grow.
+                    (true, Provision::BuiltIn(_)) => {
+                        let at_rest = sides.at_rest().asks(provision);
+                        at_rest
+                            .ok()
+                            .map(|r| r.least())
+                            .filter(|width| *width > ground)
+                    }
+                    (true, Provision::Own(_)) => None,
                 };
                 CodeWidth {
                     provision: provision.clone(),
                     takes_displacements,
-                    without_displacements: (!takes_displacements).then(least),
+                    without_displacements: least.map(|width| LeastWidth {
+                        provision: provision.clone(),
+                        width: width - ground,
+                    }),
                     requirement,
                 }
             })
@@ -321,6 +330,42 @@ impl Sides {
             Self::Between(situation) => vec![&situation.left, &situation.right],
             Self::Wall { structure, .. } => vec![structure],
         }
+    }
+
+    fn site(&self) -> &Site {
+        match self {
+            Self::Between(situation) => &situation.site,
+            Self::Wall { site, .. } => site,
+        }
+    }
+
+    /// What a provision asks for here.
+    fn asks(&self, provision: &Provision) -> Result<Requirement, SeparationError> {
+        match self {
+            Self::Between(situation) => provision.between(situation),
+            Self::Wall { structure, site } => provision.boundary(structure, site),
+        }
+    }
+
+    /// The same with buildings that do not move.
+    fn at_rest(&self) -> Self {
+        let mut sides = self.clone();
+        let still = |structure: &mut Structure| {
+            for u in [
+                &mut structure.displacement,
+                &mut structure.elastic_displacement,
+            ] {
+                *u = u.map(|_| 0.0);
+            }
+        };
+        match &mut sides {
+            Self::Between(situation) => {
+                still(&mut situation.left);
+                still(&mut situation.right);
+            }
+            Self::Wall { structure, .. } => still(structure),
+        }
+        sides
     }
 
     /// Refuses a building on a fixed base beside one on isolators, of whose own displacement a rule
@@ -822,6 +867,82 @@ mod tests {
         important.left.importance = Some(1.4);
         let found = widths("iran_2800", &Sides::Between(important));
         assert!((found[1].1 - 0.14).abs() < 1e-12);
+    }
+
+    /// By hand, E.030-2018 beside a wall: half of 0.006 times 9 m is 27 mm (more than half of 30 mm), whatever
+    /// 2/3 u is. Rules of displacements alone ask for nothing without them.
+    #[test]
+    fn a_floor_within_a_rule_of_displacements_is_asked_for_anyway() {
+        let wall = |code: &str, u: f64| {
+            let rules = find_code(code).unwrap().code();
+            let sides = Sides::Wall {
+                structure: Box::new(structure(u)),
+                site: Site {
+                    relative_ground_displacement: 0.005,
+                    floors_aligned: Some(false),
+                    ..Site::default()
+                },
+            };
+            rules.beside_a_wall().unwrap().width(&sides).unwrap()
+        };
+        for u in [0.001, 0.08] {
+            let least = wall("e_030_2018", u).without_displacements.unwrap();
+            assert!((least.width - 0.027).abs() < 1e-12, "{}", least.width);
+            assert_eq!(least.provision.name(), "e_030_2018_boundary");
+            assert!(wall("eurocode_8_2004", u).without_displacements.is_none());
+        }
+    }
+
+    /// Widths never fall where displacements grow: what buildings at rest are asked to keep is asked of all.
+    #[test]
+    fn widths_rise_with_displacements() {
+        let mut held = 0;
+        let kinds = [None, Some(true), Some(false)];
+        for provision in descriptors() {
+            for (aligned, storeys) in [(true, 3), (false, 12)] {
+                for same_owner in kinds {
+                    let of = |u: f64| {
+                        let of_factor = |factor: f64| Structure {
+                            storeys,
+                            height: 3.0 * storeys as f64,
+                            elevation: 3.0 * storeys as f64,
+                            response_modification: Some(4.0),
+                            displacement_amplification: Some(3.0),
+                            importance: Some(1.0),
+                            yield_amplification: Some(1.4),
+                            isolation_period: Some(2.5),
+                            isolation_damping_coefficient: Some(1.3),
+                            plan_length: Some(20.0),
+                            plan_width: Some(10.0),
+                            plan_eccentricity: Some(0.5),
+                            on_isolators: provision.name.contains("isolation"),
+                            ..structure(u * factor)
+                        };
+                        let site = Site {
+                            floors_aligned: Some(aligned),
+                            same_owner,
+                            design_ground_acceleration: Some(2.5),
+                            fortification_intensity: Some(8),
+                            soil_zone: Some(crate::inputs::SoilZone::Two),
+                            ..Site::default()
+                        };
+                        let sides = Sides::Between(Box::new(Situation {
+                            left: of_factor(1.0),
+                            right: of_factor(0.7),
+                            site,
+                        }));
+                        sides.asks(&Provision::BuiltIn(provision))
+                    };
+                    let widths = [0.0, 1e-3, 0.02, 0.3, 2.0].map(of);
+                    let widths: Vec<f64> = widths.iter().flatten().map(|r| r.least()).collect();
+                    if widths.len() == 5 {
+                        held += 1;
+                        assert!(widths.is_sorted(), "{}: {widths:?}", provision.name);
+                    }
+                }
+            }
+        }
+        assert!(held > 150, "{held}");
     }
 
     /// A building on isolators: no rule of a code for fixed bases speaks of it, whatever inputs there

@@ -35,7 +35,7 @@ table_with_range! {
         /// Entry of the case that varies, such as gap.0.width
         path: Optional<String>,
         /// Values: numbers, texts, or models with all their options
-        values: Optional<List<TableOr<ModelTable, Scalar>>>,
+        values: Optional<Listed>,
         /// Motions from files, relative to the folder of the study
         pub records: Optional<List<Record>>,
         /// Synthetic motions
@@ -54,6 +54,14 @@ table_with_range! {
         long_name: Optional<String>,
     } => Numbers
 }
+
+/// Values one by one.
+#[derive(Debug, Clone, Deserialize, JsonSchema)]
+#[serde(
+    expecting = "a list\nwrite a list, [1, 2]; a range is `from`, `to` and `count` of the variable itself, in the place of `values`"
+)]
+#[schemars(transparent)]
+struct Listed(List<TableOr<ModelTable, Scalar>>);
 
 /// Impact model of a gap with all its options
 #[derive(Debug, Clone, Deserialize, JsonSchema)]
@@ -255,9 +263,9 @@ impl VariableTable {
             },
             Field::Wrong => Field::Wrong,
         };
-        let numbers = |list: Field<List<_>>| match list {
+        let numbers = |list: Field<Listed>| match list {
             Field::Given(Located {
-                value: List(items),
+                value: Listed(List(items)),
                 span,
             }) => Field::Given(Located {
                 value: List(items.into_iter().map(number).collect()),
@@ -307,7 +315,7 @@ impl VariableTable {
             })
         });
         let first = match &self.values {
-            Some(Field::Given(list)) => list.value.0.first().cloned().and_then(Entry::value),
+            Some(Field::Given(list)) => list.value.0.0.first().cloned().and_then(Entry::value),
             _ => None,
         };
         let is_named = match &first {
@@ -322,7 +330,7 @@ impl VariableTable {
             (Some(TableOr::Table(_)), Some(Field::Given(list))) => {
                 models(reader, list, path.as_ref(), tried.as_ref())?
             }
-            (_, Some(Field::Given(list))) if is_named => named(reader, list.value, tried.as_ref())?,
+            (_, Some(Field::Given(list))) if is_named => named(reader, list.value.0, tried.as_ref())?,
             (_, values) => {
                 let numbers = Self { values, ..self }.numbers(reader);
                 let any = |written: Written| written.any().map(|quantity| quantity.value);
@@ -462,7 +470,7 @@ fn sound(numbers: &Numbers) -> Vec<Located<Written>> {
 /// Models with all their options.
 fn models(
     reader: &Reader<'_>,
-    list: Located<List<TableOr<ModelTable, Scalar>>>,
+    list: Located<Listed>,
     path: Option<&Path>,
     tried: Option<&Trial<'_>>,
 ) -> Option<(Values, Target)> {
@@ -475,7 +483,7 @@ fn models(
         );
     }
     let mut labels: Vec<String> = Vec::new();
-    let models = all(list.value.0.into_iter().map(|item| {
+    let models = all(list.value.0.0.into_iter().map(|item| {
         let Located { value, span } = item.located()?;
         let TableOr::Table(model) = value else {
             let message = "give all models as tables, or none";

@@ -314,6 +314,10 @@ fn contradictions_are_told() {
         (with_ida("confidence = 1.5"), "between 0 and 1"),
         (with_ida("gaps = [\"20 kg\"]"), "must be a length"),
         (
+            with_ida("gaps = [\"20 mm\", 0.03, 0.02]"),
+            "the width 0.02 m stands twice",
+        ),
+        (
             with_ida("[[ida.limit]]\nname = \"x\"\ndemand = \"drift\"\nexceeds = 1"),
             "unknown demand",
         ),

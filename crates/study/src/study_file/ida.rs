@@ -401,9 +401,16 @@ fn widths(reader: &Reader<'_>, gaps: Located<TableOr<Numbers, List<Written>>>) -
     let keys = match value {
         TableOr::Table(keys) => keys,
         TableOr::Value(List(list)) => {
+            let mut widths: Vec<f64> = Vec::new();
             let width = |item: Field<Written>| {
                 let Located { value, span } = item.located()?;
-                reader.keep(&span, "gaps", value.above_zero(Dimension::LENGTH))
+                let width = reader.keep(&span, "gaps", value.above_zero(Dimension::LENGTH))?;
+                if widths.contains(&width) {
+                    let message = format!("the width {width} m stands twice");
+                    return reader.refuse(span, message, "leave one of them out");
+                }
+                widths.push(width);
+                Some(width)
             };
             return all(list.into_iter().map(width));
         }

@@ -313,6 +313,7 @@ pub struct Finished<'s> {
     first_failures: Vec<Diagnosed<'s>>,
     collapsed: usize,
     first_collapses: Vec<Diagnosed<'s>>,
+    unseated: usize,
     study_sha256: &'s str,
     warnings: &'s [String],
     records: Vec<Motion<'s>>,
@@ -359,6 +360,7 @@ impl<'s> Finished<'s> {
             first_failures: diagnosed(&report.failures),
             collapsed: report.collapsed,
             first_collapses: diagnosed(&report.collapses),
+            unseated: report.unseated,
             study_sha256: &report.study_sha256,
             warnings: &report.warnings,
             records: records.collect(),
@@ -395,6 +397,12 @@ pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> S
             counted(report.collapsed, "run")
         ));
         text.push_str(&listed(&report.collapses, report.collapsed));
+    }
+    if report.unseated > 0 {
+        text.push_str(&format!(
+            "The deck falls in {}: joints open further than their seats are wide (peak_opening)\n",
+            counted(report.unseated, "run")
+        ));
     }
     if let Some(csv) = &options.csv {
         text.push_str(&format!("Table written to {}\n", csv.display()));

@@ -17,9 +17,9 @@ use crate::BUILD;
 use crate::error::StudyError;
 use crate::merge::refuse_name_of_shard;
 use crate::parts::{Parts, Store};
-use crate::runs::{Ending, RecordReport, Row, Runner, run_all};
+use crate::runs::{Ending, OPENING, RecordReport, Row, Runner, run_all};
 use crate::shard_name::ShardName;
-use crate::study_file::{Study, Value, Values, Variable};
+use crate::study_file::{Study, Target, Value, Values, Variable};
 use crate::table::{GrowingTable, RunTable};
 
 /// Part `index` of `count` of a study.
@@ -126,6 +126,11 @@ pub struct SweepReport {
     pub collapsed: usize,
     /// The first few of them: number, and what collapsed when.
     pub collapses: Vec<(usize, String)>,
+    /// Runs in the result in which a joint opens further than its seat is wide; none of a study
+    /// whose seats vary, or that does not keep openings.
+    pub unseated: usize,
+    /// Columns of openings, with the seats of their gaps (m).
+    seats: Vec<(usize, f64)>,
     /// Identity of the study.
     pub study_sha256: String,
     /// Its motions; those that could be read.
@@ -340,15 +345,36 @@ fn empty_report(runner: &Runner<'_>, description: &Description) -> SweepReport {
         failures: Vec::new(),
         collapsed: 0,
         collapses: Vec::new(),
+        unseated: 0,
+        seats: seats(runner),
         study_sha256: description.study_sha256.clone(),
         records: records.collect(),
         warnings: description.warnings.clone(),
     }
 }
 
+/// Columns of openings, with the seats of their gaps (m), where no variable changes these.
+fn seats(runner: &Runner<'_>) -> Vec<(usize, f64)> {
+    let varied = |v: &Variable| matches!(&v.target, Target::Entry { path, .. } if path.of_seat());
+    if runner.study.variables.iter().any(varied) {
+        return Vec::new();
+    }
+    let layout = &runner.layout;
+    let columns = layout.range(OPENING.peak.name).zip(&layout.levels);
+    let seat = |of: &str| {
+        let gap = runner.study.base.gaps.iter().find(|gap| gap.name == of)?;
+        Some(gap.seat.as_ref()?.value)
+    };
+    columns
+        .filter_map(|(column, level)| Some((column, seat(&level.of)?)))
+        .collect()
+}
+
 impl SweepReport {
     fn count(&mut self, row: &Row) {
         self.runs += 1;
+        let beyond = |(column, seat): &(usize, f64)| row.values.get(*column).is_some_and(|u| u > seat);
+        self.unseated += usize::from(self.seats.iter().any(beyond));
         let (count, first, reason) = match &row.ending {
             Ending::Complete => return,
             Ending::Failed(reason) => (&mut self.failed, &mut self.failures, reason),

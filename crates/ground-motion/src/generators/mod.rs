@@ -102,6 +102,17 @@ pub struct Generated {
     pub steps: Vec<StepRecord>,
 }
 
+impl Generated {
+    /// What is to be said of it: the remarks of its steps that are warnings.
+    pub fn warnings(&self) -> impl Iterator<Item = &str> {
+        let remarks = self.steps.iter().flat_map(|step| &step.remarks);
+        remarks.filter_map(|remark| remark.strip_prefix(WARNING))
+    }
+}
+
+/// What remarks begin with that are warnings.
+pub(crate) const WARNING: &str = "warning: ";
+
 impl TimeGrid {
     /// Time step (s) unless another is asked for.
     pub const USUAL_TIME_STEP: f64 = 0.01;

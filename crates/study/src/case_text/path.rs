@@ -98,8 +98,12 @@ impl Path {
 
     /// Whether it leads to what `gap` asks of a code, or to a seat, of which no result of a study tells.
     pub(crate) fn without_result(&self) -> bool {
-        let of_seat = self.table() == "gap" && self.leads_through("seat");
-        self.table() == "separation" || of_seat
+        self.table() == "separation" || self.of_seat()
+    }
+
+    /// Whether it leads to the seat of a gap.
+    pub(crate) fn of_seat(&self) -> bool {
+        self.table() == "gap" && self.leads_through("seat")
     }
 
     /// The key of a method that it leads to, `step` of `analysis.step`.

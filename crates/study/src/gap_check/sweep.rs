@@ -7,6 +7,7 @@ use pounding_time_history::{
     RunOptions, System, run,
 };
 
+use super::SAME;
 use super::collapse::collapsed_building;
 use super::demand::{Amplification, RecordDemand, amplification};
 use super::error::CheckError;
@@ -150,6 +151,14 @@ pub struct WorstWidth {
     pub record: usize,
     /// Storey, from zero.
     pub storey: usize,
+}
+
+impl WorstWidth {
+    /// Whether pounding raises the quantity, by more than what two runs of one motion differ.
+    #[must_use]
+    pub fn is_raised(&self) -> bool {
+        self.amplification > 1.0 + SAME
+    }
 }
 
 /// The whole sweep.

@@ -728,6 +728,7 @@ mod tests {
             hazard_file: None,
             target_frequency: Some(target),
             confidence: 0.95,
+            asked: Vec::new(),
         };
         let runs = per_g.iter().enumerate().flat_map(|(record, per_g)| {
             intensities.iter().enumerate().map(move |(level, g)| Run {

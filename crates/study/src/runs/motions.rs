@@ -190,11 +190,15 @@ pub(crate) fn motion(
         Some(origin) => origin.sha256.clone(),
         None => record.sha256(),
     };
+    let mut warnings = said_in_reading(&record);
+    if let RecordKind::Made { warnings: own, .. } = kind {
+        warnings.extend(own.iter().cloned());
+    }
     Ok(Motion {
         first: String::new(),
         intensity: measure.map(|m| m.of(&record)).transpose()?,
         peak_time: record.peak().time,
-        warnings: said_in_reading(&record),
+        warnings,
         record: Some(Arc::new(record)),
         sha256,
     })

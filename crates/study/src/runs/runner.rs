@@ -145,6 +145,7 @@ impl<'s> Runner<'s> {
             ))
         }));
         warnings.extend(study.variables.iter().filter_map(|v| v.asked.clone()));
+        warnings.extend(study.ida.iter().flat_map(|ida| ida.asked.clone()));
         warnings.extend(study.variables.iter().filter_map(without_result));
         warnings.extend(study.variables.iter().filter_map(model_named_twice));
         warnings.extend(

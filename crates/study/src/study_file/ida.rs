@@ -17,8 +17,8 @@ use serde::de::{Deserializer, SeqAccess, Visitor};
 
 use super::annual_frequency::AnnualFrequency;
 use super::context::Context;
-use super::values::{Numbers, Whole, all, not_both};
-use super::{IntensityMeasure, hazard_file};
+use super::values::{Numbers, Values, Whole, all, not_both};
+use super::{IntensityMeasure, asked, hazard_file};
 use crate::error::StudyError;
 
 /// A demand whose exceedance is asked for.
@@ -217,6 +217,8 @@ pub struct IdaSettings {
     pub target_frequency: Option<f64>,
     /// Confidence of intervals (-).
     pub confidence: f64,
+    /// What is asked about limits and intensities of the hazard, which may be meant in another unit.
+    pub asked: Vec<String>,
 }
 
 /// The range of a confidence.
@@ -321,8 +323,10 @@ impl IdaTable {
         reader: &Reader<'_>,
         context: &Context,
         variables: Option<(usize, usize)>,
-        measure: Option<IntensityMeasure>,
+        intensity: Option<(IntensityMeasure, &Values)>,
     ) -> Option<IdaSettings> {
+        let (measure, values) = intensity.unzip();
+        let mut asked = Vec::new();
         let gaps = self.gaps.stated().and_then(|gaps| match gaps {
             None => Some(Vec::new()),
             Some(gaps) => widths(reader, gaps),
@@ -338,11 +342,11 @@ impl IdaTable {
             let read = |limit: Field<LimitTable>| {
                 let limit = limit.value()?;
                 let name = limit.name(reader, &mut names, own);
+                let is_bare = is_plain(&limit.exceeds);
                 let limit = limit.read(reader, context);
-                Some(Limit {
-                    name: name?,
-                    ..limit?
-                })
+                let (name, limit) = (name?, limit?);
+                asked.extend(asked::of_limit(&name, limit.demand, limit.exceeds, is_bare));
+                Some(Limit { name, ..limit })
             };
             all(limits.into_iter().map(read).collect::<Vec<_>>())
         });
@@ -358,7 +362,12 @@ impl IdaTable {
                     Hazard::File(name) => Some(context.folder.join(name)),
                     Hazard::Points(_) => None,
                 };
-                let curve = hazard_curve(reader, hazard, measure.as_ref(), file.as_deref())?;
+                let read = hazard_curve(reader, hazard, measure.as_ref(), file.as_deref())?;
+                let (curve, is_bare) = read;
+                let known = measure.as_ref().zip(values).filter(|_| is_bare);
+                asked.extend(known.and_then(|(measure, values)| {
+                    asked::of_hazard(measure, &curve.points, values)
+                }));
                 Some((Some(curve), file))
             }
         });
@@ -388,8 +397,14 @@ impl IdaTable {
             hazard_file,
             target_frequency,
             confidence: self.confidence.number_or(0.95)?,
+            asked,
         })
     }
+}
+
+/// Whether a number stands here without a unit.
+fn is_plain(written: &Field<Written>) -> bool {
+    matches!(written, Field::Given(given) if given.value.is_plain())
 }
 
 /// Most widths of a range: every one has a fragility and a bootstrap of its own.
@@ -662,14 +677,15 @@ impl LimitTable {
 /// Levels that are named where there are more.
 const SHOWN: usize = 12;
 
-/// The curve through points, or from a file.
+/// The curve through points, or from a file, and whether its intensities have no unit.
 fn hazard_curve(
     reader: &Reader<'_>,
     hazard: Located<Hazard>,
     measure: Option<&IntensityMeasure>,
     file: Option<&Path>,
-) -> Option<HazardCurve> {
+) -> Option<(HazardCurve, bool)> {
     let Located { value, span } = hazard;
+    let mut is_bare = true;
     let wrong = |reason: &str| {
         let help = "give intensities (SI, or with a unit) and mean annual frequencies (1/year), intensities rising, frequencies falling";
         reader.error(span.clone(), format!("the hazard curve: {reason}"), help)
@@ -682,8 +698,9 @@ fn hazard_curve(
                     reader.errors.record(wrong("a point is a pair"));
                     return None;
                 };
-                let number = |item: Field<Written>, wanted: Option<Dimension>| {
+                let mut number = |item: Field<Written>, wanted: Option<Dimension>| {
                     let item = item.located()?;
+                    is_bare &= item.value.is_plain();
                     let value = match wanted {
                         Some(wanted) => item.value.above_zero(wanted),
                         None => item.value.any().map(|quantity| quantity.value),
@@ -706,6 +723,7 @@ fn hazard_curve(
                 }
             };
             let text = hazard_file::text(file?).map_err(refused).ok()?;
+            is_bare = hazard_file::has_no_header(&text);
             let points = hazard_file::points(file?, &text, measure?);
             let points = points.map_err(refused).ok()?;
             let (lines, points) = points.into_iter().unzip();
@@ -714,7 +732,7 @@ fn hazard_curve(
     };
     measure?;
     let Some((point, reason)) = HazardCurve::fault(&points) else {
-        return Some(HazardCurve { points });
+        return Some((HazardCurve { points }, is_bare));
     };
     let place = lines.map(|(file, lines): (_, Vec<usize>)| {
         let line = lines

@@ -3,7 +3,7 @@
 use pounding_case::document::{
     AboveZero, Amount, Entry, Fault, Number, OneOrEach, Optional, Positive, Reader, Time, Within,
 };
-use pounding_case::{Dimension, Located, bare_acceleration};
+use pounding_case::{Dimension, Located};
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::GroundMotion;
 use pounding_ground_motion::spectra::{Evaluation, response_spectrum};
@@ -12,7 +12,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::context::Context;
-use super::values::{Values, all, not_both};
+use super::values::{all, not_both};
 use crate::error::StudyError;
 
 /// What is held at a value by scaling a record. Every measure grows in proportion to the
@@ -41,9 +41,6 @@ pub enum IntensityMeasure {
         damping: f64,
     },
 }
-
-/// What the greatest intensity of a study is at least (g), of long periods over the period (s).
-const GREATEST_AT_LEAST: f64 = 0.2;
 
 /// Periods of a default average, 0.2 to 3 times the building's, evenly spaced in their
 /// logarithm.
@@ -93,24 +90,9 @@ impl IntensityMeasure {
         }
     }
 
-    /// What is said of these values without a unit, where the greatest is as small as in no study of
-    /// records that are scaled.
-    pub(super) fn asked(&self, values: &Values) -> Option<String> {
-        if self.dimension() != Dimension::ACCELERATION {
-            return None;
-        }
-        let greatest = match values {
-            Values::Numbers(numbers) => numbers.iter().copied().fold(0.0, f64::max),
-            Values::Range { from, to, .. } => from.max(*to),
-            Values::Choices(_) => return None,
-        };
-        let what = format!("the greatest `intensity`, {},", self.title());
-        bare_acceleration(&what, greatest, GREATEST_AT_LEAST / self.long_period())
-    }
-
     /// The geometric mean of its periods (s) where that is above 1 s, from which on accelerations fall
     /// with the period; else 1.
-    fn long_period(&self) -> f64 {
+    pub(super) fn long_period(&self) -> f64 {
         match self {
             Self::SpectralAcceleration { periods, .. }
             | Self::AverageSpectralAcceleration { periods, .. } => {

@@ -1,6 +1,7 @@
 //! The study file: a case, what varies in it, and how it is sampled.
 
 mod annual_frequency;
+mod asked;
 mod context;
 mod files;
 mod hazard_file;
@@ -130,6 +131,8 @@ pub(crate) enum RecordKind {
     /// A synthetic motion from a seed.
     Made {
         record: Box<Accelerogram>,
+        /// What is to be said of it.
+        warnings: Vec<String>,
         /// The command that makes it, but for the file that it goes into.
         command: String,
     },

@@ -586,9 +586,9 @@ fn list(reader: &Reader<'_>, place: Range<usize>, variables: &[Variable]) -> Opt
 }
 
 /// The measure of a variable that is an intensity.
-fn intensity_of(variable: &Variable) -> Option<IntensityMeasure> {
+fn intensity_of(variable: &Variable) -> Option<(IntensityMeasure, &Values)> {
     match &variable.target {
-        Target::Intensity(measure) => Some(measure.clone()),
+        Target::Intensity(measure) => Some((measure.clone(), &variable.values)),
         _ => None,
     }
 }

@@ -383,6 +383,7 @@ impl SyntheticTable {
             Ok(made) => Some(RecordSource {
                 name: format!("seed_{seed}"),
                 kind: RecordKind::Made {
+                    warnings: made.warnings().map(str::to_owned).collect(),
                     record: Box::new(made.accelerogram),
                     command: command(&motion, grid, seed),
                 },

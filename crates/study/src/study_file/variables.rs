@@ -19,6 +19,7 @@ use super::context::{Base, Context};
 use super::intensity::{BelowOne, IntensityKeys, Measure};
 use super::records::{Record, SyntheticTable};
 use super::rows::{self, Refused};
+use super::asked;
 use super::values::{Numbers, Spacing, Values, Whole, all, table_with_range, unit_of};
 use super::{IntensityMeasure, RecordSource, Target, Variable, records};
 use crate::case_text::{Edit, Entry as CaseEntry, Lost, Path, entry, with_model};
@@ -239,7 +240,7 @@ impl VariableTable {
         let (values, places) = values?;
         let measure = measure?;
         let is_bare = places.iter().all(|written| written.value.is_plain());
-        let asked = measure.asked(&values).filter(|_| is_bare);
+        let asked = asked::of_intensities(&measure, &values).filter(|_| is_bare);
         Some(Variable {
             name,
             long_name,

@@ -12,7 +12,7 @@ pub use scenario::{FaultMechanism, RezaeianDerKiureghianScenario};
 use crate::distributions::{gamma_exceedance, gamma_quantile, ln_gamma};
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::noise::Noise;
-use crate::generators::{Generated, Generator, TimeGrid};
+use crate::generators::{Generated, Generator, TimeGrid, WARNING};
 use crate::measures::GRAVITY;
 use crate::spectra::exponential;
 use crate::step_record::StepRecord;
@@ -82,7 +82,7 @@ impl Modulation {
         (lost > BEYOND).then(|| {
             let whole = gamma_quantile(self.shape, NEARLY_ALL) / self.rate;
             format!(
-                "warning: the duration of {duration} s cuts {:.1} % of the expected Arias intensity off, more than the 5 % beyond D5-95; {:.0} s hold 99.9 % of it",
+                "{WARNING}the duration of {duration} s cuts {:.1} % of the expected Arias intensity off, more than the 5 % beyond D5-95; {:.0} s hold 99.9 % of it",
                 100.0 * lost,
                 whole.ceil()
             )

@@ -1,0 +1,155 @@
+//! What is asked about numbers without a unit that would be usual in another one.
+
+use pounding_case::{Dimension, bare_acceleration};
+use pounding_catalogue::STANDARD_GRAVITY;
+use pounding_catalogue::numbers::six_digits;
+
+use super::ida::DemandKind;
+use super::intensity::IntensityMeasure;
+use super::values::Values;
+
+/// What the greatest intensity of a study is at least (g), of long periods over the period (s).
+const GREATEST_AT_LEAST: f64 = 0.2;
+/// What sites whose earthquakes are studied have at least (g) once in 475 years, of long periods over the
+/// period (s).
+const HAZARD_AT_LEAST: f64 = 0.05;
+/// Mean annual frequency (1/year) of what codes design for: 10 % in 50 years.
+const DESIGN_FREQUENCY: f64 = 1.0 / 475.0;
+/// What a limit on accelerations of floors is at least (g).
+const LIMIT_AT_LEAST: f64 = 0.25;
+/// Drift ratio from which on no limit lies.
+const NO_DRIFT_LIMIT: f64 = 0.2;
+
+/// The greatest number among values.
+fn greatest(values: &Values) -> Option<f64> {
+    match values {
+        Values::Numbers(numbers) => Some(numbers.iter().copied().fold(0.0, f64::max)),
+        Values::Range { from, to, .. } => Some(from.max(*to)),
+        Values::Choices(_) => None,
+    }
+}
+
+/// What is said of intensities without a unit, where the greatest is as small as in no study of records that are
+/// scaled.
+pub(super) fn of_intensities(measure: &IntensityMeasure, values: &Values) -> Option<String> {
+    if measure.dimension() != Dimension::ACCELERATION {
+        return None;
+    }
+    let what = format!("the greatest `intensity`, {},", measure.title());
+    let least = GREATEST_AT_LEAST / measure.long_period();
+    bare_acceleration(&what, greatest(values)?, least)
+}
+
+/// The intensity of a hazard curve at the frequency of what codes design for, or at its nearer end.
+fn of_design(points: &[(f64, f64)]) -> Option<f64> {
+    let (first, last) = (points.first()?, points.last()?);
+    let around = points
+        .windows(2)
+        .find(|p| p[0].1 >= DESIGN_FREQUENCY && p[1].1 <= DESIGN_FREQUENCY);
+    Some(match around {
+        Some([(x, f), (y, g)]) => {
+            let part = libm::log(f / DESIGN_FREQUENCY) / libm::log(f / g);
+            x * libm::exp(part * libm::log(y / x))
+        }
+        _ if first.1 < DESIGN_FREQUENCY => first.0,
+        _ => last.0,
+    })
+}
+
+/// What is said of a hazard curve whose intensities have no unit: where what codes design for is less than sites
+/// have whose earthquakes are studied, or the curve ends below the intensities of the study, as it would not in g.
+pub(super) fn of_hazard(
+    measure: &IntensityMeasure,
+    points: &[(f64, f64)],
+    values: &Values,
+) -> Option<String> {
+    if measure.dimension() != Dimension::ACCELERATION {
+        return None;
+    }
+    let (design, end) = (of_design(points)?, points.last()?.0);
+    let in_gravity = |x: f64| six_digits(x / STANDARD_GRAVITY);
+    let why = match greatest(values) {
+        _ if design < HAZARD_AT_LEAST / measure.long_period() * STANDARD_GRAVITY => format!(
+            "it has {} m/s2 ({} g) once in 475 years, little for a site whose earthquakes are studied",
+            six_digits(design),
+            in_gravity(design)
+        ),
+        Some(most) if end < most && most <= end * STANDARD_GRAVITY => format!(
+            "it ends at {} m/s2 ({} g), below the greatest intensity of the study, {} g",
+            six_digits(end),
+            in_gravity(end),
+            in_gravity(most)
+        ),
+        _ => return None,
+    };
+    let number = six_digits(points[0].0);
+    Some(format!(
+        "the intensities of the hazard curve have no unit and are in m/s2: {why}; were numbers of g meant? Then write \"{number} g\" and so on, in a file a header with its unit, such as `sa (g),mean_annual_frequency`; if not, \"{number} m/s2\""
+    ))
+}
+
+/// What is said of a limit without a unit on accelerations of floors, or of one on drift ratios that no building has.
+pub(super) fn of_limit(name: &str, demand: DemandKind, exceeds: f64, is_bare: bool) -> Option<String> {
+    let number = six_digits(exceeds);
+    match demand {
+        DemandKind::AccelerationAbsolute | DemandKind::AccelerationAcross
+            if is_bare && exceeds < LIMIT_AT_LEAST * STANDARD_GRAVITY =>
+        {
+            Some(format!(
+                "the limit \"{name}\" is {number} m/s2 ({} g), little for a floor; a number without unit is in m/s2: was \"{number} g\" meant? If not, write \"{number} m/s2\"",
+                six_digits(exceeds / STANDARD_GRAVITY)
+            ))
+        }
+        DemandKind::DriftRatio if exceeds > NO_DRIFT_LIMIT => Some(format!(
+            "the limit \"{name}\" is a drift ratio of {} %, which no building reaches: was \"{number} %\" meant?",
+            six_digits(100.0 * exceeds)
+        )),
+        _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use super::*;
+
+    const POINTS: [(f64, f64); 5] = [
+        (0.01, 0.1),
+        (0.05, 0.02),
+        (0.2, 1e-3),
+        (1.0, 2e-5),
+        (3.0, 1e-6),
+    ];
+
+    fn times(factor: f64) -> Vec<(f64, f64)> {
+        POINTS.map(|(x, f)| (x * factor, f)).to_vec()
+    }
+
+    /// By hand: straight in logarithms from 0.05 at 0.02 to 0.2 at 0.001, 1/475 lies ln(9.5) / ln(20) of the way:
+    /// 0.05 * 4^0.7515 = 0.1417.
+    #[test]
+    fn design_intensities_are_read_off_the_curve() {
+        assert!((of_design(&POINTS).unwrap() - 0.1417).abs() < 1e-4);
+        assert_eq!(of_design(&POINTS[..2]), Some(0.05));
+        assert_eq!(of_design(&POINTS[3..]), Some(1.0));
+    }
+
+    #[test]
+    fn curves_in_gravity_are_asked_about() {
+        let measure = IntensityMeasure::PeakGroundAcceleration;
+        let study = Values::Numbers(vec![1.0, 8.0]);
+        let said = of_hazard(&measure, &POINTS, &study).unwrap();
+        assert!(said.contains("0.0144"), "{said}");
+        assert!(said.contains("\"0.01 g\""), "{said}");
+        // Four times as strong the site is plausible, and the curve ends at 12 m/s2, above 8.
+        assert_eq!(of_hazard(&measure, &times(4.0), &study), None);
+        // As strong, and the study goes on to 15 m/s2.
+        let stronger = Values::Numbers(vec![1.0, 15.0]);
+        let said = of_hazard(&measure, &times(4.0), &stronger).unwrap();
+        assert!(said.contains("it ends at 12 m/s2"), "{said}");
+        assert_eq!(of_hazard(&measure, &times(9.806_65), &study), None);
+        let velocity = IntensityMeasure::PeakGroundVelocity;
+        assert_eq!(of_hazard(&velocity, &POINTS, &study), None);
+    }
+}

@@ -431,7 +431,9 @@ fn a_turn_is_in_degrees() {
 
 #[test]
 fn a_list_by_itself() {
-    let steps = process_steps("process = [{ pad = { after = \"10 s\" } }]", "--pad").unwrap();
+    let (steps, asked) =
+        process_steps("process = [{ pad = { after = \"10 s\" } }]", "--pad").unwrap();
+    assert!(asked.is_empty());
     assert_eq!(
         steps[0].value,
         ProcessingStep::Pad {

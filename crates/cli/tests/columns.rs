@@ -135,6 +135,8 @@ fn run_and_page_set_the_demand_against_the_capacity() {
         &[
             "column shear above (kN)",
             "1.544 (exceeds it)",
+            "the column shear above at",
+            "times its capacity",
             "0.5814 (stays below it)",
         ],
     );

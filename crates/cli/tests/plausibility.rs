@@ -183,6 +183,80 @@ fn a_yield_force_in_the_wrong_unit() {
     assert!(meant.check.is_empty(), "{:?}", meant.check);
 }
 
+/// Each is a slip that ran without a word: lengths in mm, swapped factors of Rayleigh damping, densities in t/m3.
+#[test]
+fn values_as_no_building_has_them() {
+    let high = CASE.replace("height = \"3 m\"", "height = 3000");
+    let high = said(&high);
+    one(
+        &high,
+        &["a: storey 2 is 3000 m high", "\"3000 mm\" would be 3 m"],
+    );
+    one(&high, &["b: storey 2 is 3000 m high"]);
+    let swapped = CASE.replacen(
+        "damping = { ratio = 0.05, modes = [1, 2] }",
+        "damping = { rayleigh = { alpha = \"0.002 1/s\", beta = \"0.3 s\" } }",
+        1,
+    );
+    one(
+        &said(&swapped),
+        &[
+            "b: the damping of its fundamental mode is",
+            "beta that of the stiffnesses",
+        ],
+    );
+    let weak = CASE.replacen(
+        "damping = { ratio = 0.05, modes = [1, 2] }",
+        "damping = { dashpots = 50 }",
+        1,
+    );
+    one(
+        &said(&weak),
+        &[
+            "b: the damping of its fundamental mode is",
+            "as good as none",
+        ],
+    );
+    let soil = CASE.replacen(
+        "damping = { ratio = 0.05, modes = [1, 2] }",
+        "damping = { ratio = 0.05, modes = [1, 2] }\nfoundation = { mass = \"250 t\", rotational_inertia = \"14812 t m2\", soil = { shear_wave_speed = \"180 m/s\", density = 1.8, poisson = 0.33, length = \"15 m\", width = \"12 m\" } }",
+        1,
+    );
+    one(
+        &said(&soil),
+        &["b: the soil makes the fundamental period", "kg/m3"],
+    );
+    let seat = CASE.replace("width = \"20 mm\"", "width = \"20 mm\"\nseat = 350");
+    one(
+        &said(&seat),
+        &[
+            "gap a-b: the seat is 350 m wide",
+            "\"350 mm\" would be 0.35 m",
+        ],
+    );
+    let isolated = |isolator: &str| {
+        let isolator = format!("stiffness = [\"30 MN/m\"]\nisolator = {{ {isolator} }}");
+        let case = CASE.replacen("stiffness = \"30 MN/m\"", &isolator, 1);
+        case.replace("{ ratio = 0.05, modes = [1, 2] }", "{ modal = 0.05 }")
+    };
+    let dish = isolated(
+        "model = \"friction_pendulum\", radius = 2000, friction_fast = 0.06, friction_slow = 0.03, rate = \"100 s/m\", yield_displacement = \"0.2 mm\"",
+    );
+    one(
+        &said(&dish),
+        &["b: the period of its isolators", "usually 2 to 5 s"],
+    );
+    let plan = CASE.replacen(
+        "stiffness = \"30 MN/m\"",
+        "plan = { length = \"12 m\", width = \"10 m\", frames_along = [ { at = -50, stiffness = \"15 MN/m\" }, { at = 50, stiffness = \"15 MN/m\" } ], frames_across = [ { at = 0, stiffness = \"30 MN/m\" } ] }",
+        1,
+    );
+    one(
+        &said(&plan),
+        &["b: a frame stands -50 m from the mass centre of floors of 10 m"],
+    );
+}
+
 #[test]
 fn a_gap_wider_than_a_storey_is_high() {
     let said = said(&CASE.replace("20 mm", "20 m"));

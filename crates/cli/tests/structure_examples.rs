@@ -205,6 +205,14 @@ fn openings_of_joints_in_studies() {
     let (_, compared, _) =
         pounding("compare case.toml --models anagnostopoulos_2004,linear_elastic --json");
     assert!(compared.contains("\"opening\""), "{compared}");
+    // Nobody need look at rows to know of decks that fall.
+    let text = format!("{text}[output]\nchunk = 1\n");
+    std::fs::write(folder.join("chunks.toml"), &text).unwrap();
+    let (_, swept, _) = pounding("sweep chunks.toml -o chunks.h5");
+    assert!(swept.contains("The deck falls in 1 run:"), "{swept}");
+    let (_, again, _) = pounding("sweep chunks.toml -o chunks.h5 --resume --json");
+    let again: Value = serde_json::from_str(&again).unwrap();
+    assert_eq!(again["unseated"], 1);
     // Of the gaps one has no seat, or none has.
     let bridge = std::fs::read_to_string(&case).unwrap();
     let one = bridge.replacen("seat = \"0.35 m\"\n", "", 1);
@@ -290,6 +298,15 @@ fn a_check_of_gaps_tells_of_seats() {
             assert_eq!(provision["satisfied"], width == "0.35 m", "{provision}");
             assert!(provision["records"][0]["ratio_to_demand"].is_null());
         }
+        // Below the first line of the answer of the gap, whatever that says.
+        let below: Vec<&str> = (shown.lines().zip(shown.lines().skip(1)))
+            .filter(|(line, _)| line.starts_with("Gap ") && line.contains(" - "))
+            .map(|(_, next)| next)
+            .collect();
+        let fallen = below
+            .iter()
+            .map(|l| l.contains("THE DECK FALLS at this width"));
+        assert_eq!(fallen.collect::<Vec<_>>(), falls, "{shown}");
         assert_eq!(said.contains("the deck falls"), falls[1]);
         let row = rows
             .lines()

@@ -752,7 +752,20 @@ static ALL: &[&CodeDescriptor] = &[
 static CODES: Registry<CodeDescriptor> = Registry::new(
     ALL,
     &[
-        (&["ec8", "eurocode", "en_1998_1", "en"], "eurocode_8_2004"),
+        (
+            &[
+                "ec8",
+                "ec_8",
+                "eurocode",
+                "eurocode8",
+                "en_1998_1",
+                "en1998",
+                "en1998_1",
+                "en_1998",
+                "en",
+            ],
+            "eurocode_8_2004",
+        ),
         (&["asce", "asce7", "asce_7_16"], "asce_7_2016"),
         (&["asce_7_10"], "asce_7_2010"),
         (&["asce_7_22"], "asce_7_2022"),
@@ -1032,6 +1045,9 @@ mod tests {
         );
         for (wrong, meant) in [
             ("ec8", "eurocode_8_2004"),
+            ("eurocode8", "eurocode_8_2004"),
+            ("EN1998", "eurocode_8_2004"),
+            ("en1998-1", "eurocode_8_2004"),
             ("en_1998_1_2004", "eurocode_8_2004"),
             ("asce_7_16", "asce_7_2016"),
         ] {

@@ -35,6 +35,7 @@ mod soft_contact;
 #[cfg(feature = "serde")]
 mod summary;
 mod system;
+mod unusual_values;
 mod warnings;
 
 pub use batch::{in_parallel, run_many};

@@ -15,6 +15,7 @@ use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome, Peak};
 use crate::soft_contact::{deep_penetrations, soft_contacts, stiffness_text};
 use crate::system::{ContactLevel, System, more_pairs};
+use crate::unusual_values;
 
 /// Fundamental periods (s) that buildings have.
 const PERIODS: (f64, f64) = (0.005, 20.0);
@@ -80,6 +81,13 @@ pub enum Warning {
         drift: f64,
         /// Storey height (m).
         height: f64,
+    },
+    /// A value that hardly any building or joint has, more likely a slip of the unit or the key.
+    UnusualValue {
+        /// Building or gap.
+        of: String,
+        /// The value, and what may be meant.
+        says: String,
     },
     /// Soil that is as good as a fixed base.
     StiffSoil {
@@ -489,6 +497,7 @@ impl fmt::Display for Warning {
                     ""
                 }
             ),
+            Self::UnusualValue { of, says } => write!(f, "{of}: {says}"),
             Self::StiffSoil {
                 building,
                 lengthening,
@@ -644,6 +653,7 @@ impl Warning {
                 .iter()
                 .filter_map(|b| small_yield_drift(b)),
         );
+        warnings.extend(unusual_values::of(system));
         warnings.extend(system.buildings().iter().filter_map(|b| stiff_soil(b)));
         warnings.extend(system.buildings().iter().filter_map(|b| braked_isolator(b)));
         for gap in system.gaps() {

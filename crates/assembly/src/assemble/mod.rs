@@ -120,11 +120,12 @@ pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, As
     })
 }
 
-/// What a case gives and nothing uses, and parameters of spectra that no code has, in words: each
-/// once.
+/// What a case gives and nothing uses, frames beside their building, and parameters of spectra that no code has, in
+/// words: each once.
 fn unused(case: &Case) -> Vec<String> {
     let mut told = column::never_hit(case);
     told.extend(method::without_effect(case));
+    told.extend(plan::frames_outside(case));
     let own = case.buildings.iter().filter_map(|b| b.ground.as_ref());
     let own = own.filter_map(|ground| ground.value.motion.as_ref());
     for motion in std::iter::once(&case.ground_motion).chain(own) {

@@ -2,11 +2,35 @@
 
 use nalgebra::DMatrix;
 use pounding_case::{Building, Case, CaseError, Frame, Gap, Located, Plan, Side};
+use pounding_catalogue::numbers::six_digits;
 use pounding_shear_building::{
     Coordinate, EDGE_DISPLACEMENTS, Excitation, GeneralBuilding, ResponseKind, ResponseRow,
     ShearBuilding, ShearBuildingError,
 };
 use pounding_time_history::{BuildingPoint, Floor, System};
+
+/// Part of the floor by which a frame may stand beyond its edge.
+const BEYOND_EDGE: f64 = 0.5;
+
+/// Frames that stand far beside the floors of their building, one of each in words.
+pub(super) fn frames_outside(case: &Case) -> Vec<String> {
+    let outside = |b: &Building| {
+        let plan = &b.plan.as_ref()?.value;
+        // Positions are from the mass centre, around which the floor lies.
+        let of = |frames: &[Frame], size: f64| {
+            let beyond = |f: &&Frame| f.at.abs() > (0.5 + BEYOND_EDGE) * size;
+            Some((frames.iter().find(beyond)?.at, size))
+        };
+        let (at, size) = of(&plan.along, plan.width).or_else(|| of(&plan.across, plan.length))?;
+        let at = six_digits(at);
+        Some(format!(
+            "{}: a frame stands {at} m from the mass centre of floors of {} m: a number without unit is in m, check the unit",
+            b.name.value,
+            six_digits(size)
+        ))
+    };
+    case.buildings.iter().filter_map(outside).collect()
+}
 
 /// Coordinates of a floor: along the row, across it, rotation anticlockwise; those of all floors
 /// along come first.

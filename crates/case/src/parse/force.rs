@@ -67,7 +67,7 @@ struct HarmonicTable {
     amplitude: Field<Signed<Force>>,
     /// Frequency (Hz)
     frequency: Field<Positive<Cycles>>,
-    /// Phase (degrees, a plain number), by default 0: a sine
+    /// Phase (degrees), by default 0: a sine
     phase: Optional<Degrees>,
     /// How long it lasts (s)
     duration: Field<Positive<Time>>,

@@ -199,7 +199,7 @@ impl Dimensioned for Sensitivity {
 const TURN: &str =
     "for example component = \"360\", second_component = \"90\", rotate = 30, in degrees";
 
-/// An angle in degrees, which has no unit: radians are pure numbers too.
+/// An angle in degrees, `30` or `"30 deg"`.
 #[derive(Clone, Deserialize, JsonSchema)]
 #[serde(try_from = "Written")]
 pub(super) struct Degrees(pub(super) f64);
@@ -208,6 +208,13 @@ impl TryFrom<Written> for Degrees {
     type Error = Fault;
     fn try_from(written: Written) -> Result<Self, Fault> {
         let is_plain = written.is_plain();
+        let text = written.as_written().trim();
+        let mut units = ["degrees", "deg", "\u{b0}"].iter();
+        let degrees = units.find_map(|unit| text.strip_suffix(unit));
+        let written = match degrees.filter(|number| number.trim().parse::<f64>().is_ok()) {
+            Some(number) => Written::of_text(number.trim().to_owned()),
+            None => written,
+        };
         match written.any() {
             Ok(Quantity {
                 value,
@@ -216,8 +223,8 @@ impl TryFrom<Written> for Degrees {
             }) => Ok(Self(value)),
             Err(fault) if is_plain => Err(fault),
             _ => Err(Fault::new(
-                " is a plain number of degrees",
-                "for example 30",
+                " is a number of degrees",
+                "for example 30, or \"30 deg\"",
             )),
         }
     }

@@ -207,7 +207,7 @@ impl<T: JsonSchema> JsonSchema for Words<T> {
 pub fn process_steps(
     source: &str,
     name: &str,
-) -> Result<Vec<Located<ProcessingStep<BandSource>>>, CaseError> {
+) -> Result<(Vec<Located<ProcessingStep<BandSource>>>, Vec<String>), CaseError> {
     let errors = Errors::default();
     let reader = Reader {
         file: name,
@@ -216,7 +216,8 @@ pub fn process_steps(
     };
     let steps = reader.read::<Steps>("write process = [{ remove_offset = \"mean\" }, ...]");
     let steps = steps.and_then(|steps| steps.process.value()?.read(&reader));
-    errors.finish(Ok(steps.unwrap_or_default()))
+    let asked = errors.all_asked();
+    errors.finish(Ok((steps.unwrap_or_default(), asked)))
 }
 
 impl Process {

@@ -342,7 +342,7 @@ fn energy(run: &Run<'_>) -> String {
     };
     format!(
         "\nEnergy at {} s (kJ): input {} = viscous {} + {}impact {} + kinetic {} + {} {}; residual {:.1e} of the largest input\n{}: {}, {} rejected, {}; {:.2} s\n",
-        run.outcome.end_time,
+        six_digits(run.outcome.end_time),
         part(e.end.input),
         part(e.end.viscous),
         hysteretic,

@@ -81,6 +81,44 @@ fn alike_buildings_need_no_sweep() {
     assert_eq!(swept["runs"][0][0]["impacts"], 0, "{swept}");
 }
 
+/// Equal buildings of one storey, whose damping is the same matrix in other words: they move alike but for round-off, which
+/// is no demand, as it is no impact in a run.
+#[test]
+fn round_off_is_no_demand() {
+    let folder = tempfile::tempdir().unwrap();
+    let building = |name: &str, damping: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = [\"400 t\"]\nstiffness = \"63.165 MN/m\"\nheight = \"3 m\"\ndamping = {{ {damping} = 0.05 }}\n"
+        )
+    };
+    let record = root().join("ground_motions/el_centro_1940_ns.csv");
+    let case = format!(
+        "{}{}[[gap]]\nbetween = [\"A\", \"B\"]\nwidth = 0\nmodel = \"kelvin_voigt\"\nstiffness = \"350 MN/m\"\nrestitution = 0.65\n[ground_motion]\nfile = {record:?}\n",
+        building("A", "modal"),
+        building("B", "stiffness_proportional"),
+    );
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let output = gap_in(folder.path(), &["--points", "0"]);
+    assert_eq!(output.status.code(), Some(0), "{}", text(&output.stderr));
+    let shown = text(&output.stdout);
+    assert!(shown.contains("WIDE ENOUGH - 0 of 1"), "{shown}");
+    let told = json(&gap_in(folder.path(), &["--points", "0", "--json"]));
+    assert_eq!(told["gaps"][0]["required"]["by_count"], 0.0);
+}
+
+/// By hand: where no run has an impact every ratio is 1 but for round-off, and no width is the worst.
+#[test]
+fn round_off_makes_no_width_the_worst() {
+    let folder = example_with("\"5 m\"");
+    let arguments = ["--from", "1 m", "--to", "5 m", "--points", "3"];
+    let shown = text(&gap_in(folder.path(), &arguments).stdout);
+    assert!(
+        shown.contains("light: no width raises the displacement"),
+        "{shown}"
+    );
+    assert!(!shown.contains("worst at"), "{shown}");
+}
+
 /// Of buildings that do not move no ratio is known, and none is drawn.
 #[test]
 fn what_does_not_move_has_no_ratio() {

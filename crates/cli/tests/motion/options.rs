@@ -459,3 +459,34 @@ fn layouts_that_begin_with_a_hyphen() {
     let output = run(&[&given[..], &["--layout", "-,a"]].concat());
     assert!(output.status.success(), "{output:?}");
 }
+
+/// 0.3 where 0.3 g is meant: asked about as in a case; with a unit nothing is said.
+#[test]
+fn accelerations_without_a_unit_are_asked_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let out = folder.path().join("out.csv").display().to_string();
+    let file = el_centro();
+    for (peak, asked) in [("0.3", true), ("0.3 m/s2", false), ("3", false)] {
+        let scale = format!("pga={peak}");
+        let process = ["process", &file, "--scale", &scale, "-o", &out];
+        let synth = [
+            "synth",
+            "kanai_tajimi_1960",
+            "--peak-acceleration",
+            peak,
+            "--duration",
+            "5",
+            "--seed",
+            "1",
+            "-o",
+            &out,
+        ];
+        for arguments in [&process[..], &synth] {
+            let output = run(arguments);
+            let told = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{told}");
+            let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+            assert_eq!(told.contains("was \"0.3 g\" meant?"), asked, "{told}");
+        }
+    }
+}

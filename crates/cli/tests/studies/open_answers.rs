@@ -47,6 +47,42 @@ fn a_hazard_curve_that_begins_late_is_told() {
     assert!(page.contains(said));
 }
 
+/// Numbers that would be usual in g, or in percent, are asked about; with a unit nothing is said.
+#[test]
+fn bare_numbers_of_limits_and_hazard_are_asked_about() {
+    let limits = |acceleration: &str, drift: &str| {
+        format!(
+            "[[ida.limit]]\nname = \"contents\"\ndemand = \"acceleration_absolute\"\nexceeds = {acceleration}\n[[ida.limit]]\nname = \"collapse\"\ndemand = \"drift_ratio\"\nexceeds = {drift}\n"
+        )
+    };
+    let told = |hazard: &str, limits: &str| {
+        let text = study("\"0.3 g\", \"0.6 g\"", hazard) + limits;
+        Bench::new(&text).text("ida study.toml -o out.h5")
+    };
+    let bare = told("[[0.02, 0.5], [0.2, 5e-3], [9, 2e-6]]", &limits("2", "2"));
+    for said in [
+        "the intensities of the hazard curve have no unit",
+        "the limit \"contents\" is 2 m/s2",
+        "the limit \"collapse\" is a drift ratio of 200 %",
+    ] {
+        assert!(bare.contains(said), "{bare}");
+    }
+    let meant = "[[\"0.02 m/s2\", 0.5], [\"0.2 m/s2\", 5e-3], [\"9 m/s2\", 2e-6]]";
+    let stated = told(meant, &limits("\"2 m/s2\"", "\"2 %\""));
+    assert!(!stated.contains("warning"), "{stated}");
+    let bench = Bench::new(&study("\"0.3 g\", \"0.6 g\"", "\"curve.csv\""));
+    std::fs::write(bench.path("curve.csv"), "0.02,0.5\n0.2,5e-3\n9,2e-6\n").unwrap();
+    let bare = bench.text("ida study.toml -o out.h5");
+    assert!(bare.contains("the hazard curve have no unit"), "{bare}");
+    std::fs::write(
+        bench.path("curve.csv"),
+        "pga (m/s2),mean_annual_frequency\n0.02,0.5\n0.2,5e-3\n9,2e-6\n",
+    )
+    .unwrap();
+    let stated = bench.text("ida study.toml -o out.h5");
+    assert!(!stated.contains("no unit"), "{stated}");
+}
+
 /// An intensity that stands twice would count each record twice.
 #[test]
 fn an_intensity_stands_once() {

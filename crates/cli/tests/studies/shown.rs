@@ -98,6 +98,19 @@ fn shown_command(bench: &Bench) -> String {
     command.unwrap().to_owned()
 }
 
+/// A duration that cuts most of a motion off is said of studies as of `motion synth`.
+#[test]
+fn motions_that_end_early_are_said() {
+    let bench = Bench::new(
+        "case = \"case.toml\"\n[[variable]]\nsynthetic = { model = \"rezaeian_der_kiureghian_2010\", count = 3, seed = 7, duration = \"4 s\", significant_duration = \"9 s\", middle_time = \"6 s\", middle_frequency = \"3 Hz\" }\n",
+    );
+    let told = bench.text("sweep study.toml -o out.h5");
+    let said = "the duration of 4 s cuts 84.2 % of the expected Arias intensity off";
+    assert_eq!(told.matches(said).count(), 1, "{told}");
+    let alone = bench.text("motion synth rezaeian_der_kiureghian_2010 --seed 7 --significant-duration 9 --middle-time 6 --middle-frequency 3 --duration 4 -o made.csv");
+    assert!(alone.contains(said), "{alone}");
+}
+
 /// What a study and `motion synth` leave out is the same: so are their motions.
 #[test]
 fn a_study_and_synth_make_one_motion() {

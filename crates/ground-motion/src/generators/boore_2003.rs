@@ -4,6 +4,7 @@
 //! the site. Not for the near field of large faults.
 
 use std::f64::consts::{E, PI};
+use std::fmt;
 
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::noise::Noise;
@@ -50,6 +51,15 @@ pub enum Diminution {
     Kappa(f64),
     /// `(1 + (f/fmax)^8)^(-1/2)` with fmax (Hz).
     HighestFrequency(f64),
+}
+
+impl fmt::Display for Diminution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Kappa(kappa) => write!(f, "kappa {kappa} s"),
+            Self::HighestFrequency(frequency) => write!(f, "fmax {frequency} Hz"),
+        }
+    }
 }
 
 /// A point source of a moment magnitude at a distance.
@@ -252,7 +262,7 @@ impl Boore2003 {
             .number("moment", self.moment(), "N m")
             .number("corner frequency", self.corner_frequency(), "Hz")
             .number("duration of the motion", self.duration(), "s")
-            .remark(format!("seed {seed}, {:?}", self.diminution));
+            .remark(format!("seed {seed}, {}", self.diminution));
         grid.finish(samples, step)
     }
 }

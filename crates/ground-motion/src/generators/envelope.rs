@@ -1,6 +1,7 @@
 //! Envelopes of amplitude over time, maximum value one.
 
 use std::f64::consts::PI;
+use std::fmt;
 
 use serde::Serialize;
 
@@ -51,6 +52,32 @@ pub enum Envelope {
         /// Faster rate (1/s).
         fast: f64,
     },
+}
+
+impl fmt::Display for Envelope {
+    /// Its name and numbers, as they are written for `motion synth`.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Constant => f.write_str("constant"),
+            Self::HalfSine => f.write_str("half_sine"),
+            Self::Ramped { rise, fall } => write!(f, "ramped, rise {rise} s, fall {fall} s"),
+            Self::Decay { rate } => write!(f, "decay, rate {rate} 1/s"),
+            Self::JenningsHousnerTsai1968 {
+                rise,
+                strong_end,
+                decay,
+            } => write!(
+                f,
+                "jennings_housner_tsai_1968, rise {rise} s, strong end {strong_end} s, decay {decay} 1/s"
+            ),
+            Self::SaragoniHart1974 { power, rate } => {
+                write!(f, "saragoni_hart_1974, power {power}, rate {rate} 1/s")
+            }
+            Self::ShinozukaSato1967 { slow, fast } => {
+                write!(f, "shinozuka_sato_1967, slow {slow} 1/s, fast {fast} 1/s")
+            }
+        }
+    }
 }
 
 impl Envelope {

@@ -2,6 +2,7 @@
 //! near-fault motions.
 
 use std::f64::consts::{PI, TAU};
+use std::fmt;
 
 use crate::error::{GroundMotionError, positive, within};
 use crate::generators::{Generated, Generator, TimeGrid};
@@ -22,6 +23,16 @@ pub enum PulseType {
         /// Number n of cycles, 1 to 20.
         cycles: u32,
     },
+}
+
+impl fmt::Display for PulseType {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::A => f.write_str("A"),
+            Self::B => f.write_str("B"),
+            Self::C { cycles } => write!(f, "C, {cycles} cycles"),
+        }
+    }
 }
 
 /// A pulse with its velocity amplitude and period.
@@ -98,7 +109,7 @@ impl MakrisRoussos2000 {
             .number("start", self.start, "s")
             .number("length", length, "s")
             .number("phase", phi, "rad")
-            .remark(format!("type {:?}", self.pulse));
+            .remark(format!("type {}", self.pulse));
         grid.finish(samples, step)
     }
 }

@@ -75,7 +75,7 @@ impl<S: PowerSpectrum> StationaryMotion<S> {
         }
         let step = step
             .number("standard deviation", variance.sqrt(), "m/s2")
-            .remark(format!("seed {seed}, envelope {:?}", self.envelope));
+            .remark(format!("seed {seed}, envelope {}", self.envelope));
         grid.finish(samples, step)
     }
 }

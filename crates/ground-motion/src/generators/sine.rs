@@ -51,7 +51,7 @@ impl Sine {
             .number("frequency", self.frequency, "Hz")
             .number("phase", self.phase, "rad")
             .number("length", self.length, "s")
-            .remark(format!("envelope {:?}", self.envelope));
+            .remark(format!("envelope {}", self.envelope));
         grid.finish(samples, step)
     }
 }

@@ -19,13 +19,13 @@ pub(crate) const ENERGY_SINCE: &str = "E is the energy dissipated since the mode
 /// To know of every law of the family: what a mode multiplies.
 pub(crate) const WHAT_FALLS: &str = "With beta the rate of its mode, strength multiplies Fy and Ks of the side that is loaded next by 1 - beta, where h = Fy (1 - Ks / K) with the first stiffness K; the cap its Fref, the force of the softening line at zero deformation, by 1 - beta; reloading the deformation of its target by 1 + beta; and unloading Ku, one for both sides, by 1 - beta.";
 /// To know of the laws that aim at a target: what a small unloading does.
-pub(crate) const RETRACED: &str = "Unloading that turns before zero force is retraced to the point where it began, and goes on from there as if it had not been.";
+pub(crate) const RETRACED: &str = "Unloading that turns before zero force is retraced to the point where it began, and goes on from there as if it had not been, but no steeper than Ku, which may have fallen meanwhile.";
 /// To know of the laws that aim at a target: what bounds their way to it.
-pub(crate) const NO_STEEPER: &str = "Reloading is no steeper than unloading: where the way to the target is, after Ku has fallen, the path has the slope Ku, passes below the target and meets the envelope farther on. The published rule has no such bound, and gives back more energy there than was put in.";
+pub(crate) const NO_STEEPER: &str = "The target of a side is the largest deformation that was reached on its envelope, at first that at yield; the mode of reloading moves it outwards. Reloading is no steeper than unloading: where the way to the target is, after Ku has fallen, the path has the slope Ku, passes below the target and meets the envelope farther on; if it turns before, the target stays, however far it went. The published rule has no such bound, and gives back more energy there than was put in.";
 /// To know of every law of the family: its energy where the unloading stiffness falls.
 pub(crate) const ENERGY_STEPS_BACK: &str = "Where the unloading stiffness falls, what is stored rises, and the dissipated energy steps back: no further than to what it was at the turning point before, which bounds the stiffness from below. The published rule has no bound, and gives back more energy than was put in as its capacity runs out. The E of a turning point is with the stiffness before it falls; energies that are reported on the way to it are with the one that it would fall to there.";
 /// To know: how it fails.
-pub(crate) const FAILS_FOR_EVER: &str = "Exhausted capacity, or a strength that reaches zero, leaves an element without force for ever.";
+pub(crate) const FAILS_FOR_EVER: &str = "Exhausted capacity, or a strength that reaches zero, also at the target before the path is there, leaves an element without force for ever.";
 /// To know: what does not deteriorate.
 pub(crate) const RESIDUAL_STAYS: &str = "The residual strength does not deteriorate.";
 

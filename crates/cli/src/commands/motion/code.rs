@@ -34,7 +34,7 @@ pub fn code_spectrum(text: &str, damping: f64) -> Result<CodeSpectrum, Failure> 
     keys.insert(0, format!("code = {}", quoted(words.word)));
     keys.push(format!("damping = {damping:?}"));
     let line = format!("process = [{{ scale = {{ {} }} }}]", keys.join(", "));
-    let read = pounding_case::process_steps(&line, "code")
+    let (read, _) = pounding_case::process_steps(&line, "code")
         .map_err(|e| Failure::input(format!("--code: {}", e.message), e.help))?;
     let target = read.first().and_then(|step| step.value.target());
     let target = target.map(|band| &band.spectrum);

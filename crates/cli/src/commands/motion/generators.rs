@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use pounding_case::Dimension;
+use pounding_case::{Dimension, bare_acceleration};
 use pounding_ground_motion::generators::{
     Boore2003, CloughPenzien1975, Diminution, FaultMechanism, Generated, KanaiTajimi1960,
     MakrisRoussos2000, MavroeidisPapageorgiou2003, PulseType, RezaeianDerKiureghian2010,
@@ -16,6 +16,7 @@ use crate::arguments::{
     RezaeianDerKiureghianArguments, RickerArguments, SineArguments, frequency, value,
 };
 use crate::failure::Failure;
+use crate::output::warn;
 
 /// Frequency of Kanai's firm ground (rad/s).
 const FIRM_GROUND: f64 = 15.6;
@@ -133,14 +134,20 @@ struct Ground {
     damping: f64,
 }
 
+/// Least peak acceleration (g) that is usual.
+const LEAST_PEAK: f64 = 0.1;
+
 impl Ground {
     fn of(a: &GroundArguments) -> Result<Self, Failure> {
+        let given = &a.peak_acceleration;
+        let peak = value(given, "peak-acceleration", Dimension::ACCELERATION)?;
+        if given.trim().parse::<f64>().is_ok()
+            && let Some(question) = bare_acceleration("--peak-acceleration", peak, LEAST_PEAK)
+        {
+            warn(&question);
+        }
         Ok(Self {
-            peak: value(
-                &a.peak_acceleration,
-                "peak-acceleration",
-                Dimension::ACCELERATION,
-            )?,
+            peak,
             factor: number(&a.peak_factor, "peak-factor")?,
             frequency: match &a.ground_frequency {
                 Some(text) => TAU * frequency(text, "ground-frequency")?,

@@ -13,6 +13,7 @@ use super::{reading, writing};
 use crate::arguments::ProcessArguments;
 use crate::failure::Failure;
 use crate::files::reads_too;
+use crate::output::warn;
 
 /// Does the steps and writes the motion with their numbers in its header.
 pub fn process(arguments: &ProcessArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -60,8 +61,11 @@ fn step(key: &str, text: &str) -> Result<(ProcessingStep, Option<PathBuf>), Fail
     let option = option(key);
     let words = Words::of(&option, text)?;
     let line = format!("process = [{{ {} }}]", words.as_toml(key)?);
-    let read = pounding_case::process_steps(&line, "process")
+    let (read, asked) = pounding_case::process_steps(&line, "process")
         .map_err(|e| Failure::input(format!("--{option}: {}", e.message), e.help))?;
+    for question in asked {
+        warn(&question);
+    }
     let [step] = read.as_slice() else {
         return Err(Failure::input(
             format!("--{option}: \"{text}\" is no step"),

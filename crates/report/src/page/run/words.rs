@@ -23,6 +23,7 @@ pub(super) fn summary(result: &RunResult) -> String {
     if points.is_empty() {
         points.push("There is no gap with a contact level.".to_owned());
     }
+    points.extend(result.gaps.iter().filter_map(beyond_capacity));
     if result.gaps.iter().any(|g| !g.impacts.is_empty()) {
         points.extend(most_changed(result).into_iter().filter_map(changed));
         if let Some(more @ 1..) = result.buildings.len().checked_sub(MOST) {
@@ -74,6 +75,25 @@ fn hardest(result: &RunResult) -> (Vec<&GapResult>, Vec<&GapResult>) {
     let least = sizes.get(MOST.min(sizes.len()).saturating_sub(1)).copied();
     let least = least.unwrap_or(0.0);
     result.gaps.iter().partition(|gap| !(size(gap) < least))
+}
+
+/// What at the levels of a gap exceeds its capacity by most, as the shear of columns that are hit.
+fn beyond_capacity(gap: &GapResult) -> Option<String> {
+    let ratios = gap.responses.iter().flat_map(|r| {
+        let levels = r.value.iter().zip(&r.capacity).enumerate();
+        levels.map(move |(l, (value, capacity))| (r, l, value / capacity))
+    });
+    let known = ratios.filter(|(.., ratio)| *ratio > 1.0);
+    let (response, l, ratio) = known.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    let path = format!("gap/{}/response/peak/{}", gap.name, response.name);
+    let from = format!("{path}[{l}] / {path}_capacity[{l}]");
+    Some(format!(
+        "<strong>Gap {}: the {} at {} is {} times its capacity.</strong>",
+        named(&gap.name),
+        response.name.replace('_', " "),
+        named(&level(&gap.levels[l])),
+        number(&from, 1.0, &figures(ratio)),
+    ))
 }
 
 /// How hard the floors on both sides of a gap hit.

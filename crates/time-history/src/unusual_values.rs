@@ -1,0 +1,121 @@
+//! Values of buildings and joints that hardly any has, more likely a slip of the unit or of the key.
+
+use pounding_shear_building::ShearBuilding;
+
+use crate::estimate::short;
+use crate::system::System;
+use crate::warnings::Warning;
+
+/// Height (m) that no storey reaches, and few piers.
+const HEIGHT: f64 = 100.0;
+/// Damping ratios of the fundamental mode that dampers give at most, and that a structure has at least (-).
+const DAMPING: (f64, f64) = (0.5, 1.0e-4);
+/// Period on soil over that on a fixed base (-) beyond which no building is left on such soil.
+const LENGTHENING: f64 = 4.0;
+/// Longest period (s) of isolators after yield or on their dishes.
+const ISOLATED_PERIOD: f64 = 15.0;
+/// Displacement (m) at which no isolator is still to yield.
+const YIELD_DISPLACEMENT: f64 = 0.5;
+/// Width (m) of no seat.
+const SEAT: f64 = 10.0;
+
+/// Warnings of all buildings and joints.
+pub(crate) fn of(system: &System) -> Vec<Warning> {
+    let buildings = system.buildings().iter();
+    let mut found: Vec<Warning> = buildings.flat_map(|b| of_building(b)).collect();
+    let seats = system.gaps().iter();
+    let seats = seats.filter_map(|gap| Some((gap, gap.seat.filter(|seat| *seat > SEAT)?)));
+    found.extend(seats.map(|(gap, seat)| Warning::UnusualValue {
+        of: format!("gap {}", gap.name),
+        says: format!(
+            "the seat is {} m wide, as no seat is: {}",
+            short(seat),
+            in_millimetres(seat)
+        ),
+    }));
+    found
+}
+
+/// What a length in metres would be if millimetres were meant.
+fn in_millimetres(length: f64) -> String {
+    let number = short(length);
+    format!(
+        "a number without unit is in m, and \"{number} mm\" would be {} m",
+        short(length / 1000.0)
+    )
+}
+
+fn of_building(building: &ShearBuilding) -> Vec<Warning> {
+    let said = [height(building), damping(building), soft_soil(building)];
+    let said = said.into_iter().flatten().chain(isolators(building));
+    said.map(|says| Warning::UnusualValue {
+        of: building.name().to_owned(),
+        says,
+    })
+    .collect()
+}
+
+fn height(building: &ShearBuilding) -> Option<String> {
+    let storeys = building.height().iter().enumerate();
+    let (storey, height) = storeys.max_by(|a, b| a.1.total_cmp(b.1))?;
+    (*height > HEIGHT).then(|| {
+        format!(
+            "storey {} is {} m high: {}",
+            storey + 1,
+            short(*height),
+            in_millimetres(*height)
+        )
+    })
+}
+
+/// That of the structure itself: isolators and soil have dashpots of their own.
+fn damping(building: &ShearBuilding) -> Option<String> {
+    if building.isolator().is_some() {
+        return None;
+    }
+    let own = building.foundation().map_or(building, |on| on.fixed_base());
+    let ratio = *own.modes().damping_ratio.get(own.modes().fundamental())?;
+    let percent = short(100.0 * ratio);
+    if ratio > DAMPING.0 {
+        return Some(format!(
+            "the damping of its fundamental mode is {percent} % of the critical one, more than dampers give: of `rayleigh` alpha is the factor of the masses (1/s), beta that of the stiffnesses (s); of dashpots check the unit"
+        ));
+    }
+    (ratio > 0.0 && ratio < DAMPING.1).then(|| {
+        format!(
+            "the damping of its fundamental mode is {percent} % of the critical one, as good as none: check the unit; dashpots without one are in N s/m"
+        )
+    })
+}
+
+fn soft_soil(building: &ShearBuilding) -> Option<String> {
+    let times = building.foundation()?.period_lengthening()?;
+    (times > LENGTHENING).then(|| {
+        format!(
+            "the soil makes the fundamental period {} times that on a fixed base, as no soil does that a building is left on: check the units of its stiffness, or of density and shear wave speed; a density without unit is in kg/m3",
+            short(times)
+        )
+    })
+}
+
+fn isolators(building: &ShearBuilding) -> Vec<String> {
+    let Some((_, made)) = building.isolator() else {
+        return Vec::new();
+    };
+    let mut said = Vec::new();
+    let period = made.post_yield_period();
+    // Without any stiffness they slide on flat plates.
+    if period > ISOLATED_PERIOD && period.is_finite() {
+        said.push(format!(
+            "the period of its isolators after they yield or slide is {} s, usually 2 to 5 s: check the unit of their stiffness or radius",
+            short(period)
+        ));
+    }
+    if made.yield_displacement > YIELD_DISPLACEMENT {
+        said.push(format!(
+            "its isolators yield at {} m, further than any moves: they never do",
+            short(made.yield_displacement)
+        ));
+    }
+    said
+}

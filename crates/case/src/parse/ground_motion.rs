@@ -210,11 +210,10 @@ impl TryFrom<Written> for Degrees {
         let is_plain = written.is_plain();
         let text = written.as_written().trim();
         let mut units = ["degrees", "deg", "\u{b0}"].iter();
-        let degrees = units.find_map(|unit| text.strip_suffix(unit));
-        let written = match degrees.filter(|number| number.trim().parse::<f64>().is_ok()) {
-            Some(number) => Written::of_text(number.trim().to_owned()),
-            None => written,
-        };
+        let degrees = units.find_map(|unit| text.strip_suffix(unit)?.trim().parse::<f64>().ok());
+        if let Some(degrees) = degrees.filter(|degrees| degrees.is_finite()) {
+            return Ok(Self(degrees));
+        }
         match written.any() {
             Ok(Quantity {
                 value,

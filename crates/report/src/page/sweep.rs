@@ -359,7 +359,7 @@ fn statistics(result: &ResultReader, runs: &Runs) -> String {
     let collapsed = match runs.collapsed.len() {
         0 => String::new(),
         n => format!(
-            " {} collapsed, of which only the isolated demand is known: all other minima, medians and maxima are of the runs that stood.",
+            " {} collapsed, of which only isolated demands and peaks are known: all other minima, medians and maxima are of the runs that stood.",
             counted(n, "run")
         ),
     };

@@ -3,7 +3,7 @@
 use pounding_shear_building::{EDGE_DISPLACEMENTS, OVERTURNING_RATIO};
 use pounding_time_history::{
     BuildingOutcome, COLUMN_SHEARS, LevelMotion, LevelOutcome, LevelPlace, LinkedMotion, NamedPeak,
-    Outcome, System,
+    Outcome, StoreyPeaks, System,
 };
 
 use crate::run::with_base_moment;
@@ -146,6 +146,57 @@ const ISOLATED_DEMAND: Quantity = quantity(
     "m",
     "maximum approach of the isolated buildings: the gap that just keeps them apart, infinite where they collapse",
 );
+
+/// Peaks of storeys of studies that ask for them, of the run that gives [`ISOLATED_DEMAND`].
+const ISOLATED_PEAKS: [Quantity; 4] = [
+    quantity(
+        Axis::Storey,
+        "isolated_peak_displacement",
+        "m",
+        "maximum displacement relative to the ground without pounding, missing where the isolated buildings collapse",
+    ),
+    quantity(
+        Axis::Storey,
+        "isolated_peak_drift_ratio",
+        "1",
+        "maximum storey drift over storey height without pounding, missing where the isolated buildings collapse",
+    ),
+    quantity(
+        Axis::Storey,
+        "isolated_peak_storey_shear",
+        "N",
+        "maximum storey shear without pounding, missing where the isolated buildings collapse",
+    ),
+    quantity(
+        Axis::Storey,
+        "isolated_peak_acceleration_absolute",
+        "m s-2",
+        "maximum absolute floor acceleration without pounding, missing where the isolated buildings collapse",
+    ),
+];
+
+/// Names of the peaks of storeys without pounding.
+pub fn isolated_peaks() -> impl Iterator<Item = &'static str> {
+    ISOLATED_PEAKS.iter().map(|q| q.name)
+}
+
+/// Which quantities of the buildings without pounding a study asks for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct IsolatedQuantities {
+    /// The gap that just keeps them apart, of each level.
+    pub demand: bool,
+    /// The peaks of each storey.
+    pub peaks: bool,
+}
+
+/// What a run without gaps says, in which links stay.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct IsolatedRun {
+    /// The isolated demand of each level (m).
+    pub demand: Vec<f64>,
+    /// Peaks of the storeys of all buildings; `None` where a building collapses by itself.
+    pub storeys: Option<Vec<StoreyPeaks>>,
+}
 
 /// The quantity of studies of buildings with a stiffness matrix or a foundation.
 const BASE_MOMENT: Quantity = quantity(
@@ -338,11 +389,23 @@ pub const OPENING: LevelQuantity = LevelQuantity {
     ),
 };
 
+/// The peak of a storey that a quantity of this name holds.
+fn storey_peak(name: &str) -> Option<fn(&StoreyPeaks) -> f64> {
+    match name {
+        "peak_displacement" => Some(|s| s.displacement.value),
+        "peak_drift_ratio" => Some(|s| s.drift_ratio.value),
+        "peak_storey_shear" => Some(|s| s.storey_shear.value),
+        "peak_acceleration_absolute" => Some(|s| s.acceleration_absolute.value),
+        _ => None,
+    }
+}
+
 /// Names of all quantities that results may have.
 pub fn quantity_names() -> impl Iterator<Item = &'static str> {
     QUANTITIES
         .iter()
         .chain([&BASE_MOMENT, &ISOLATED_DEMAND])
+        .chain(&ISOLATED_PEAKS)
         .chain(LEVEL_QUANTITIES.iter().map(|q| &q.peak))
         .chain(RESPONSES.iter().map(|r| &r.peak))
         .map(|q| q.name)
@@ -424,7 +487,7 @@ pub struct Layout {
 impl Layout {
     /// The shape of the results of a system.
     #[must_use]
-    pub fn of(system: &System, isolated_demand: bool) -> Self {
+    pub fn of(system: &System, isolated: IsolatedQuantities) -> Self {
         let storeys = system.buildings().iter().flat_map(|b| {
             (1..=b.storeys()).map(|n| Place {
                 label: format!("{} {n}", b.name()),
@@ -452,18 +515,18 @@ impl Layout {
                 rows.any(|row| response.is(&row.name))
             },
             |own| system.level_responses().any(|(_, r)| (own.is)(&r.name)),
-            isolated_demand,
+            isolated,
         )
     }
 
     /// The shape with these storeys and levels, these buildings with a base moment, and the
-    /// responses that some of them and some of the levels have; whether isolated demands are known.
+    /// responses that some of them and some of the levels have; and what is known without pounding.
     pub(super) fn from_places(
         (storeys, levels): (Vec<Place>, Vec<Place>),
         buildings: Vec<String>,
         has: impl Fn(&Response) -> bool,
         levels_have: impl Fn(&LevelQuantity) -> bool,
-        isolated_demand: bool,
+        isolated: IsolatedQuantities,
     ) -> Self {
         let mut quantities = QUANTITIES.to_vec();
         if !buildings.is_empty() {
@@ -473,8 +536,11 @@ impl Layout {
         }
         let of_levels = LEVEL_QUANTITIES.iter().filter(|q| levels_have(q));
         quantities.extend(of_levels.map(|q| q.peak));
-        if isolated_demand {
+        if isolated.demand {
             quantities.push(ISOLATED_DEMAND);
+        }
+        if isolated.peaks {
+            quantities.extend(ISOLATED_PEAKS);
         }
         Self {
             storeys,
@@ -521,20 +587,21 @@ impl Layout {
         at..at
     }
 
-    /// Puts an outcome into columns; `demand` holds the isolated demand of each level.
-    pub fn fill(&self, outcome: &Outcome, demand: &[f64], out: &mut Vec<f64>) {
+    /// Puts an outcome into columns, with what the run without gaps says.
+    pub fn fill(&self, outcome: &Outcome, isolated: &IsolatedRun, out: &mut Vec<f64>) {
         out.clear();
         let storeys = || outcome.buildings.iter().flat_map(|b| &b.storeys);
         let levels = || outcome.gaps.iter().flat_map(|g| &g.levels);
         let end = outcome.energy.end;
         for quantity in &self.quantities {
+            if self.add_isolated(quantity, isolated, out) {
+                continue;
+            }
+            if let Some(peak) = storey_peak(quantity.name) {
+                out.extend(storeys().map(peak));
+                continue;
+            }
             match quantity.name {
-                "peak_displacement" => out.extend(storeys().map(|s| s.displacement.value)),
-                "peak_drift_ratio" => out.extend(storeys().map(|s| s.drift_ratio.value)),
-                "peak_storey_shear" => out.extend(storeys().map(|s| s.storey_shear.value)),
-                "peak_acceleration_absolute" => {
-                    out.extend(storeys().map(|s| s.acceleration_absolute.value));
-                }
                 "impacts" => out.extend(levels().map(|l| l.impacts as f64)),
                 "first_contact" => {
                     out.extend(levels().map(|l| l.first_contact.unwrap_or(f64::NAN)));
@@ -554,7 +621,6 @@ impl Layout {
                     let moments = outcome.buildings.iter().filter_map(|b| b.base_moment);
                     out.extend(moments.map(|m| m.value));
                 }
-                "isolated_demand" => out.extend(demand),
                 _ => {
                     if let Some(own) = LEVEL_QUANTITIES.iter().find(|q| q.peak == *quantity) {
                         out.extend(
@@ -585,11 +651,31 @@ impl Layout {
         peaks
     }
 
-    /// Puts a collapse into columns: nothing is known but the isolated demand of each level.
-    pub fn fill_collapsed(&self, demand: &[f64], out: &mut Vec<f64>) {
+    /// Puts a collapse into columns: nothing is known but what the run without gaps says.
+    pub fn fill_collapsed(&self, isolated: &IsolatedRun, out: &mut Vec<f64>) {
         out.clear();
-        out.resize(self.columns() - demand.len(), f64::NAN);
-        out.extend(demand);
+        for quantity in &self.quantities {
+            if !self.add_isolated(quantity, isolated, out) {
+                out.resize(out.len() + self.width(quantity.axis), f64::NAN);
+            }
+        }
+    }
+
+    /// Adds the values of a quantity of the buildings without pounding; whether it is one.
+    fn add_isolated(&self, quantity: &Quantity, run: &IsolatedRun, out: &mut Vec<f64>) -> bool {
+        if *quantity == ISOLATED_DEMAND {
+            out.extend(&run.demand);
+            return true;
+        }
+        let name = quantity.name.strip_prefix("isolated_");
+        let Some(peak) = name.and_then(storey_peak) else {
+            return false;
+        };
+        match &run.storeys {
+            Some(storeys) => out.extend(storeys.iter().map(peak)),
+            None => out.resize(out.len() + self.width(quantity.axis), f64::NAN),
+        }
+        true
     }
 
     /// A text that two layouts share if and only if they are equal.

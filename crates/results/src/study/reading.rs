@@ -11,7 +11,8 @@ use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
 use super::datasets::{CHOSEN_QUANTITIES, FLOAT32, MERGED_SHARDS, NUMBERS};
 use super::writing::Id;
 use super::{
-    Axis, Coordinate, Description, Ending, Layout, Part, Place, Row, StudyFileError, Value, numbers,
+    Axis, Coordinate, Description, Ending, IsolatedQuantities, Layout, Part, Place, Row,
+    StudyFileError, Value, isolated_peaks, numbers,
 };
 use crate::watch::Reading;
 use crate::{OpenError, ResultFile, Stamp, dataset, number, text, texts, values};
@@ -324,6 +325,12 @@ fn description(file: &File) -> hdf5::Result<Description> {
             choices: v["choices"].as_array().map(named),
         }
     };
+    let coordinates: Vec<Coordinate> = variables
+        .as_array()
+        .into_iter()
+        .flatten()
+        .map(coordinate)
+        .collect();
     let has = |name: &str| -> hdf5::Result<bool> {
         Ok(file.attr_names()?.iter().any(|found| found == name))
     };
@@ -361,15 +368,10 @@ fn description(file: &File) -> hdf5::Result<Description> {
             true => text("warnings")?.lines().map(str::to_owned).collect(),
             false => Vec::new(),
         },
-        layout: layout(file, quantities.as_deref())?,
+        layout: layout(file, quantities.as_deref(), &coordinates)?,
         quantities,
         float32,
-        coordinates: variables
-            .as_array()
-            .into_iter()
-            .flatten()
-            .map(coordinate)
-            .collect(),
+        coordinates,
     })
 }
 
@@ -384,7 +386,11 @@ fn part_of(file: &File, shard: usize, of: usize) -> hdf5::Result<Part> {
 }
 
 /// The columns of a result, of which a study may have chosen some quantities.
-fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
+fn layout(
+    file: &File,
+    chosen: Option<&[String]>,
+    coordinates: &[Coordinate],
+) -> hdf5::Result<Layout> {
     let labels = |name: &str| match file.link_exists(name) {
         true => texts(file, name).map_err(|e| of(name, &e)),
         false => Ok(Vec::new()),
@@ -462,6 +468,8 @@ fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
                 width,
             },
         );
+    // Variables may have the names of quantities that versions before did not know.
+    let stores = |name: &str| file.link_exists(name) && coordinates.iter().all(|c| c.name != name);
     // A study without such buildings may have had a variable of that name, in versions that let
     // no quantities be chosen.
     let buildings = match chosen.is_some() || file.link_exists("peak_base_moment") {
@@ -471,9 +479,12 @@ fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
     let mut layout = Layout::from_places(
         (storeys.collect(), levels.collect()),
         buildings,
-        |response| file.link_exists(response.peak.name),
-        |own| file.link_exists(own.peak.name),
-        file.link_exists("isolated_demand"),
+        |response| stores(response.peak.name),
+        |own| stores(own.peak.name),
+        IsolatedQuantities {
+            demand: stores("isolated_demand"),
+            peaks: isolated_peaks().any(stores),
+        },
     );
     if let Some(names) = chosen {
         layout.keep(names);

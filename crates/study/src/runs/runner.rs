@@ -19,7 +19,7 @@ use super::cache::Cache;
 use super::motions::{Motion, Motions};
 use super::proportion::{factors_of_further, intensity_of_case};
 use super::varied::leave_out_varied;
-use super::{Ending, ID, Layout, Row};
+use super::{Ending, ID, IsolatedQuantities, IsolatedRun, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
 use crate::design::Design;
 use crate::error::StudyError;
@@ -62,7 +62,7 @@ pub(crate) struct Runner<'s> {
     /// Intensity (SI) of the record of the case, to which further records keep their proportion.
     intensity_of_case: Option<f64>,
     buildings: Cache<Result<Arc<System>, String>>,
-    demands: Cache<Result<Arc<Vec<f64>>, String>>,
+    isolated: Cache<Result<Arc<IsolatedRun>, String>>,
 }
 
 /// The version that counts in identities.
@@ -88,18 +88,18 @@ impl<'s> Runner<'s> {
         let system = assembly.system;
         let entries = |v: &Variable| matches!(v.target, Target::Entry { .. });
         let as_given = !study.variables.iter().any(entries);
-        let mut layout = Layout::of(&system, study.isolated_demand);
+        let isolated = IsolatedQuantities {
+            demand: study.isolated_demand,
+            peaks: study.isolated_peaks,
+        };
+        let mut layout = Layout::of(&system, isolated);
         let levels = floors_that_meet(&system).map(|(gap, sides)| (gap.to_owned(), sides));
         let levels = levels.collect();
         let mut missing = Vec::new();
         if let Some(names) = &study.quantities {
             let has = |name: &&String| layout.quantities.iter().any(|q| q.name == name.as_str());
             missing.extend(names.iter().filter(|name| !has(name)).cloned());
-            let mut kept = names.clone();
-            if study.isolated_demand {
-                kept.push("isolated_demand".to_owned());
-            }
-            layout.keep(&kept);
+            layout.keep(names);
         }
         let varied = leave_out_varied(&mut layout, study, &system);
         // What varies may be anything in the case.
@@ -179,7 +179,7 @@ impl<'s> Runner<'s> {
             motions,
             version: VERSION,
             buildings: Cache::new(KEPT),
-            demands: Cache::new(KEPT),
+            isolated: Cache::new(KEPT),
         })
     }
 
@@ -321,9 +321,9 @@ impl<'s> Runner<'s> {
             Err(e @ TimeHistoryError::Collapse { .. }) => Err(e.to_string()),
             Err(e) => return Err(e.to_string()),
         };
-        let demand = if self.study.isolated_demand {
+        let isolated = if self.study.isolated_demand || self.study.isolated_peaks {
             let all: Vec<u64> = key.buildings.iter().chain(&key.motion).copied().collect();
-            self.demands
+            self.isolated
                 .get(&all, || apart(&system, &options).map(Arc::new))?
         } else {
             Arc::default()
@@ -331,11 +331,11 @@ impl<'s> Runner<'s> {
         let mut values = Vec::with_capacity(self.layout.columns());
         match outcome {
             Ok(outcome) => {
-                self.layout.fill(&outcome, &demand, &mut values);
+                self.layout.fill(&outcome, &isolated, &mut values);
                 Ok((values, Ending::Complete))
             }
             Err(collapse) => {
-                self.layout.fill_collapsed(&demand, &mut values);
+                self.layout.fill_collapsed(&isolated, &mut values);
                 Ok((values, Ending::Collapsed(collapse)))
             }
         }
@@ -566,12 +566,21 @@ fn listed<'s>(levels: impl Iterator<Item = FloorsThatMeet<'s>>) -> String {
     }
 }
 
-/// The isolated demand of each level; infinite where the buildings collapse by themselves,
-/// which no gap keeps apart.
-fn apart(system: &System, options: &RunOptions) -> Result<Vec<f64>, String> {
+/// The run without gaps. The isolated demand is infinite where the buildings collapse by
+/// themselves, which no gap keeps apart.
+fn apart(system: &System, options: &RunOptions) -> Result<IsolatedRun, String> {
     match isolated_demand(system, options) {
-        Ok((_, peaks)) => Ok(peaks.iter().map(|p| p.value).collect()),
-        Err(TimeHistoryError::Collapse { .. }) => Ok(vec![f64::INFINITY; system.levels().len()]),
+        Ok((outcome, peaks)) => {
+            let storeys = outcome.buildings.into_iter().flat_map(|b| b.storeys);
+            Ok(IsolatedRun {
+                demand: peaks.iter().map(|p| p.value).collect(),
+                storeys: Some(storeys.collect()),
+            })
+        }
+        Err(TimeHistoryError::Collapse { .. }) => Ok(IsolatedRun {
+            demand: vec![f64::INFINITY; system.levels().len()],
+            storeys: None,
+        }),
         Err(e) => Err(e.to_string()),
     }
 }

@@ -503,6 +503,14 @@ fn a_link_between_rotations_has_units_of_its_own() {
     ] {
         assert!(understood.contains(words), "{understood}");
     }
+    // Of studies the peaks of links are forces and displacements, which it has not.
+    bench.write(
+        "study.toml",
+        "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [0.02, 0.03]\n",
+    );
+    bench.text("sweep study.toml -o study.h5");
+    let study = hdf5::File::open(bench.folder().join("study.h5")).unwrap();
+    assert!(study.link_exists("link_level") && !study.link_exists("peak_link_force"));
     let shown = bench.text("run case.toml -o case.h5");
     let link = shown.split("\nLink soil (bilinear)").nth(1).unwrap();
     for words in [

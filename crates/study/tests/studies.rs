@@ -12,7 +12,7 @@ use pounding_study::{
     Axis, Ending, IntensityMeasure, IsolatedRun, ResultReader, Row, Shard, Study, StudyError,
     SweepOptions, Value, case_of_run, sweep,
 };
-use pounding_time_history::{isolated_demand, run};
+use pounding_time_history::{LinkLevelOutcome, isolated_demand, run};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -720,6 +720,50 @@ fn peaks_without_pounding_are_those_of_buildings_far_apart() {
         assert_eq!(amplified, 8 * 4, "{method}");
         drop(reader);
         std::fs::remove_file(folder.path().join("out.h5")).unwrap();
+    }
+}
+
+/// Links that a variable lets join other floors keep the levels that they have in the case: what a run does not have
+/// is missing, and a warning says so.
+#[test]
+fn levels_of_links_are_those_of_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+    let records = root().join("ground_motions");
+    let case = case
+        .unwrap()
+        .replace("../../ground_motions", records.to_str().unwrap())
+        + "[[link]]\nname = \"tie\"\nbetween = [\"light\", \"heavy\"]\nlevels = [[2, 2], [3, 3]]\nmodel = \"linear\"\nstiffness = \"200 kN/m\"\n";
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let text = "case = \"case.toml\"\n[[variable]]\npath = \"link.tie.levels.0.0\"\nname = \"lower\"\nvalues = [2, 1]\n[[variable]]\npath = \"link.tie.levels.1.0\"\nname = \"upper\"\nvalues = [3, 2]\n";
+    let study = Study::parse(text, &folder.path().join("study.toml")).unwrap();
+    let rows = rows(&study, folder.path());
+    let reader =
+        ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
+    let description = &reader.description;
+    let warned = description.warnings.join("\n");
+    assert!(
+        warned.contains("changes which floors a link joins"),
+        "{warned}"
+    );
+    let layout = &description.layout;
+    let labels: Vec<&str> = layout.link_levels.iter().map(|l| &*l.label).collect();
+    assert_eq!(labels, ["tie 2-2", "tie 3-3"]);
+    let (lower, upper) = (Some(0), Some(1));
+    let of_runs = [[lower, upper], [lower, None], [None, upper], [None; 2]];
+    for ((row, _), levels) in rows.iter().zip(of_runs) {
+        assert_eq!(row.ending, Ending::Complete);
+        let text = case_of_run(&study, row.run).unwrap();
+        let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+        let assembly = assemble(&case).unwrap();
+        let alone = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+        let expected = |of: fn(&LinkLevelOutcome) -> f64| {
+            levels.map(|level| level.map_or(f64::NAN, |level| of(&alone.links[0].levels[level])))
+        };
+        let forces = &row.values[layout.range("peak_link_force")];
+        assert_eq!(bits(forces), bits(&expected(|l| l.force.value)), "{text}");
+        let deformations = &row.values[layout.range("peak_link_deformation")];
+        assert_eq!(bits(deformations), bits(&expected(|l| l.deformation.value)));
     }
 }
 

@@ -7,8 +7,8 @@ use std::sync::Arc;
 use hdf5::File;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_results::study::{
-    Axis, Description, Ending, ID, IsolatedQuantities, IsolatedRun, Layout, Part, ResultReader,
-    ResultWriter, Row, is_result,
+    Axis, Coordinate, Description, Ending, ID, IsolatedQuantities, IsolatedRun, Layout, Part,
+    ResultReader, ResultWriter, Row, Value, is_result,
 };
 use pounding_results::{RunEnding, RunHead, RunWriter, read_all, value};
 use pounding_shear_building::{Damping, LateralStiffness, ShearBuilding};
@@ -219,6 +219,13 @@ fn a_study_has_a_column_for_each() {
             .all(|x| x.is_nan())
     );
 
+    // Versions before let variables have names that are taken now.
+    let coordinates = ["link_level", "peak_opening"].map(|name| Coordinate {
+        name: name.to_owned(),
+        long_name: name.to_owned(),
+        unit: String::new(),
+        choices: None,
+    });
     let description = Description {
         title: String::new(),
         study_sha256: String::new(),
@@ -234,7 +241,7 @@ fn a_study_has_a_column_for_each() {
         quantities: None,
         float32: false,
         layout: layout.clone(),
-        coordinates: Vec::new(),
+        coordinates: coordinates.to_vec(),
     };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("study.h5");
@@ -246,7 +253,7 @@ fn a_study_has_a_column_for_each() {
             values: values.iter().map(|x| x * (run + 1) as f64).collect(),
             ending: Ending::Complete,
         };
-        writer.push(row, Vec::new()).unwrap();
+        writer.push(row, vec![Value::Number(0.5); 2]).unwrap();
     }
     writer.finish().unwrap();
     let reader = ResultReader::open(&path, WithoutChecksum::Refuse).unwrap();

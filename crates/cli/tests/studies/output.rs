@@ -183,7 +183,7 @@ fn quantities_that_cannot_be_chosen_are_refused() {
     ));
     let told = bench.text("sweep study.toml -o some.h5");
     assert!(
-        told.contains("peak_rotation, which no building or gap"),
+        told.contains("peak_rotation, which no building, gap or link"),
         "{told}"
     );
 }

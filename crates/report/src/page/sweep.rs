@@ -264,6 +264,7 @@ fn of_column(layout: &Layout, quantity: &Quantity, index: usize) -> String {
         Axis::Run => return "the run".to_owned(),
         Axis::Storey => &layout.storeys,
         Axis::Level => &layout.levels,
+        Axis::LinkLevel => &layout.link_levels,
         Axis::Building => return layout.buildings.get(index).cloned().unwrap_or_default(),
     };
     let place = labels.get(index);
@@ -314,6 +315,7 @@ fn statistics(result: &ResultReader, runs: &Runs) -> String {
         (Axis::Level, "level"),
         (Axis::Storey, "storey"),
         (Axis::Building, "building"),
+        (Axis::LinkLevel, "level of a link"),
     ] {
         let of_axis = layout.quantities.iter().filter(|q| q.axis == axis);
         let mut tables = String::new();

@@ -2,8 +2,8 @@
 
 use pounding_shear_building::{EDGE_DISPLACEMENTS, OVERTURNING_RATIO};
 use pounding_time_history::{
-    BuildingOutcome, COLUMN_SHEARS, LevelMotion, LevelOutcome, LevelPlace, LinkedMotion, NamedPeak,
-    Outcome, StoreyPeaks, System,
+    BuildingOutcome, COLUMN_SHEARS, LevelMotion, LevelOutcome, LevelPlace, LinkLevelOutcome,
+    LinkedMotion, NamedPeak, Outcome, StoreyPeaks, System,
 };
 
 use crate::run::with_base_moment;
@@ -19,6 +19,8 @@ pub enum Axis {
     Level,
     /// Each building with a stiffness matrix or a foundation.
     Building,
+    /// Each level of each link.
+    LinkLevel,
 }
 
 /// A quantity of the results.
@@ -172,6 +174,22 @@ const ISOLATED_PEAKS: [Quantity; 4] = [
         "isolated_peak_acceleration_absolute",
         "m s-2",
         "maximum absolute floor acceleration without pounding, missing where the isolated buildings collapse",
+    ),
+];
+
+/// Quantities of studies with links that join displacements.
+const OF_LINKS: [Quantity; 2] = [
+    quantity(
+        Axis::LinkLevel,
+        "peak_link_force",
+        "N",
+        "maximum force of the link, missing between rotations of foundations, which it joins by a moment",
+    ),
+    quantity(
+        Axis::LinkLevel,
+        "peak_link_deformation",
+        "m",
+        "maximum deformation of the link, missing between rotations of foundations",
     ),
 ];
 
@@ -406,6 +424,7 @@ pub fn quantity_names() -> impl Iterator<Item = &'static str> {
         .iter()
         .chain([&BASE_MOMENT, &ISOLATED_DEMAND])
         .chain(&ISOLATED_PEAKS)
+        .chain(&OF_LINKS)
         .chain(LEVEL_QUANTITIES.iter().map(|q| &q.peak))
         .chain(RESPONSES.iter().map(|r| &r.peak))
         .map(|q| q.name)
@@ -425,28 +444,41 @@ pub fn is_result(name: &str) -> bool {
         "level_left_elevation",
         "level_right_elevation",
         "level_width",
+        "link_level",
+        "link_level_link",
+        "link_level_left_storey",
+        "link_level_right_storey",
+        "link_level_left_elevation",
+        "link_level_right_elevation",
         "failures",
     ];
     quantity_names().any(|q| q == name) || labels.contains(&name)
 }
 
-/// A storey or a contact level.
+/// A storey, a contact level or a level of a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Place {
     /// Label, unique along its axis.
     pub label: String,
-    /// Building or gap.
+    /// Building, gap or link.
     pub of: String,
-    /// Storeys from 1: of the building, or left and right of the gap; 0 is a wall.
+    /// Storeys from 1: of the building, or left and right of the gap or link; 0 is a wall or a foundation.
     pub storeys: Vec<usize>,
     /// Elevations (m) of these storeys; `None` for a wall, and where a variable of the study
     /// changes a storey height below.
     pub elevations: Vec<Option<f64>>,
-    /// Width of a level at rest (m); `None` for a storey, and where a variable changes it.
+    /// Width of a contact level at rest (m); `None` for others, and where a variable changes it.
     pub width: Option<f64>,
 }
 
 impl Place {
+    /// Whether a link joins rotations here, by a moment in the place of a force.
+    #[must_use]
+    pub fn joins_rotations(&self) -> bool {
+        let joined = LinkedMotion::FoundationRotation.label();
+        joined.is_some_and(|label| self.label == format!("{} {label}", self.of))
+    }
+
     /// Label with the elevations of both sides of a level, as far as all runs share them.
     #[must_use]
     pub fn heading(&self) -> String {
@@ -478,6 +510,8 @@ pub struct Layout {
     pub storeys: Vec<Place>,
     /// Contact levels of all gaps, in the order of the case and from the bottom.
     pub levels: Vec<Place>,
+    /// Levels of all links, in the order of the case and from the bottom.
+    pub link_levels: Vec<Place>,
     /// Names of the buildings with a stiffness matrix or a foundation, from the left.
     pub buildings: Vec<String>,
     /// Quantities in the order of the columns.
@@ -506,9 +540,20 @@ impl Layout {
                 width: Some(l.width),
             })
         });
+        let links = system.links().iter().enumerate();
+        let link_levels = links.flat_map(|(index, link)| {
+            let places = system.link_levels(index).into_iter();
+            places.map(|place| Place {
+                label: format!("{} {}", link.name, place.label()),
+                of: link.name.clone(),
+                storeys: place.storeys.map(|n| n.unwrap_or(0)).to_vec(),
+                elevations: place.elevations.to_vec(),
+                width: None,
+            })
+        });
         let buildings = with_base_moment(system).map(str::to_owned);
         Self::from_places(
-            (storeys.collect(), levels.collect()),
+            [storeys.collect(), levels.collect(), link_levels.collect()],
             buildings.collect(),
             |response| {
                 let mut rows = system.buildings().iter().flat_map(|b| b.responses());
@@ -519,10 +564,10 @@ impl Layout {
         )
     }
 
-    /// The shape with these storeys and levels, these buildings with a base moment, and the
+    /// The shape with these storeys, levels and levels of links, these buildings with a base moment, and the
     /// responses that some of them and some of the levels have; and what is known without pounding.
     pub(super) fn from_places(
-        (storeys, levels): (Vec<Place>, Vec<Place>),
+        [storeys, levels, link_levels]: [Vec<Place>; 3],
         buildings: Vec<String>,
         has: impl Fn(&Response) -> bool,
         levels_have: impl Fn(&LevelQuantity) -> bool,
@@ -536,6 +581,9 @@ impl Layout {
         }
         let of_levels = LEVEL_QUANTITIES.iter().filter(|q| levels_have(q));
         quantities.extend(of_levels.map(|q| q.peak));
+        if link_levels.iter().any(|level| !level.joins_rotations()) {
+            quantities.extend(OF_LINKS);
+        }
         if isolated.demand {
             quantities.push(ISOLATED_DEMAND);
         }
@@ -545,6 +593,7 @@ impl Layout {
         Self {
             storeys,
             levels,
+            link_levels,
             buildings,
             quantities,
         }
@@ -564,6 +613,7 @@ impl Layout {
             Axis::Storey => self.storeys.len(),
             Axis::Level => self.levels.len(),
             Axis::Building => self.buildings.len(),
+            Axis::LinkLevel => self.link_levels.len(),
         }
     }
 
@@ -612,6 +662,10 @@ impl Layout {
                 "impulse" => out.extend(levels().map(|l| l.impulse)),
                 "impulse_max" => out.extend(levels().map(|l| l.impulse_max)),
                 "energy_dissipated" => out.extend(levels().map(|l| l.energy_dissipated)),
+                "peak_link_force" => out.extend(self.of_links(outcome, |l| l.force.value)),
+                "peak_link_deformation" => {
+                    out.extend(self.of_links(outcome, |l| l.deformation.value));
+                }
                 "energy_input" => out.push(end.input),
                 "energy_viscous" => out.push(end.viscous),
                 "energy_hysteretic" => out.push(end.hysteretic),
@@ -633,6 +687,20 @@ impl Layout {
                 }
             }
         }
+    }
+
+    /// A peak of each level of the links; NaN where rotations are joined.
+    fn of_links(
+        &self,
+        outcome: &Outcome,
+        peak: fn(&LinkLevelOutcome) -> f64,
+    ) -> impl Iterator<Item = f64> {
+        let levels = outcome.links.iter().flat_map(|link| &link.levels);
+        let places = self.link_levels.iter().zip(levels);
+        places.map(move |(place, level)| match place.joins_rotations() {
+            true => f64::NAN,
+            false => peak(level),
+        })
     }
 
     /// Peaks of a response, of each storey or of each building with a base moment; NaN where a
@@ -685,6 +753,7 @@ impl Layout {
             .storeys
             .iter()
             .chain(&self.levels)
+            .chain(&self.link_levels)
             .map(|p| p.label.as_str());
         let labels = labels.chain(self.buildings.iter().map(String::as_str));
         let names = self.quantities.iter().map(|q| q.name);

@@ -11,7 +11,8 @@ use pounding_assembly::{
 use pounding_case::{Case, CaseTree};
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{
-    GroundAcceleration, RunOptions, System, TimeHistoryError, Warning, isolated_demand, run,
+    GroundAcceleration, Outcome, RunOptions, System, TimeHistoryError, Warning, isolated_demand,
+    run,
 };
 use sha2::{Digest, Sha256};
 
@@ -50,6 +51,8 @@ pub(crate) struct Runner<'s> {
     pub layout: Layout,
     /// The floors that meet at its contact levels.
     levels: Vec<(String, [Option<usize>; 2])>,
+    /// The storeys that are joined at the levels of each link.
+    joined: Vec<Vec<[Option<usize>; 2]>>,
     /// What the user should know of the case.
     pub warnings: Vec<String>,
     version: &'static str,
@@ -95,6 +98,7 @@ impl<'s> Runner<'s> {
         let mut layout = Layout::of(&system, isolated);
         let levels = floors_that_meet(&system).map(|(gap, sides)| (gap.to_owned(), sides));
         let levels = levels.collect();
+        let joined = joined_storeys(&system);
         let mut missing = Vec::new();
         if let Some(names) = &study.quantities {
             let has = |name: &&String| layout.quantities.iter().any(|q| q.name == name.as_str());
@@ -131,7 +135,7 @@ impl<'s> Runner<'s> {
         })));
         if !missing.is_empty() {
             warnings.push(format!(
-                "[output] chooses {}, which no building or gap of this study has",
+                "[output] chooses {}, which no building, gap or link of this study has",
                 missing.join(", ")
             ));
         }
@@ -146,6 +150,7 @@ impl<'s> Runner<'s> {
         }));
         warnings.extend(study.variables.iter().filter_map(|v| v.asked.clone()));
         warnings.extend(study.variables.iter().filter_map(without_result));
+        warnings.extend(study.variables.iter().filter_map(of_other_levels));
         warnings.extend(study.variables.iter().filter_map(model_named_twice));
         warnings.extend(
             study
@@ -170,6 +175,7 @@ impl<'s> Runner<'s> {
         Ok(Self {
             layout,
             levels,
+            joined,
             warnings,
             lines: Lines::of(base.tree()),
             named_files: named_files(study),
@@ -317,7 +323,10 @@ impl<'s> Runner<'s> {
             ));
         }
         let outcome = match run(&system, &options, &mut [], &mut |_| {}) {
-            Ok(outcome) => Ok(outcome),
+            Ok(mut outcome) => {
+                self.keep_levels_of_links(&system, &mut outcome);
+                Ok(outcome)
+            }
             Err(e @ TimeHistoryError::Collapse { .. }) => Err(e.to_string()),
             Err(e) => return Err(e.to_string()),
         };
@@ -338,6 +347,34 @@ impl<'s> Runner<'s> {
                 self.layout.fill_collapsed(&isolated, &mut values);
                 Ok((values, Ending::Collapsed(collapse)))
             }
+        }
+    }
+
+    /// Gives the links of a run the levels that they have in the case of the study. What a run does
+    /// not have is missing.
+    fn keep_levels_of_links(&self, system: &System, outcome: &mut Outcome) {
+        let found = joined_storeys(system);
+        if found == self.joined {
+            return;
+        }
+        let pairs = self.joined.iter().zip(&found);
+        for (link, (expected, found)) in outcome.links.iter_mut().zip(pairs) {
+            let Some(mut missing) = link.levels.first().copied() else {
+                continue;
+            };
+            missing.force.value = f64::NAN;
+            missing.deformation.value = f64::NAN;
+            let mut own = found.iter().zip(&link.levels).peekable();
+            // Both from the bottom.
+            let level = |storeys: &[Option<usize>; 2]| {
+                while own
+                    .next_if(|(found, _)| found != &storeys && !expected.contains(found))
+                    .is_some()
+                {}
+                own.next_if(|(found, _)| found == &storeys)
+                    .map_or(missing, |(_, level)| *level)
+            };
+            link.levels = expected.iter().map(level).collect();
         }
     }
 
@@ -442,6 +479,21 @@ fn of_no_method(study: &Study, variable: &Variable) -> Option<String> {
             variable.name,
             takers.join(", "),
             used.join(", ")
+        )
+    })
+}
+
+/// What to say of a variable that changes which floors a link joins.
+fn of_other_levels(variable: &Variable) -> Option<String> {
+    let Target::Entry { path, .. } = &variable.target else {
+        return None;
+    };
+    let mut keys = ["levels", "elevation_tolerance"].into_iter();
+    let changes = path.table() == "link" && keys.any(|key| path.leads_through(key));
+    changes.then(|| {
+        format!(
+            "variable \"{}\" changes which floors a link joins: peaks of links are of the levels that they have in the case, and missing in runs without these",
+            variable.name
         )
     })
 }
@@ -552,6 +604,13 @@ fn floors_that_meet(system: &System) -> impl Iterator<Item = FloorsThatMeet<'_>>
         let levels = system.levels_of(gap).iter();
         levels.map(|level| (&*gap.name, level.place.storeys))
     })
+}
+
+/// The storeys that are joined at the levels of each link.
+fn joined_storeys(system: &System) -> Vec<Vec<[Option<usize>; 2]>> {
+    let places = (0..system.links().len()).map(|link| system.link_levels(link));
+    let storeys = places.map(|places| places.iter().map(|place| place.storeys).collect());
+    storeys.collect()
 }
 
 fn listed<'s>(levels: impl Iterator<Item = FloorsThatMeet<'s>>) -> String {

@@ -36,6 +36,10 @@ with xr.open_dataset(path, engine="h5netcdf") as ds:
     # The gap that just keeps the buildings apart decides whether they touch at all.
     touched = ds.impacts.sum("level") > 0
     assert np.array_equal(touched, (ds.isolated_demand.max("level") > ds.gap))
+    # And the amplification by pounding is one where they do not.
+    amplification = ds.peak_storey_shear / ds.isolated_peak_storey_shear
+    assert amplification.dims == ("run", "storey") and ds.isolated_peak_storey_shear.attrs["units"] == "N"
+    assert np.all(amplification.values[~touched.values] == 1) and float(amplification.max()) > 1
     assert len(set(ds.run_id.values)) == 60
     # Selection by coordinates, as in every xarray dataset.
     one = ds.where(ds.model == "jankowski_2005", drop=True)

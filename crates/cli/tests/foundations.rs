@@ -503,6 +503,38 @@ fn a_link_between_rotations_has_units_of_its_own() {
     ] {
         assert!(understood.contains(words), "{understood}");
     }
+    // Of studies the peaks of links are forces and displacements, which it has not.
+    bench.write(
+        "study.toml",
+        "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [0.02, 0.03]\n",
+    );
+    bench.text("sweep study.toml -o study.h5");
+    let study = hdf5::File::open(bench.folder().join("study.h5")).unwrap();
+    assert!(study.link_exists("link_level") && !study.link_exists("peak_link_force"));
+    let limited = "case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [2, 4]\n[ida]\n[[ida.limit]]\nname = \"A\"\ndemand = \"link_force\"\nexceeds = 1\n";
+    bench.write("study.toml", &format!("{limited}link = \"soil\"\n"));
+    bench.refused(
+        "ida study.toml -o ida.h5",
+        &["study.toml:12:8", "by a moment"],
+    );
+    // Beside one between displacements it has no value, and is shown of neither.
+    let sway = link.replace("soil", "base").replace("rocking", "sway");
+    let sway = sway
+        .replace("5 GN m/rad", "5 MN/m")
+        .replace("1 MN m", "1 MN");
+    bench.write("case.toml", &format!("{case}{link}{sway}"));
+    bench.write("study.toml", limited);
+    let told = bench.text("ida study.toml -o ida.h5");
+    assert!(told.contains("peak_link_force: base"), "{told}");
+    assert!(!told.contains("peak_link_force: soil"), "{told}");
+    let study = hdf5::File::open(bench.folder().join("ida.h5")).unwrap();
+    let forces = study.dataset("peak_link_force").unwrap().read_raw::<f64>();
+    let forces = forces.unwrap();
+    assert!(
+        forces.len() == 4 && forces.chunks(2).all(|run| run[0].is_nan() && run[1] > 0.0),
+        "{forces:?}"
+    );
+    bench.write("case.toml", &format!("{case}{link}"));
     let shown = bench.text("run case.toml -o case.h5");
     let link = shown.split("\nLink soil (bilinear)").nth(1).unwrap();
     for words in [

@@ -241,6 +241,129 @@ fn openings_of_joints_in_studies() {
     );
 }
 
+/// Forces and deformations of links in studies are those of the runs, also by shards; a limit may name the link whose levels
+/// count, and limits that links do not have are refused.
+#[test]
+fn links_in_studies() {
+    let (place, case) = bridge_with_seats("0.35 m");
+    let folder = place.path();
+    let motions = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../ground_motions");
+    let motions = motions.canonicalize().unwrap();
+    let pounding = |arguments: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .current_dir(folder)
+            .args(arguments.split(' '))
+            .output()
+            .unwrap();
+        let told = String::from_utf8(output.stdout).unwrap();
+        let complaint = String::from_utf8(output.stderr).unwrap();
+        (output.status.code(), told, complaint)
+    };
+    let study = |limit: &str| {
+        let text = format!(
+            "case = \"case.toml\"\n[output]\nchunk = 1\n[[variable]]\nrecords = [\"{0}/el_centro_1940_ns.csv\", \"{0}/kobe_1995_jma_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.1 g\", \"0.8 g\"]\n[ida]\n[[ida.limit]]\nname = \"A\"\ndemand = \"link_force\"\n{limit}",
+            motions.display()
+        );
+        std::fs::write(folder.join("study.toml"), text).unwrap();
+    };
+    let east = "[[ida.limit]]\nname = \"B\"\ndemand = \"link_deformation\"\nlink = \"restrainer east\"\nexceeds = \"50 mm\"\n";
+    study(&format!("exceeds = \"1 MN\"\n{east}"));
+    let (code, told, complaint) = pounding("ida study.toml -o study.h5 --json --csv rows.csv");
+    assert_eq!(code, Some(0), "{complaint}");
+    let told: Value = serde_json::from_str(&told).unwrap();
+    // Every row is that of a run, and both limits count the rows beyond them.
+    let file = hdf5::File::open(folder.join("study.h5")).unwrap();
+    let text = |name: &str| {
+        let texts = file.dataset(name).unwrap();
+        let texts = texts.read_raw::<hdf5::types::VarLenUnicode>().unwrap();
+        texts.iter().map(ToString::to_string).collect::<Vec<_>>()
+    };
+    let labels = [
+        "restrainer west 1-1",
+        "restrainer east 1-1",
+        "abutment west wall-1",
+        "abutment east 1-wall",
+    ];
+    assert_eq!(text("link_level"), labels);
+    assert_eq!(text("link_level_link")[2], "abutment west");
+    let numbers = |name: &str| file.dataset(name).unwrap().read_raw::<f64>().unwrap();
+    let (forces, deformations) = (numbers("peak_link_force"), numbers("peak_link_deformation"));
+    for run in 0..4 {
+        let (_, shown, _) = pounding(&format!("sweep study.toml --show {run}"));
+        std::fs::write(folder.join("alone.toml"), shown).unwrap();
+        let (_, alone, _) = pounding("run alone.toml --no-output --json");
+        let alone: Value = serde_json::from_str(&alone).unwrap();
+        for link in 0..4 {
+            let level = &alone["links"][link]["levels"][0];
+            let peak = |name: &str| level[name]["peak"].as_f64().unwrap();
+            let at = 4 * run + link;
+            assert_eq!(
+                [forces[at], deformations[at]],
+                ["force", "deformation"].map(peak)
+            );
+        }
+    }
+    let reached = |limit: usize| {
+        let levels = told["limits"][limit]["counts"].as_array().unwrap();
+        let counts = levels.iter().map(|c| c["reached"].as_u64().unwrap());
+        counts.sum::<u64>() as usize
+    };
+    let beyond = forces
+        .chunks(4)
+        .filter(|run| run.iter().any(|force| *force > 1e6));
+    assert_eq!(reached(1), beyond.count());
+    let beyond = deformations.chunks(4).filter(|run| run[1] > 0.05).count();
+    assert!(beyond > 0 && reached(2) == beyond, "{deformations:?}");
+    assert!(told.to_string().contains("peak_link_force: abutment east"));
+    let rows = std::fs::read_to_string(folder.join("rows.csv")).unwrap();
+    let header = rows.lines().next().unwrap();
+    assert!(
+        header.contains("peak_link_force: restrainer west 1-1 (9 m | 9 m) [N]"),
+        "{header}"
+    );
+    let (code, _, complaint) = pounding("report study.h5 -o study.html");
+    assert_eq!(code, Some(0), "{complaint}");
+    for shard in ["1/2", "2/2"] {
+        pounding(&format!("sweep study.toml --shard {shard} --into shards"));
+    }
+    pounding("merge shards -o merged.h5");
+    let bytes = |name: &str| std::fs::read(folder.join(name)).unwrap();
+    assert!(bytes("merged.h5") == bytes("study.h5"));
+    let (_, compared, _) =
+        pounding("compare case.toml --models anagnostopoulos_2004,linear_elastic --json");
+    for name in ["\"link_force\"", "\"link_deformation\""] {
+        assert!(compared.contains(name), "{compared}");
+    }
+    for (limit, word) in [
+        ("link = \"restrainer\"", "its links are restrainer west"),
+        ("level = 1", "name a `link` in its place"),
+        ("building = \"west\"", "name a `link` in its place"),
+    ] {
+        study(&format!("exceeds = \"1 MN\"\n{limit}\n"));
+        let (code, _, complaint) = pounding("ida study.toml -o none.h5");
+        assert_eq!(code, Some(2), "{complaint}");
+        assert!(
+            complaint.contains(word) && complaint.contains("study.toml:"),
+            "{complaint}"
+        );
+    }
+    study(
+        "exceeds = \"1 MN\"\n[[ida.limit]]\nname = \"C\"\ndemand = \"opening\"\nlink = \"restrainer east\"\nexceeds = 1\n",
+    );
+    let (code, _, complaint) = pounding("ida study.toml -o none.h5");
+    assert_eq!(code, Some(2), "{complaint}");
+    assert!(complaint.contains("is not of links"), "{complaint}");
+    // Without links there is nothing to limit, and no axis.
+    let bridge = std::fs::read_to_string(&case).unwrap();
+    let (before, rest) = bridge.split_once("[[link]]").unwrap();
+    let after = &rest[rest.find("[ground_motion").unwrap()..];
+    std::fs::write(&case, format!("{before}{after}")).unwrap();
+    study("exceeds = \"1 MN\"\n");
+    let (code, _, complaint) = pounding("ida study.toml -o none.h5");
+    assert_eq!(code, Some(2), "{complaint}");
+    assert!(complaint.contains("the case has no link"), "{complaint}");
+}
+
 /// The check of the gap says how far joints with a seat open, as the run does, and holds rules of seats against the
 /// seat: TBDY 2018 asks for 297.7 and 316.3 mm, more than 60 mm and less than 350 mm, and what closes the gap is no
 /// measure of it.

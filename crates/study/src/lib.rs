@@ -72,7 +72,9 @@ pub use pounding_results::study::{
     ranges, survey,
 };
 #[cfg(feature = "results")]
-pub use runs::{Axis, Ending, Layout, Place, Quantity, RecordReport, Row};
+pub use runs::{
+    Axis, Ending, IsolatedQuantities, IsolatedRun, Layout, Place, Quantity, RecordReport, Row,
+};
 #[cfg(feature = "results")]
 pub use shard_name::ShardName;
 #[cfg(feature = "results")]

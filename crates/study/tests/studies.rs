@@ -9,10 +9,10 @@ use pounding_case::Case;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_ground_motion::processing::Scale;
 use pounding_study::{
-    Axis, Ending, IntensityMeasure, ResultReader, Row, Shard, Study, StudyError, SweepOptions,
-    Value, case_of_run, sweep,
+    Axis, Ending, IntensityMeasure, IsolatedRun, ResultReader, Row, Shard, Study, StudyError,
+    SweepOptions, Value, case_of_run, sweep,
 };
-use pounding_time_history::{isolated_demand, run};
+use pounding_time_history::{LinkLevelOutcome, isolated_demand, run};
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -77,6 +77,10 @@ fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
     .unwrap();
     let reader = ResultReader::open(&output, WithoutChecksum::Refuse).unwrap();
     reader.block(0..reader.rows).unwrap()
+}
+
+fn bits(values: &[f64]) -> Vec<u64> {
+    values.iter().map(|x| x.to_bits()).collect()
 }
 
 /// Runs that share buildings, records and exact steps give, to the last bit, what their
@@ -628,7 +632,7 @@ fn sharing_changes_no_bit_where_columns_are_hit() {
             }
         };
         let text = format!(
-            "case = \"case.toml\"\n[output]\nisolated_demand = true\n[[variable]]\nname = \"gap\"\npath = \"gap.0.width\"\nvalues = [0.008, 0.012]\n[[variable]]\nname = \"EI\"\npath = \"gap.0.column.flexural_rigidity\"\nvalues = [1e8, 2e8]\n{second}"
+            "case = \"case.toml\"\n[output]\nisolated_demand = true\nisolated_peaks = true\n[[variable]]\nname = \"gap\"\npath = \"gap.0.width\"\nvalues = [0.008, 0.012]\n[[variable]]\nname = \"EI\"\npath = \"gap.0.column.flexural_rigidity\"\nvalues = [1e8, 2e8]\n{second}"
         );
         let study = Study::parse(&text, &folder.path().join("study.toml")).unwrap();
         let rows = rows(&study, folder.path());
@@ -644,16 +648,122 @@ fn sharing_changes_no_bit_where_columns_are_hit() {
             let assembly = assemble(&case).unwrap();
             let alone = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
             let mut expected = Vec::new();
-            let (_, demand) = isolated_demand(&assembly.system, &assembly.options).unwrap();
-            let demand: Vec<f64> = demand.iter().map(|p| p.value).collect();
-            layout.fill(&alone, &demand, &mut expected);
-            let bits = |values: &[f64]| values.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
+            let (isolated, demand) = isolated_demand(&assembly.system, &assembly.options).unwrap();
+            let storeys = isolated.buildings.into_iter().flat_map(|b| b.storeys);
+            let isolated = IsolatedRun {
+                demand: demand.iter().map(|p| p.value).collect(),
+                storeys: Some(storeys.collect()),
+            };
+            layout.fill(&alone, &isolated, &mut expected);
             assert_eq!(bits(&row.values), bits(&expected), "{text}");
             assert!(alone.impacts.len() > 1);
             shears.push(row.values[layout.range("peak_column_shear")].to_vec());
         }
         shears.dedup();
         assert_eq!(shears.len(), 8, "every value changes the columns");
+    }
+}
+
+/// Peaks without pounding are those of the run that gives the isolated demand, and of the same buildings a kilometre apart,
+/// with their link, whatever the gap and its model.
+#[test]
+fn peaks_without_pounding_are_those_of_buildings_far_apart() {
+    const PEAKS: [&str; 4] = [
+        "peak_displacement",
+        "peak_drift_ratio",
+        "peak_storey_shear",
+        "peak_acceleration_absolute",
+    ];
+    let folder = tempfile::tempdir().unwrap();
+    let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+    let records = root().join("ground_motions");
+    let case = case
+        .unwrap()
+        .replace("../../ground_motions", records.to_str().unwrap())
+        + "[[link]]\nbetween = [\"light\", \"heavy\"]\nlevels = [[3, 3]]\nmodel = \"linear\"\nstiffness = \"200 kN/m\"\n";
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    for method in ["event_driven", "adaptive"] {
+        let text = format!(
+            "case = \"case.toml\"\n[output]\nisolated_peaks = true\n[[variable]]\nname = \"method\"\npath = \"analysis.method\"\nvalues = [\"{method}\"]\n[[variable]]\nname = \"gap\"\npath = \"gap.0.width\"\nvalues = [0.005, 0.01, 1000]\n[[variable]]\nname = \"model\"\npath = \"gap.0.model\"\nvalues = [{{ model = \"linear_elastic\", stiffness = 1e8 }}, {{ model = \"stereomechanical\", restitution = 0.6 }}]\n[[variable]]\npath = \"ground_motion.scale\"\nvalues = [1, 1.25]\n"
+        );
+        let study = Study::parse(&text, &folder.path().join("study.toml")).unwrap();
+        let rows = rows(&study, folder.path());
+        let reader =
+            ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
+        let layout = &reader.description.layout;
+        assert!(layout.range("isolated_demand").is_empty());
+        let mut amplified = 0;
+        for (row, _) in &rows {
+            assert_eq!(row.ending, Ending::Complete);
+            let text = case_of_run(&study, row.run).unwrap();
+            let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+            let assembly = assemble(&case).unwrap();
+            let (alone, _) = isolated_demand(&assembly.system, &assembly.options).unwrap();
+            let storeys = || alone.buildings.iter().flat_map(|b| &b.storeys);
+            let of_run: [Vec<f64>; 4] = [
+                storeys().map(|s| s.displacement.value).collect(),
+                storeys().map(|s| s.drift_ratio.value).collect(),
+                storeys().map(|s| s.storey_shear.value).collect(),
+                storeys().map(|s| s.acceleration_absolute.value).collect(),
+            ];
+            let far = (8..12).contains(&row.run);
+            for (name, of_run) in PEAKS.iter().zip(&of_run) {
+                let isolated = &row.values[layout.range(&format!("isolated_{name}"))];
+                assert_eq!(bits(isolated), bits(of_run), "{name}");
+                let with = &row.values[layout.range(name)];
+                if far {
+                    assert_eq!(bits(isolated), bits(with), "{name}");
+                }
+                amplified += usize::from(isolated != with);
+            }
+        }
+        assert_eq!(amplified, 8 * 4, "{method}");
+        drop(reader);
+        std::fs::remove_file(folder.path().join("out.h5")).unwrap();
+    }
+}
+
+/// Links that a variable lets join other floors keep the levels that they have in the case: what a run does not have
+/// is missing, and a warning says so.
+#[test]
+fn levels_of_links_are_those_of_the_case() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"));
+    let records = root().join("ground_motions");
+    let case = case
+        .unwrap()
+        .replace("../../ground_motions", records.to_str().unwrap())
+        + "[[link]]\nname = \"tie\"\nbetween = [\"light\", \"heavy\"]\nlevels = [[2, 2], [3, 3]]\nmodel = \"linear\"\nstiffness = \"200 kN/m\"\n";
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let text = "case = \"case.toml\"\n[[variable]]\npath = \"link.tie.levels.0.0\"\nname = \"lower\"\nvalues = [2, 1]\n[[variable]]\npath = \"link.tie.levels.1.0\"\nname = \"upper\"\nvalues = [3, 2]\n";
+    let study = Study::parse(text, &folder.path().join("study.toml")).unwrap();
+    let rows = rows(&study, folder.path());
+    let reader =
+        ResultReader::open(&folder.path().join("out.h5"), WithoutChecksum::Refuse).unwrap();
+    let description = &reader.description;
+    let warned = description.warnings.join("\n");
+    assert!(
+        warned.contains("changes which floors a link joins"),
+        "{warned}"
+    );
+    let layout = &description.layout;
+    let labels: Vec<&str> = layout.link_levels.iter().map(|l| &*l.label).collect();
+    assert_eq!(labels, ["tie 2-2", "tie 3-3"]);
+    let (lower, upper) = (Some(0), Some(1));
+    let of_runs = [[lower, upper], [lower, None], [None, upper], [None; 2]];
+    for ((row, _), levels) in rows.iter().zip(of_runs) {
+        assert_eq!(row.ending, Ending::Complete);
+        let text = case_of_run(&study, row.run).unwrap();
+        let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+        let assembly = assemble(&case).unwrap();
+        let alone = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+        let expected = |of: fn(&LinkLevelOutcome) -> f64| {
+            levels.map(|level| level.map_or(f64::NAN, |level| of(&alone.links[0].levels[level])))
+        };
+        let forces = &row.values[layout.range("peak_link_force")];
+        assert_eq!(bits(forces), bits(&expected(|l| l.force.value)), "{text}");
+        let deformations = &row.values[layout.range("peak_link_deformation")];
+        assert_eq!(bits(deformations), bits(&expected(|l| l.deformation.value)));
     }
 }
 

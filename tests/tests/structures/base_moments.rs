@@ -7,7 +7,8 @@ use std::sync::Arc;
 use hdf5::File;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_results::study::{
-    Axis, Description, Ending, ID, Layout, Part, ResultReader, ResultWriter, Row, is_result,
+    Axis, Coordinate, Description, Ending, ID, IsolatedQuantities, IsolatedRun, Layout, Part,
+    ResultReader, ResultWriter, Row, Value, is_result,
 };
 use pounding_results::{RunEnding, RunHead, RunWriter, read_all, value};
 use pounding_shear_building::{Damping, LateralStiffness, ShearBuilding};
@@ -182,13 +183,23 @@ fn a_study_has_a_column_for_each() {
         ..RunOptions::default()
     };
     let outcome = run(&system, &options, &mut [], &mut |_| {}).unwrap();
-    let layout = Layout::of(&system, true);
+    let isolated = IsolatedQuantities {
+        demand: true,
+        peaks: true,
+    };
+    let layout = Layout::of(&system, isolated);
     assert_eq!(layout.buildings, ["wall", "frame"]);
     assert_eq!(layout.width(Axis::Building), 2);
     assert!(is_result("peak_base_moment") && is_result("building"));
-    let demand = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+    let demand = vec![0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
+    let without_gaps = run(&system.without_gaps(), &options, &mut [], &mut |_| {}).unwrap();
+    let storeys = without_gaps.buildings.into_iter().flat_map(|b| b.storeys);
+    let isolated = IsolatedRun {
+        demand: demand.clone(),
+        storeys: Some(storeys.collect()),
+    };
     let mut values = Vec::new();
-    layout.fill(&outcome, &demand, &mut values);
+    layout.fill(&outcome, &isolated, &mut values);
     assert_eq!(values.len(), layout.columns());
     let moment = |b: usize| outcome.buildings[b].base_moment.unwrap().value;
     assert_eq!(
@@ -197,14 +208,24 @@ fn a_study_has_a_column_for_each() {
     );
     assert_eq!(values[layout.range("isolated_demand")], demand);
     let mut collapsed = Vec::new();
-    layout.fill_collapsed(&demand, &mut collapsed);
+    layout.fill_collapsed(&isolated, &mut collapsed);
     assert_eq!(collapsed.len(), layout.columns());
+    for name in ["isolated_demand", "isolated_peak_drift_ratio"] {
+        assert_eq!(collapsed[layout.range(name)], values[layout.range(name)]);
+    }
     assert!(
         collapsed[layout.range("peak_base_moment")]
             .iter()
             .all(|x| x.is_nan())
     );
 
+    // Versions before let variables have names that are taken now.
+    let coordinates = ["link_level", "peak_opening"].map(|name| Coordinate {
+        name: name.to_owned(),
+        long_name: name.to_owned(),
+        unit: String::new(),
+        choices: None,
+    });
     let description = Description {
         title: String::new(),
         study_sha256: String::new(),
@@ -220,7 +241,7 @@ fn a_study_has_a_column_for_each() {
         quantities: None,
         float32: false,
         layout: layout.clone(),
-        coordinates: Vec::new(),
+        coordinates: coordinates.to_vec(),
     };
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("study.h5");
@@ -232,7 +253,7 @@ fn a_study_has_a_column_for_each() {
             values: values.iter().map(|x| x * (run + 1) as f64).collect(),
             ending: Ending::Complete,
         };
-        writer.push(row, Vec::new()).unwrap();
+        writer.push(row, vec![Value::Number(0.5); 2]).unwrap();
     }
     writer.finish().unwrap();
     let reader = ResultReader::open(&path, WithoutChecksum::Refuse).unwrap();
@@ -246,7 +267,7 @@ fn a_study_has_a_column_for_each() {
     let damping = Damping::Modal { ratios: vec![0.05] };
     let chain = ShearBuilding::new("a".into(), vec![1.0e4], vec![1.0e6], vec![3.0], damping);
     let system = System::new(vec![Arc::new(chain.unwrap())], el_centro());
-    let names = Layout::of(&system, false).quantities;
+    let names = Layout::of(&system, IsolatedQuantities::default()).quantities;
     assert!(names.iter().all(|q| q.axis != Axis::Building));
 }
 

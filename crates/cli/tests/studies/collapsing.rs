@@ -186,7 +186,7 @@ fn a_limit_on_the_isolated_demand_asks_the_buildings_without_contact() {
         + "[[gap]]\nbetween = [\"light\", \"heavy\"]\nwidth = \"60 mm\"\nmodel = \"anagnostopoulos_2004\"\nstiffness = \"500 MN/m\"\nrestitution = 0.6\n"
         + &CASE[CASE.find("[ground_motion]").unwrap()..CASE.find("[analysis]").unwrap()];
     let bench = bench_of(&case);
-    bench.study("case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/kobe_1995_jma_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [2.179, 4.576, 5.775]\n[ida]\ngaps = [\"200 mm\"]\n[[ida.limit]]\nname = \"isolated\"\ndemand = \"isolated_demand\"\nexceeds = \"200 mm\"\n[[ida.limit]]\nname = \"drift\"\ndemand = \"drift_ratio\"\nbuilding = \"light\"\nexceeds = 0.9\n");
+    bench.study("case = \"case.toml\"\n[output]\nisolated_peaks = true\n[[variable]]\nrecords = [\"MOTIONS/kobe_1995_jma_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [2.179, 4.576, 5.775]\n[ida]\ngaps = [\"200 mm\"]\n[[ida.limit]]\nname = \"isolated\"\ndemand = \"isolated_demand\"\nexceeds = \"200 mm\"\n[[ida.limit]]\nname = \"drift\"\ndemand = \"drift_ratio\"\nbuilding = \"light\"\nexceeds = 0.9\n");
     let told: Value = serde_json::from_str(&bench.text("ida study.toml -o out.h5 --json")).unwrap();
     let reached = |state: &Value| {
         let counts = state["counts"].as_array().unwrap().iter();
@@ -199,17 +199,39 @@ fn a_limit_on_the_isolated_demand_asks_the_buildings_without_contact() {
     assert_eq!(reached(&told["limits"][1]), [0, 0, 1]);
     // Other demands are above everything in a collapse.
     assert_eq!(reached(&told["limits"][2]), [0, 1, 1]);
+    // Peaks without pounding are known where contact alone overturns the building.
+    let file = hdf5::File::open(bench.path("out.h5")).unwrap();
+    let drifts = |name: &str| file.dataset(name).unwrap().read_raw::<f64>().unwrap();
+    let (with, without) = (
+        drifts("peak_drift_ratio"),
+        drifts("isolated_peak_drift_ratio"),
+    );
+    assert!(
+        with[0] > 0.0 && with[4..].iter().all(|x| x.is_nan()),
+        "{with:?}"
+    );
+    assert!(without.iter().all(|x| *x > 0.0), "{without:?}");
 }
 
 /// A study in which every run collapses has an answer; one run alone still ends with 3.
 #[test]
 fn collapse_of_all_runs_is_no_failure() {
     let bench = bench();
-    bench.study(&STUDY.replace("\"0.02 g\", \"0.2 g\", \"2 g\", ", ""));
+    let study = STUDY.replace("\"0.02 g\", \"0.2 g\", \"2 g\", ", "");
+    bench.study(&study.replace("[ida]", "[output]\nisolated_peaks = true\n[ida]"));
     let told = bench.text("sweep study.toml -o out.h5");
     assert!(
         told.contains("none failed") && told.contains("Collapse in 2 runs"),
         "{told}"
+    );
+    // The frame falls by itself: no gap keeps it apart, and it has no peaks.
+    let file = hdf5::File::open(bench.path("out.h5")).unwrap();
+    let values = |name: &str| file.dataset(name).unwrap().read_raw::<f64>().unwrap();
+    assert_eq!(values("isolated_demand"), [f64::INFINITY; 2]);
+    let peaks = values("isolated_peak_displacement");
+    assert!(
+        peaks.len() == 4 && peaks.iter().all(|x| x.is_nan()),
+        "{peaks:?}"
     );
 }
 

@@ -53,6 +53,69 @@ fn quantities_are_chosen_and_have_the_values_of_all() {
     assert!(bench.bytes("merged.csv") == bench.bytes("some.csv"));
 }
 
+/// What the run without gaps gives is stored where it is asked for, by its key or by names, to the same bytes in shards; and
+/// no variable has such a name.
+#[test]
+fn peaks_without_pounding_are_stored_as_asked() {
+    let with = |output: &str| MIXED.replace("isolated_demand = true", output);
+    let bench = Bench::new(&with("isolated_demand = true\nisolated_peaks = true"));
+    bench.text("sweep study.toml -o all.h5 --csv all.csv --threads 1");
+    for index in 1..=3 {
+        bench.text(&format!("sweep study.toml --shard {index}/3 --into shards"));
+    }
+    bench.text("merge shards -o merged.h5 --csv merged.csv");
+    assert!(bench.bytes("merged.h5") == bench.bytes("all.h5"));
+    assert!(bench.bytes("merged.csv") == bench.bytes("all.csv"));
+    bench.text("sweep study.toml -o all.h5 --resume --csv again.csv");
+    assert!(bench.bytes("again.csv") == bench.bytes("all.csv"));
+    bench.text("report all.h5 -o all.html");
+    let (with_pounding, without) = (
+        numbers(&bench, "all.h5", "peak_storey_shear"),
+        numbers(&bench, "all.h5", "isolated_peak_storey_shear"),
+    );
+    assert_eq!(without.len(), 60 * 6);
+    let raised = with_pounding.iter().zip(&without).filter(|(a, b)| a > b);
+    assert!(raised.count() > 60);
+    // By the key beside chosen quantities, by a name alone, and by neither.
+    for (output, stored) in [
+        (
+            "quantities = [\"impacts\"]\nisolated_peaks = true",
+            [true, true, false],
+        ),
+        (
+            "quantities = [\"isolated_peak_storey_shear\"]",
+            [true, false, false],
+        ),
+        ("", [false; 3]),
+    ] {
+        bench.study(&with(output));
+        bench.text("sweep study.toml -o some.h5");
+        let file = hdf5::File::open(bench.path("some.h5")).unwrap();
+        let names = [
+            "isolated_peak_storey_shear",
+            "isolated_peak_displacement",
+            "isolated_demand",
+        ];
+        assert_eq!(names.map(|name| file.link_exists(name)), stored, "{output}");
+        drop(file);
+        if stored[0] {
+            let some = numbers(&bench, "some.h5", names[0]);
+            assert!(
+                some.iter()
+                    .map(|x| x.to_bits())
+                    .eq(without.iter().map(|x| x.to_bits()))
+            );
+        }
+        bench.text("report some.h5 -o some.html");
+    }
+    bench.study(&with("isolated_peaks = \"yes\""));
+    let told = bench.complaint("sweep study.toml", 2);
+    assert!(told.contains("`isolated_peaks` must"), "{told}");
+    bench.study(&with("").replace("name = \"mass\"", "name = \"isolated_peak_drift_ratio\""));
+    let told = bench.complaint("sweep study.toml", 2);
+    assert!(told.contains("isolated_peak_drift_ratio"), "{told}");
+}
+
 /// Every value is that of 64 bits, rounded once; coordinates stay as they are.
 #[test]
 fn numbers_of_32_bits_are_those_of_64_rounded() {
@@ -120,7 +183,7 @@ fn quantities_that_cannot_be_chosen_are_refused() {
     ));
     let told = bench.text("sweep study.toml -o some.h5");
     assert!(
-        told.contains("peak_rotation, which no building or gap"),
+        told.contains("peak_rotation, which no building, gap or link"),
         "{told}"
     );
 }

@@ -8,7 +8,8 @@ use super::{Bench, MIXED, root};
 /// `scripts/test` does. Without it there is no Python to test with.
 #[test]
 fn a_study_opens_in_python() {
-    let bench = Bench::new(MIXED);
+    let peaks = "isolated_demand = true\nisolated_peaks = true";
+    let bench = Bench::new(&MIXED.replace("isolated_demand = true", peaks));
     bench.text("sweep study.toml -o out.h5 --csv out.csv");
     let Some(python) = std::env::var_os("POUNDING_PYTHON") else {
         return;

@@ -264,6 +264,7 @@ fn of_column(layout: &Layout, quantity: &Quantity, index: usize) -> String {
         Axis::Run => return "the run".to_owned(),
         Axis::Storey => &layout.storeys,
         Axis::Level => &layout.levels,
+        Axis::LinkLevel => &layout.link_levels,
         Axis::Building => return layout.buildings.get(index).cloned().unwrap_or_default(),
     };
     let place = labels.get(index);
@@ -314,6 +315,7 @@ fn statistics(result: &ResultReader, runs: &Runs) -> String {
         (Axis::Level, "level"),
         (Axis::Storey, "storey"),
         (Axis::Building, "building"),
+        (Axis::LinkLevel, "level of a link"),
     ] {
         let of_axis = layout.quantities.iter().filter(|q| q.axis == axis);
         let mut tables = String::new();
@@ -359,7 +361,7 @@ fn statistics(result: &ResultReader, runs: &Runs) -> String {
     let collapsed = match runs.collapsed.len() {
         0 => String::new(),
         n => format!(
-            " {} collapsed, of which only the isolated demand is known: all other minima, medians and maxima are of the runs that stood.",
+            " {} collapsed, of which only isolated demands and peaks are known: all other minima, medians and maxima are of the runs that stood.",
             counted(n, "run")
         ),
     };

@@ -7,7 +7,7 @@ use hdf5::{Dataset, File, Group, H5Type, Result};
 use serde_json::json;
 
 use super::writing::{BLOCK, Id};
-use super::{Axis, Description, ranges};
+use super::{Axis, Description, Place, ranges};
 use crate::attributes::{self, text, unicode};
 use crate::dimension_scales::attach;
 
@@ -26,6 +26,7 @@ pub(super) struct Axes<'d> {
     pub run: &'d Dataset,
     pub storey: Option<&'d Dataset>,
     pub level: Option<&'d Dataset>,
+    pub link_level: Option<&'d Dataset>,
     pub building: Option<&'d Dataset>,
     /// Names of the coordinates of the runs.
     pub coordinates: &'d str,
@@ -75,9 +76,10 @@ pub(super) fn states(file: &File, axes: &Axes<'_>, rows: usize) -> Result<(Datas
     Ok((status, id))
 }
 
-/// Coordinates of storeys and of levels beside their labels.
+/// Coordinates of storeys, of levels and of levels of links beside their labels.
 const OF_STOREYS: &str = "storey_building storey_number storey_elevation";
 const OF_LEVELS: &str = "level_gap level_left_storey level_right_storey level_left_elevation level_right_elevation level_width";
+const OF_LINK_LEVELS: &str = "link_level_link link_level_left_storey link_level_right_storey link_level_left_elevation link_level_right_elevation";
 
 /// A dataset for each quantity, with its columns.
 pub(super) fn quantities(
@@ -94,6 +96,7 @@ pub(super) fn quantities(
             Axis::Storey => (Some(layout.width(q.axis)), axes.storey, OF_STOREYS),
             Axis::Level => (Some(layout.width(q.axis)), axes.level, OF_LEVELS),
             Axis::Building => (Some(layout.width(q.axis)), axes.building, ""),
+            Axis::LinkLevel => (Some(layout.width(q.axis)), axes.link_level, OF_LINK_LEVELS),
         };
         if width == Some(0) {
             continue;
@@ -158,12 +161,11 @@ pub(super) fn root(file: &File, d: &Description) -> Result<()> {
     Ok(())
 }
 
-/// What the labels of storeys and levels are made of.
+/// What the labels of storeys, levels and levels of links are made of.
 pub(super) fn places(
     file: &File,
     d: &Description,
-    storey: Option<&Dataset>,
-    level: Option<&Dataset>,
+    [storey, level, link_level]: [Option<&Dataset>; 3],
 ) -> Result<()> {
     let (storeys, levels) = (&d.layout.storeys, &d.layout.levels);
     if let Some(scale) = storey {
@@ -186,21 +188,45 @@ pub(super) fn places(
         if let Some(data) = labels(file, "level_gap", levels.iter().map(|p| p.of.as_str()))? {
             attach(&data, scale, 0)?;
         }
-        for (i, side) in ["left", "right"].into_iter().enumerate() {
-            let values: Vec<i32> = levels.iter().map(|p| p.storeys[i] as i32).collect();
-            let name = format!("level_{side}_storey");
-            let about = (name.as_str(), "", "storey from 1, 0 for a wall");
-            numbers(file, about, &values, scale)?;
-            let values = levels.iter().map(|p| or_nan(p.elevations[i]));
-            let name = format!("level_{side}_elevation");
-            let long_name =
-                "floor elevation above the ground; NaN for a wall, and where a variable changes it";
-            let about = (name.as_str(), "m", long_name);
-            numbers(file, about, &values.collect::<Vec<_>>(), scale)?;
-        }
+        sides(
+            file,
+            ("level", "storey from 1, 0 for a wall"),
+            levels,
+            scale,
+        )?;
         let values: Vec<f64> = levels.iter().map(|p| or_nan(p.width)).collect();
         let long_name = "width of the gap at rest; NaN where a variable changes it";
         numbers(file, ("level_width", "m", long_name), &values, scale)?;
+    }
+    let levels = &d.layout.link_levels;
+    if let Some(scale) = link_level {
+        let links = levels.iter().map(|p| p.of.as_str());
+        if let Some(data) = labels(file, "link_level_link", links)? {
+            attach(&data, scale, 0)?;
+        }
+        let storey = "storey from 1, 0 for a wall or a foundation";
+        sides(file, ("link_level", storey), levels, scale)?;
+    }
+    Ok(())
+}
+
+/// Storeys and elevations on both sides of levels: of which axis, and what their storeys are.
+fn sides(
+    file: &File,
+    (axis, storey): (&str, &str),
+    levels: &[Place],
+    scale: &Dataset,
+) -> Result<()> {
+    for (i, side) in ["left", "right"].into_iter().enumerate() {
+        let values: Vec<i32> = levels.iter().map(|p| p.storeys[i] as i32).collect();
+        let name = format!("{axis}_{side}_storey");
+        numbers(file, (name.as_str(), "", storey), &values, scale)?;
+        let values = levels.iter().map(|p| or_nan(p.elevations[i]));
+        let name = format!("{axis}_{side}_elevation");
+        let long_name =
+            "floor elevation above the ground; NaN for a wall, and where a variable changes it";
+        let about = (name.as_str(), "m", long_name);
+        numbers(file, about, &values.collect::<Vec<_>>(), scale)?;
     }
     Ok(())
 }

@@ -2,8 +2,8 @@
 
 use pounding_shear_building::{EDGE_DISPLACEMENTS, OVERTURNING_RATIO};
 use pounding_time_history::{
-    BuildingOutcome, COLUMN_SHEARS, LevelMotion, LevelOutcome, LevelPlace, LinkedMotion, NamedPeak,
-    Outcome, System,
+    BuildingOutcome, COLUMN_SHEARS, LevelMotion, LevelOutcome, LevelPlace, LinkLevelOutcome,
+    LinkedMotion, NamedPeak, Outcome, StoreyPeaks, System,
 };
 
 use crate::run::with_base_moment;
@@ -19,6 +19,8 @@ pub enum Axis {
     Level,
     /// Each building with a stiffness matrix or a foundation.
     Building,
+    /// Each level of each link.
+    LinkLevel,
 }
 
 /// A quantity of the results.
@@ -146,6 +148,73 @@ const ISOLATED_DEMAND: Quantity = quantity(
     "m",
     "maximum approach of the isolated buildings: the gap that just keeps them apart, infinite where they collapse",
 );
+
+/// Peaks of storeys of studies that ask for them, of the run that gives [`ISOLATED_DEMAND`].
+const ISOLATED_PEAKS: [Quantity; 4] = [
+    quantity(
+        Axis::Storey,
+        "isolated_peak_displacement",
+        "m",
+        "maximum displacement relative to the ground without pounding, missing where the isolated buildings collapse",
+    ),
+    quantity(
+        Axis::Storey,
+        "isolated_peak_drift_ratio",
+        "1",
+        "maximum storey drift over storey height without pounding, missing where the isolated buildings collapse",
+    ),
+    quantity(
+        Axis::Storey,
+        "isolated_peak_storey_shear",
+        "N",
+        "maximum storey shear without pounding, missing where the isolated buildings collapse",
+    ),
+    quantity(
+        Axis::Storey,
+        "isolated_peak_acceleration_absolute",
+        "m s-2",
+        "maximum absolute floor acceleration without pounding, missing where the isolated buildings collapse",
+    ),
+];
+
+/// Quantities of studies with links that join displacements.
+const OF_LINKS: [Quantity; 2] = [
+    quantity(
+        Axis::LinkLevel,
+        "peak_link_force",
+        "N",
+        "maximum force of the link, missing between rotations of foundations, which it joins by a moment",
+    ),
+    quantity(
+        Axis::LinkLevel,
+        "peak_link_deformation",
+        "m",
+        "maximum deformation of the link, missing between rotations of foundations",
+    ),
+];
+
+/// Names of the peaks of storeys without pounding.
+pub fn isolated_peaks() -> impl Iterator<Item = &'static str> {
+    ISOLATED_PEAKS.iter().map(|q| q.name)
+}
+
+/// Which quantities of the buildings without pounding a study asks for.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct IsolatedQuantities {
+    /// The gap that just keeps them apart, of each level.
+    pub demand: bool,
+    /// The peaks of each storey.
+    pub peaks: bool,
+}
+
+/// What a run without gaps says, in which links stay.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct IsolatedRun {
+    /// The isolated demand of each level (m).
+    pub demand: Vec<f64>,
+    /// Peaks of the storeys of all buildings; `None` where a building collapses by itself.
+    pub storeys: Option<Vec<StoreyPeaks>>,
+}
 
 /// The quantity of studies of buildings with a stiffness matrix or a foundation.
 const BASE_MOMENT: Quantity = quantity(
@@ -338,11 +407,24 @@ pub const OPENING: LevelQuantity = LevelQuantity {
     ),
 };
 
+/// The peak of a storey that a quantity of this name holds.
+fn storey_peak(name: &str) -> Option<fn(&StoreyPeaks) -> f64> {
+    match name {
+        "peak_displacement" => Some(|s| s.displacement.value),
+        "peak_drift_ratio" => Some(|s| s.drift_ratio.value),
+        "peak_storey_shear" => Some(|s| s.storey_shear.value),
+        "peak_acceleration_absolute" => Some(|s| s.acceleration_absolute.value),
+        _ => None,
+    }
+}
+
 /// Names of all quantities that results may have.
 pub fn quantity_names() -> impl Iterator<Item = &'static str> {
     QUANTITIES
         .iter()
         .chain([&BASE_MOMENT, &ISOLATED_DEMAND])
+        .chain(&ISOLATED_PEAKS)
+        .chain(&OF_LINKS)
         .chain(LEVEL_QUANTITIES.iter().map(|q| &q.peak))
         .chain(RESPONSES.iter().map(|r| &r.peak))
         .map(|q| q.name)
@@ -362,28 +444,41 @@ pub fn is_result(name: &str) -> bool {
         "level_left_elevation",
         "level_right_elevation",
         "level_width",
+        "link_level",
+        "link_level_link",
+        "link_level_left_storey",
+        "link_level_right_storey",
+        "link_level_left_elevation",
+        "link_level_right_elevation",
         "failures",
     ];
     quantity_names().any(|q| q == name) || labels.contains(&name)
 }
 
-/// A storey or a contact level.
+/// A storey, a contact level or a level of a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Place {
     /// Label, unique along its axis.
     pub label: String,
-    /// Building or gap.
+    /// Building, gap or link.
     pub of: String,
-    /// Storeys from 1: of the building, or left and right of the gap; 0 is a wall.
+    /// Storeys from 1: of the building, or left and right of the gap or link; 0 is a wall or a foundation.
     pub storeys: Vec<usize>,
     /// Elevations (m) of these storeys; `None` for a wall, and where a variable of the study
     /// changes a storey height below.
     pub elevations: Vec<Option<f64>>,
-    /// Width of a level at rest (m); `None` for a storey, and where a variable changes it.
+    /// Width of a contact level at rest (m); `None` for others, and where a variable changes it.
     pub width: Option<f64>,
 }
 
 impl Place {
+    /// Whether a link joins rotations here, by a moment in the place of a force.
+    #[must_use]
+    pub fn joins_rotations(&self) -> bool {
+        let joined = LinkedMotion::FoundationRotation.label();
+        joined.is_some_and(|label| self.label == format!("{} {label}", self.of))
+    }
+
     /// Label with the elevations of both sides of a level, as far as all runs share them.
     #[must_use]
     pub fn heading(&self) -> String {
@@ -415,6 +510,8 @@ pub struct Layout {
     pub storeys: Vec<Place>,
     /// Contact levels of all gaps, in the order of the case and from the bottom.
     pub levels: Vec<Place>,
+    /// Levels of all links, in the order of the case and from the bottom.
+    pub link_levels: Vec<Place>,
     /// Names of the buildings with a stiffness matrix or a foundation, from the left.
     pub buildings: Vec<String>,
     /// Quantities in the order of the columns.
@@ -424,7 +521,7 @@ pub struct Layout {
 impl Layout {
     /// The shape of the results of a system.
     #[must_use]
-    pub fn of(system: &System, isolated_demand: bool) -> Self {
+    pub fn of(system: &System, isolated: IsolatedQuantities) -> Self {
         let storeys = system.buildings().iter().flat_map(|b| {
             (1..=b.storeys()).map(|n| Place {
                 label: format!("{} {n}", b.name()),
@@ -443,27 +540,38 @@ impl Layout {
                 width: Some(l.width),
             })
         });
+        let links = system.links().iter().enumerate();
+        let link_levels = links.flat_map(|(index, link)| {
+            let places = system.link_levels(index).into_iter();
+            places.map(|place| Place {
+                label: format!("{} {}", link.name, place.label()),
+                of: link.name.clone(),
+                storeys: place.storeys.map(|n| n.unwrap_or(0)).to_vec(),
+                elevations: place.elevations.to_vec(),
+                width: None,
+            })
+        });
         let buildings = with_base_moment(system).map(str::to_owned);
         Self::from_places(
-            (storeys.collect(), levels.collect()),
+            [storeys.collect(), levels.collect(), link_levels.collect()],
             buildings.collect(),
             |response| {
                 let mut rows = system.buildings().iter().flat_map(|b| b.responses());
                 rows.any(|row| response.is(&row.name))
             },
             |own| system.level_responses().any(|(_, r)| (own.is)(&r.name)),
-            isolated_demand,
+            isolated,
         )
     }
 
-    /// The shape with these storeys and levels, these buildings with a base moment, and the
-    /// responses that some of them and some of the levels have; whether isolated demands are known.
+    /// The shape with these storeys, levels and levels of links, these buildings with a base moment, and the
+    /// responses that some of them and some of the levels have; and what is known without pounding.
     pub(super) fn from_places(
-        (storeys, levels): (Vec<Place>, Vec<Place>),
+        [storeys, levels, link_levels]: [Vec<Place>; 3],
         buildings: Vec<String>,
         has: impl Fn(&Response) -> bool,
         levels_have: impl Fn(&LevelQuantity) -> bool,
-        isolated_demand: bool,
+        isolated: IsolatedQuantities,
     ) -> Self {
         let mut quantities = QUANTITIES.to_vec();
         if !buildings.is_empty() {
@@ -473,12 +581,19 @@ impl Layout {
         }
         let of_levels = LEVEL_QUANTITIES.iter().filter(|q| levels_have(q));
         quantities.extend(of_levels.map(|q| q.peak));
-        if isolated_demand {
+        if link_levels.iter().any(|level| !level.joins_rotations()) {
+            quantities.extend(OF_LINKS);
+        }
+        if isolated.demand {
             quantities.push(ISOLATED_DEMAND);
+        }
+        if isolated.peaks {
+            quantities.extend(ISOLATED_PEAKS);
         }
         Self {
             storeys,
             levels,
+            link_levels,
             buildings,
             quantities,
         }
@@ -498,6 +613,7 @@ impl Layout {
             Axis::Storey => self.storeys.len(),
             Axis::Level => self.levels.len(),
             Axis::Building => self.buildings.len(),
+            Axis::LinkLevel => self.link_levels.len(),
         }
     }
 
@@ -521,20 +637,21 @@ impl Layout {
         at..at
     }
 
-    /// Puts an outcome into columns; `demand` holds the isolated demand of each level.
-    pub fn fill(&self, outcome: &Outcome, demand: &[f64], out: &mut Vec<f64>) {
+    /// Puts an outcome into columns, with what the run without gaps says.
+    pub fn fill(&self, outcome: &Outcome, isolated: &IsolatedRun, out: &mut Vec<f64>) {
         out.clear();
         let storeys = || outcome.buildings.iter().flat_map(|b| &b.storeys);
         let levels = || outcome.gaps.iter().flat_map(|g| &g.levels);
         let end = outcome.energy.end;
         for quantity in &self.quantities {
+            if self.add_isolated(quantity, isolated, out) {
+                continue;
+            }
+            if let Some(peak) = storey_peak(quantity.name) {
+                out.extend(storeys().map(peak));
+                continue;
+            }
             match quantity.name {
-                "peak_displacement" => out.extend(storeys().map(|s| s.displacement.value)),
-                "peak_drift_ratio" => out.extend(storeys().map(|s| s.drift_ratio.value)),
-                "peak_storey_shear" => out.extend(storeys().map(|s| s.storey_shear.value)),
-                "peak_acceleration_absolute" => {
-                    out.extend(storeys().map(|s| s.acceleration_absolute.value));
-                }
                 "impacts" => out.extend(levels().map(|l| l.impacts as f64)),
                 "first_contact" => {
                     out.extend(levels().map(|l| l.first_contact.unwrap_or(f64::NAN)));
@@ -545,6 +662,10 @@ impl Layout {
                 "impulse" => out.extend(levels().map(|l| l.impulse)),
                 "impulse_max" => out.extend(levels().map(|l| l.impulse_max)),
                 "energy_dissipated" => out.extend(levels().map(|l| l.energy_dissipated)),
+                "peak_link_force" => out.extend(self.of_links(outcome, |l| l.force.value)),
+                "peak_link_deformation" => {
+                    out.extend(self.of_links(outcome, |l| l.deformation.value));
+                }
                 "energy_input" => out.push(end.input),
                 "energy_viscous" => out.push(end.viscous),
                 "energy_hysteretic" => out.push(end.hysteretic),
@@ -554,7 +675,6 @@ impl Layout {
                     let moments = outcome.buildings.iter().filter_map(|b| b.base_moment);
                     out.extend(moments.map(|m| m.value));
                 }
-                "isolated_demand" => out.extend(demand),
                 _ => {
                     if let Some(own) = LEVEL_QUANTITIES.iter().find(|q| q.peak == *quantity) {
                         out.extend(
@@ -567,6 +687,20 @@ impl Layout {
                 }
             }
         }
+    }
+
+    /// A peak of each level of the links; NaN where rotations are joined.
+    fn of_links(
+        &self,
+        outcome: &Outcome,
+        peak: fn(&LinkLevelOutcome) -> f64,
+    ) -> impl Iterator<Item = f64> {
+        let levels = outcome.links.iter().flat_map(|link| &link.levels);
+        let places = self.link_levels.iter().zip(levels);
+        places.map(move |(place, level)| match place.joins_rotations() {
+            true => f64::NAN,
+            false => peak(level),
+        })
     }
 
     /// Peaks of a response, of each storey or of each building with a base moment; NaN where a
@@ -585,11 +719,31 @@ impl Layout {
         peaks
     }
 
-    /// Puts a collapse into columns: nothing is known but the isolated demand of each level.
-    pub fn fill_collapsed(&self, demand: &[f64], out: &mut Vec<f64>) {
+    /// Puts a collapse into columns: nothing is known but what the run without gaps says.
+    pub fn fill_collapsed(&self, isolated: &IsolatedRun, out: &mut Vec<f64>) {
         out.clear();
-        out.resize(self.columns() - demand.len(), f64::NAN);
-        out.extend(demand);
+        for quantity in &self.quantities {
+            if !self.add_isolated(quantity, isolated, out) {
+                out.resize(out.len() + self.width(quantity.axis), f64::NAN);
+            }
+        }
+    }
+
+    /// Adds the values of a quantity of the buildings without pounding; whether it is one.
+    fn add_isolated(&self, quantity: &Quantity, run: &IsolatedRun, out: &mut Vec<f64>) -> bool {
+        if *quantity == ISOLATED_DEMAND {
+            out.extend(&run.demand);
+            return true;
+        }
+        let name = quantity.name.strip_prefix("isolated_");
+        let Some(peak) = name.and_then(storey_peak) else {
+            return false;
+        };
+        match &run.storeys {
+            Some(storeys) => out.extend(storeys.iter().map(peak)),
+            None => out.resize(out.len() + self.width(quantity.axis), f64::NAN),
+        }
+        true
     }
 
     /// A text that two layouts share if and only if they are equal.
@@ -599,6 +753,7 @@ impl Layout {
             .storeys
             .iter()
             .chain(&self.levels)
+            .chain(&self.link_levels)
             .map(|p| p.label.as_str());
         let labels = labels.chain(self.buildings.iter().map(String::as_str));
         let names = self.quantities.iter().map(|q| q.name);

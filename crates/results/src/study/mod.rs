@@ -12,8 +12,8 @@ mod writing;
 
 pub use error::StudyFileError;
 pub use layout::{
-    Axis, COLUMN_SHEAR, LEVEL_QUANTITIES, Layout, LevelQuantity, OPENING, Place, Quantity,
-    RESPONSES, Response, is_result, quantity_names,
+    Axis, COLUMN_SHEAR, IsolatedQuantities, IsolatedRun, LEVEL_QUANTITIES, Layout, LevelQuantity,
+    OPENING, Place, Quantity, RESPONSES, Response, is_result, isolated_peaks, quantity_names,
 };
 pub use part::{MOST_SHARDS, Part, numbers, ranges};
 pub use reading::ResultReader;

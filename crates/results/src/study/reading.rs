@@ -11,7 +11,8 @@ use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
 use super::datasets::{CHOSEN_QUANTITIES, FLOAT32, MERGED_SHARDS, NUMBERS};
 use super::writing::Id;
 use super::{
-    Axis, Coordinate, Description, Ending, Layout, Part, Place, Row, StudyFileError, Value, numbers,
+    Axis, Coordinate, Description, Ending, IsolatedQuantities, Layout, Part, Place, Row,
+    StudyFileError, Value, isolated_peaks, numbers,
 };
 use crate::watch::Reading;
 use crate::{OpenError, ResultFile, Stamp, dataset, number, text, texts, values};
@@ -324,6 +325,12 @@ fn description(file: &File) -> hdf5::Result<Description> {
             choices: v["choices"].as_array().map(named),
         }
     };
+    let coordinates: Vec<Coordinate> = variables
+        .as_array()
+        .into_iter()
+        .flatten()
+        .map(coordinate)
+        .collect();
     let has = |name: &str| -> hdf5::Result<bool> {
         Ok(file.attr_names()?.iter().any(|found| found == name))
     };
@@ -361,15 +368,10 @@ fn description(file: &File) -> hdf5::Result<Description> {
             true => text("warnings")?.lines().map(str::to_owned).collect(),
             false => Vec::new(),
         },
-        layout: layout(file, quantities.as_deref())?,
+        layout: layout(file, quantities.as_deref(), &coordinates)?,
         quantities,
         float32,
-        coordinates: variables
-            .as_array()
-            .into_iter()
-            .flatten()
-            .map(coordinate)
-            .collect(),
+        coordinates,
     })
 }
 
@@ -384,13 +386,19 @@ fn part_of(file: &File, shard: usize, of: usize) -> hdf5::Result<Part> {
 }
 
 /// The columns of a result, of which a study may have chosen some quantities.
-fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
-    let labels = |name: &str| match file.link_exists(name) {
+fn layout(
+    file: &File,
+    chosen: Option<&[String]>,
+    coordinates: &[Coordinate],
+) -> hdf5::Result<Layout> {
+    // Variables may have the names of results that versions before did not know.
+    let stores = |name: &str| file.link_exists(name) && coordinates.iter().all(|c| c.name != name);
+    let labels = |name: &str| match stores(name) {
         true => texts(file, name).map_err(|e| of(name, &e)),
         false => Ok(Vec::new()),
     };
     let numbers = |name: &str| -> hdf5::Result<Vec<usize>> {
-        if !file.link_exists(name) {
+        if !stores(name) {
             return Ok(Vec::new());
         }
         let numbers = values::<i32>(file, name)
@@ -402,7 +410,7 @@ fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
     };
     // Versions before had no elevations and widths.
     let known = |name: &str, count: usize| -> hdf5::Result<Vec<Option<f64>>> {
-        if !file.link_exists(name) {
+        if !stores(name) {
             return Ok(vec![None; count]);
         }
         let read = values::<f64>(file, name).map_err(|e| of(name, &e))?;
@@ -415,29 +423,42 @@ fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
         numbers("storey_number")?,
     );
     let elevation = known("storey_elevation", storey.len())?;
-    let (level, gap) = (labels("level")?, labels("level_gap")?);
-    let (left, right) = (
-        numbers("level_left_storey")?,
-        numbers("level_right_storey")?,
-    );
-    let (left_elevation, right_elevation, width) = (
-        known("level_left_elevation", level.len())?,
-        known("level_right_elevation", level.len())?,
-        known("level_width", level.len())?,
-    );
-    let of_levels = [
-        gap.len(),
-        left.len(),
-        right.len(),
-        left_elevation.len(),
-        right_elevation.len(),
-        width.len(),
-    ];
-    let fits = [building.len(), number.len(), elevation.len()] == [storey.len(); 3]
-        && of_levels == [level.len(); 6];
-    if !fits {
-        return Err(hdf5::Error::from("storeys or levels are not all described"));
+    let undescribed = || hdf5::Error::from("storeys or levels are not all described");
+    if [building.len(), number.len(), elevation.len()] != [storey.len(); 3] {
+        return Err(undescribed());
     }
+    // Levels of gaps or of links, and to which of them each belongs.
+    let levels = |axis: &str, of: &str| -> hdf5::Result<Vec<Place>> {
+        let (level, of) = (labels(axis)?, labels(&format!("{axis}_{of}"))?);
+        let side = |side: &str| -> hdf5::Result<_> {
+            let storeys = numbers(&format!("{axis}_{side}_storey"))?;
+            let elevations = known(&format!("{axis}_{side}_elevation"), level.len())?;
+            Ok((storeys, elevations))
+        };
+        let ((left, left_elevation), (right, right_elevation)) = (side("left")?, side("right")?);
+        let width = known(&format!("{axis}_width"), level.len())?;
+        let described = [
+            of.len(),
+            left.len(),
+            right.len(),
+            left_elevation.len(),
+            right_elevation.len(),
+            width.len(),
+        ];
+        if described != [level.len(); 6] {
+            return Err(undescribed());
+        }
+        let places = level.into_iter().zip(of).enumerate();
+        let places = places.map(|(i, (label, of))| Place {
+            label,
+            of,
+            storeys: vec![left[i], right[i]],
+            elevations: vec![left_elevation[i], right_elevation[i]],
+            width: width[i],
+        });
+        Ok(places.collect())
+    };
+    let (levels, link_levels) = (levels("level", "gap")?, levels("link_level", "link")?);
     let storeys = storey.into_iter().zip(building).zip(number).zip(elevation);
     let storeys = storeys.map(|(((label, of), n), z)| Place {
         label,
@@ -446,34 +467,15 @@ fn layout(file: &File, chosen: Option<&[String]>) -> hdf5::Result<Layout> {
         elevations: vec![z],
         width: None,
     });
-    let elevations = left_elevation.into_iter().zip(right_elevation);
-    let levels = level
-        .into_iter()
-        .zip(gap)
-        .zip(left.into_iter().zip(right))
-        .zip(elevations)
-        .zip(width)
-        .map(
-            |((((label, of), (l, r)), (z_left, z_right)), width)| Place {
-                label,
-                of,
-                storeys: vec![l, r],
-                elevations: vec![z_left, z_right],
-                width,
-            },
-        );
-    // A study without such buildings may have had a variable of that name, in versions that let
-    // no quantities be chosen.
-    let buildings = match chosen.is_some() || file.link_exists("peak_base_moment") {
-        true => labels("building")?,
-        false => Vec::new(),
-    };
     let mut layout = Layout::from_places(
-        (storeys.collect(), levels.collect()),
-        buildings,
-        |response| file.link_exists(response.peak.name),
-        |own| file.link_exists(own.peak.name),
-        file.link_exists("isolated_demand"),
+        [storeys.collect(), levels, link_levels],
+        labels("building")?,
+        |response| stores(response.peak.name),
+        |own| stores(own.peak.name),
+        IsolatedQuantities {
+            demand: stores("isolated_demand"),
+            peaks: isolated_peaks().any(stores),
+        },
     );
     if let Some(names) = chosen {
         layout.keep(names);

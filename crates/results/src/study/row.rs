@@ -32,7 +32,7 @@ pub struct Row {
     /// record and of the version of the program.
     pub id: [u8; ID],
     /// Values in the columns of the [`Layout`](super::Layout); all missing (NaN) if the run failed, all
-    /// but the isolated demand if it collapsed.
+    /// but those of the run without gaps if it collapsed.
     pub values: Vec<f64>,
     /// How it ended.
     pub ending: Ending,

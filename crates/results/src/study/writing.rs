@@ -144,6 +144,11 @@ impl Open {
             "level",
             layout.levels.iter().map(|p| p.label.as_str()),
         )?;
+        let link_level = labels(
+            &file,
+            "link_level",
+            layout.link_levels.iter().map(|p| p.label.as_str()),
+        )?;
         let building = labels(
             &file,
             "building",
@@ -152,13 +157,15 @@ impl Open {
         for scale in [
             ("storey", &storey),
             ("level", &level),
+            ("link_level", &link_level),
             ("building", &building),
         ] {
             if let Some(data) = scale.1 {
                 make_scale(data, scale.0)?;
             }
         }
-        places(&file, description, storey.as_ref(), level.as_ref())?;
+        let [storey, level, link_level] = [&storey, &level, &link_level].map(Option::as_ref);
+        places(&file, description, [storey, level, link_level])?;
         let coordinates = coordinates(&file, description, &run, rows)?;
         let names: Vec<&str> = description
             .coordinates
@@ -167,8 +174,9 @@ impl Open {
             .collect();
         let axes = Axes {
             run: &run,
-            storey: storey.as_ref(),
-            level: level.as_ref(),
+            storey,
+            level,
+            link_level,
             building: building.as_ref(),
             coordinates: &names.join(" "),
         };

@@ -149,6 +149,8 @@ pub struct Comparison {
     pub levels: Vec<Vec<GapLevel>>,
     /// Gaps of each building: those beside it, and beside all that links join it with.
     pub gaps_of_buildings: Vec<Vec<usize>>,
+    /// A building that each link joins: contacts that reach it reach the link.
+    pub buildings_of_links: Vec<usize>,
     /// What is compared.
     pub quantities: Vec<Quantity>,
     /// Values without pounding for each record, in the order of `quantities`; NaN for
@@ -265,6 +267,7 @@ pub fn compare_dealt(
         own,
         levels: gaps.map(|gap| levels(system, gap)).collect(),
         gaps_of_buildings: gaps_of_buildings(system),
+        buildings_of_links: buildings_of_links(system),
         quantities,
         models,
         spreads: Vec::new(),
@@ -358,6 +361,16 @@ fn gaps_of_buildings(system: &System) -> Vec<Vec<usize>> {
     (0..buildings.len()).map(beside).collect()
 }
 
+/// A building that each link joins; none joins two walls.
+fn buildings_of_links(system: &System) -> Vec<usize> {
+    let buildings = system.buildings();
+    let joined = system.links().iter().filter_map(|link| {
+        let joins = |name: &str| link.between.iter().any(|side| side == name);
+        buildings.iter().position(|b| joins(b.name()))
+    });
+    joined.collect()
+}
+
 impl Comparison {
     /// Numbers of the models that ran under every record.
     #[must_use]
@@ -449,6 +462,7 @@ impl Comparison {
         for quantity in 0..self.quantities.len() {
             let left_out = match &self.quantities[quantity] {
                 q if q.is_of_building() => not_reached[q.index].as_slice(),
+                q if q.is_of_link() => not_reached[self.buildings_of_links[q.index]].as_slice(),
                 _ => &[],
             };
             let of_model = |m: &usize| -> Vec<f64> {

@@ -1,6 +1,8 @@
 //! What models are compared by.
 
-use pounding_time_history::{BuildingOutcome, Outcome, Peak, StoreyPeaks, System};
+use pounding_time_history::{
+    BuildingOutcome, LinkLevelOutcome, LinkedMotion, Outcome, Peak, StoreyPeaks, System,
+};
 
 use crate::gap_check::{Amplification, closes};
 use crate::runs::{Axis, COLUMN_SHEAR, OPENING, RESPONSES, Response};
@@ -29,6 +31,10 @@ pub enum QuantityKind {
     ColumnShear,
     /// Maximum opening of a joint with a seat, beyond its width at rest (m).
     Opening,
+    /// Maximum force of a link between floors or displacements of foundations (N).
+    LinkForce,
+    /// Maximum deformation of such a link (m).
+    LinkDeformation,
     /// Maximum impulse of one impact in a gap (N s).
     Impulse,
     /// Maximum approach velocity in a gap (m/s).
@@ -69,6 +75,8 @@ impl QuantityKind {
             Self::PeakForce => "peak_force",
             Self::ColumnShear => "column_shear",
             Self::Opening => "opening",
+            Self::LinkForce => "link_force",
+            Self::LinkDeformation => "link_deformation",
             Self::Impulse => "impulse",
             Self::ApproachVelocity => "approach_velocity",
             Self::ImpactEnergy => "impact_energy",
@@ -80,8 +88,8 @@ impl QuantityKind {
     #[must_use]
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Displacement | Self::Opening => "m",
-            Self::StoreyShear | Self::PeakForce | Self::ColumnShear => "N",
+            Self::Displacement | Self::Opening | Self::LinkDeformation => "m",
+            Self::StoreyShear | Self::PeakForce | Self::ColumnShear | Self::LinkForce => "N",
             Self::AccelerationAbsolute => "m/s2",
             Self::BaseMoment => "N m",
             Self::Response(response) => match response.peak.unit {
@@ -110,7 +118,11 @@ impl QuantityKind {
             }
             Self::Response(_) => "of the building",
             Self::Impacts | Self::ImpactEnergy => "sum over levels",
-            Self::PeakForce | Self::ColumnShear | Self::Opening => "maximum over levels",
+            Self::PeakForce
+            | Self::ColumnShear
+            | Self::Opening
+            | Self::LinkForce
+            | Self::LinkDeformation => "maximum over levels",
             Self::Impulse | Self::ApproachVelocity => "maximum over levels and impacts",
             Self::AchievedRestitution => "over all levels and impacts",
         }
@@ -149,12 +161,12 @@ impl QuantityKind {
     }
 }
 
-/// A quantity of a building or a gap.
+/// A quantity of a building, a gap or a link.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Quantity {
     /// Kind.
     pub kind: QuantityKind,
-    /// Name of the building or gap.
+    /// Name of the building, gap or link.
     pub of: String,
     /// Its number, from zero.
     pub index: usize,
@@ -171,6 +183,15 @@ impl Quantity {
             )
     }
 
+    /// Whether it belongs to a link.
+    #[must_use]
+    pub fn is_of_link(&self) -> bool {
+        matches!(
+            self.kind,
+            QuantityKind::LinkForce | QuantityKind::LinkDeformation
+        )
+    }
+
     /// Name and owner.
     #[must_use]
     pub fn label(&self) -> String {
@@ -178,7 +199,7 @@ impl Quantity {
     }
 }
 
-/// All quantities of a system: of its buildings, then of its gaps.
+/// All quantities of a system: of its buildings, then of its gaps, then of its links.
 pub(super) fn of_system(system: &System) -> Vec<Quantity> {
     let quantity = |kind, of: &str, index| Quantity {
         kind,
@@ -212,6 +233,13 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
             }
         }
     }
+    for (index, link) in system.links().iter().enumerate() {
+        // Rotations are joined by moments.
+        if link.joins != LinkedMotion::FoundationRotation {
+            let kinds = [QuantityKind::LinkForce, QuantityKind::LinkDeformation];
+            all.extend(kinds.map(|kind| quantity(kind, &link.name, index)));
+        }
+    }
     all
 }
 
@@ -243,6 +271,15 @@ pub(super) fn value(quantity: &Quantity, outcome: &Outcome, jumps: bool) -> f64 
             return f64::NAN;
         }
         return of_building(quantity.kind, &outcome.buildings[quantity.index]);
+    }
+    let of_link = |peak: fn(&LinkLevelOutcome) -> f64| {
+        let levels = &outcome.links[quantity.index].levels;
+        levels.iter().map(peak).fold(0.0, f64::max)
+    };
+    match quantity.kind {
+        QuantityKind::LinkForce => return of_link(|l| l.force.value),
+        QuantityKind::LinkDeformation => return of_link(|l| l.deformation.value),
+        _ => {}
     }
     let gap = &outcome.gaps[quantity.index];
     if quantity.kind.needs_contact() && !closes(gap) {

@@ -178,6 +178,18 @@ pub(super) fn usual(layout: &Layout, gaps: &[(String, Vec<String>)]) -> Vec<Dema
             });
         }
     }
+    for link in groups(&layout.link_levels) {
+        let mine = |column: usize| layout.link_levels[column].of == link;
+        for (name, unit) in [("peak_link_force", "N"), ("peak_link_deformation", "m")] {
+            demands.push(Demand {
+                name: format!("{name}: {link}"),
+                unit,
+                columns: chosen(layout.range(name), mine),
+                isolated: false,
+                needs: Needs::Level,
+            });
+        }
+    }
     demands
 }
 
@@ -211,12 +223,18 @@ pub(super) fn of_limit(
         DemandKind::ContactForce => (FORCE, "N", Axis::Level),
         DemandKind::ColumnShear => ("peak_column_shear", "N", Axis::Level),
         DemandKind::Opening => ("peak_opening", "m", Axis::Level),
+        DemandKind::LinkForce => ("peak_link_force", "N", Axis::LinkLevel),
+        DemandKind::LinkDeformation => ("peak_link_deformation", "m", Axis::LinkLevel),
         DemandKind::Impulse => ("impulse_max", "N s", Axis::Level),
         DemandKind::Impacts => (IMPACTS, "1", Axis::Level),
         DemandKind::IsolatedDemand => ("isolated_demand", "m", Axis::Level),
     };
     let mine = |column: usize| match axis {
         Axis::Level => limit.place.is_none_or(|level| column == level),
+        Axis::LinkLevel => {
+            let link = limit.link.as_ref();
+            link.is_none_or(|link| layout.link_levels[column].of == *link)
+        }
         Axis::Building => building.is_none_or(|b| layout.buildings[column] == b),
         _ => building.is_none_or(|building| {
             let storey = &layout.storeys[column];

@@ -12,7 +12,8 @@ pub(crate) use engine::run_all;
 pub use motions::RecordReport;
 pub(crate) use motions::motion;
 pub use pounding_results::study::{
-    Axis, Ending, Layout, Place, Quantity, RESPONSES, Response, Row,
+    Axis, Ending, IsolatedQuantities, IsolatedRun, Layout, Place, Quantity, RESPONSES, Response,
+    Row,
 };
 pub(crate) use pounding_results::study::{COLUMN_SHEAR, LEVEL_QUANTITIES, OPENING};
 pub(crate) use pounding_results::study::{ID, is_result};

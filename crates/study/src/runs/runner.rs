@@ -11,7 +11,8 @@ use pounding_assembly::{
 use pounding_case::{Case, CaseTree};
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{
-    GroundAcceleration, RunOptions, System, TimeHistoryError, Warning, isolated_demand, run,
+    GroundAcceleration, Outcome, RunOptions, System, TimeHistoryError, Warning, isolated_demand,
+    run,
 };
 use sha2::{Digest, Sha256};
 
@@ -19,7 +20,7 @@ use super::cache::Cache;
 use super::motions::{Motion, Motions};
 use super::proportion::{factors_of_further, intensity_of_case};
 use super::varied::leave_out_varied;
-use super::{Ending, ID, Layout, Row};
+use super::{Ending, ID, IsolatedQuantities, IsolatedRun, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
 use crate::design::Design;
 use crate::error::StudyError;
@@ -50,6 +51,8 @@ pub(crate) struct Runner<'s> {
     pub layout: Layout,
     /// The floors that meet at its contact levels.
     levels: Vec<(String, [Option<usize>; 2])>,
+    /// The storeys that are joined at the levels of each link.
+    joined: Vec<Vec<[Option<usize>; 2]>>,
     /// What the user should know of the case.
     pub warnings: Vec<String>,
     version: &'static str,
@@ -62,7 +65,7 @@ pub(crate) struct Runner<'s> {
     /// Intensity (SI) of the record of the case, to which further records keep their proportion.
     intensity_of_case: Option<f64>,
     buildings: Cache<Result<Arc<System>, String>>,
-    demands: Cache<Result<Arc<Vec<f64>>, String>>,
+    isolated: Cache<Result<Arc<IsolatedRun>, String>>,
 }
 
 /// The version that counts in identities.
@@ -88,18 +91,19 @@ impl<'s> Runner<'s> {
         let system = assembly.system;
         let entries = |v: &Variable| matches!(v.target, Target::Entry { .. });
         let as_given = !study.variables.iter().any(entries);
-        let mut layout = Layout::of(&system, study.isolated_demand);
+        let isolated = IsolatedQuantities {
+            demand: study.isolated_demand,
+            peaks: study.isolated_peaks,
+        };
+        let mut layout = Layout::of(&system, isolated);
         let levels = floors_that_meet(&system).map(|(gap, sides)| (gap.to_owned(), sides));
         let levels = levels.collect();
+        let joined = joined_storeys(&system);
         let mut missing = Vec::new();
         if let Some(names) = &study.quantities {
             let has = |name: &&String| layout.quantities.iter().any(|q| q.name == name.as_str());
             missing.extend(names.iter().filter(|name| !has(name)).cloned());
-            let mut kept = names.clone();
-            if study.isolated_demand {
-                kept.push("isolated_demand".to_owned());
-            }
-            layout.keep(&kept);
+            layout.keep(names);
         }
         let varied = leave_out_varied(&mut layout, study, &system);
         // What varies may be anything in the case.
@@ -131,7 +135,7 @@ impl<'s> Runner<'s> {
         })));
         if !missing.is_empty() {
             warnings.push(format!(
-                "[output] chooses {}, which no building or gap of this study has",
+                "[output] chooses {}, which no building, gap or link of this study has",
                 missing.join(", ")
             ));
         }
@@ -147,6 +151,7 @@ impl<'s> Runner<'s> {
         warnings.extend(study.variables.iter().filter_map(|v| v.asked.clone()));
         warnings.extend(study.ida.iter().flat_map(|ida| ida.asked.clone()));
         warnings.extend(study.variables.iter().filter_map(without_result));
+        warnings.extend(study.variables.iter().filter_map(of_other_levels));
         warnings.extend(study.variables.iter().filter_map(model_named_twice));
         warnings.extend(
             study
@@ -171,6 +176,7 @@ impl<'s> Runner<'s> {
         Ok(Self {
             layout,
             levels,
+            joined,
             warnings,
             lines: Lines::of(base.tree()),
             named_files: named_files(study),
@@ -180,7 +186,7 @@ impl<'s> Runner<'s> {
             motions,
             version: VERSION,
             buildings: Cache::new(KEPT),
-            demands: Cache::new(KEPT),
+            isolated: Cache::new(KEPT),
         })
     }
 
@@ -318,13 +324,16 @@ impl<'s> Runner<'s> {
             ));
         }
         let outcome = match run(&system, &options, &mut [], &mut |_| {}) {
-            Ok(outcome) => Ok(outcome),
+            Ok(mut outcome) => {
+                self.keep_levels_of_links(&system, &mut outcome);
+                Ok(outcome)
+            }
             Err(e @ TimeHistoryError::Collapse { .. }) => Err(e.to_string()),
             Err(e) => return Err(e.to_string()),
         };
-        let demand = if self.study.isolated_demand {
+        let isolated = if self.study.isolated_demand || self.study.isolated_peaks {
             let all: Vec<u64> = key.buildings.iter().chain(&key.motion).copied().collect();
-            self.demands
+            self.isolated
                 .get(&all, || apart(&system, &options).map(Arc::new))?
         } else {
             Arc::default()
@@ -332,13 +341,41 @@ impl<'s> Runner<'s> {
         let mut values = Vec::with_capacity(self.layout.columns());
         match outcome {
             Ok(outcome) => {
-                self.layout.fill(&outcome, &demand, &mut values);
+                self.layout.fill(&outcome, &isolated, &mut values);
                 Ok((values, Ending::Complete))
             }
             Err(collapse) => {
-                self.layout.fill_collapsed(&demand, &mut values);
+                self.layout.fill_collapsed(&isolated, &mut values);
                 Ok((values, Ending::Collapsed(collapse)))
             }
+        }
+    }
+
+    /// Gives the links of a run the levels that they have in the case of the study. What a run does
+    /// not have is missing.
+    fn keep_levels_of_links(&self, system: &System, outcome: &mut Outcome) {
+        let found = joined_storeys(system);
+        if found == self.joined {
+            return;
+        }
+        let pairs = self.joined.iter().zip(&found);
+        for (link, (expected, found)) in outcome.links.iter_mut().zip(pairs) {
+            let Some(mut missing) = link.levels.first().copied() else {
+                continue;
+            };
+            missing.force.value = f64::NAN;
+            missing.deformation.value = f64::NAN;
+            let mut own = found.iter().zip(&link.levels).peekable();
+            // Both from the bottom.
+            let level = |storeys: &[Option<usize>; 2]| {
+                while own
+                    .next_if(|(found, _)| found != &storeys && !expected.contains(found))
+                    .is_some()
+                {}
+                own.next_if(|(found, _)| found == &storeys)
+                    .map_or(missing, |(_, level)| *level)
+            };
+            link.levels = expected.iter().map(level).collect();
         }
     }
 
@@ -443,6 +480,21 @@ fn of_no_method(study: &Study, variable: &Variable) -> Option<String> {
             variable.name,
             takers.join(", "),
             used.join(", ")
+        )
+    })
+}
+
+/// What to say of a variable that changes which floors a link joins.
+fn of_other_levels(variable: &Variable) -> Option<String> {
+    let Target::Entry { path, .. } = &variable.target else {
+        return None;
+    };
+    let mut keys = ["levels", "elevation_tolerance"].into_iter();
+    let changes = path.table() == "link" && keys.any(|key| path.leads_through(key));
+    changes.then(|| {
+        format!(
+            "variable \"{}\" changes which floors a link joins: peaks of links are of the levels that they have in the case, and missing in runs without these",
+            variable.name
         )
     })
 }
@@ -555,6 +607,13 @@ fn floors_that_meet(system: &System) -> impl Iterator<Item = FloorsThatMeet<'_>>
     })
 }
 
+/// The storeys that are joined at the levels of each link.
+fn joined_storeys(system: &System) -> Vec<Vec<[Option<usize>; 2]>> {
+    let places = (0..system.links().len()).map(|link| system.link_levels(link));
+    let storeys = places.map(|places| places.iter().map(|place| place.storeys).collect());
+    storeys.collect()
+}
+
 fn listed<'s>(levels: impl Iterator<Item = FloorsThatMeet<'s>>) -> String {
     let storey = |n: Option<usize>| n.map_or_else(|| "wall".to_owned(), |n| n.to_string());
     let label = |(gap, sides): FloorsThatMeet<'_>| format!("{gap} {}", sides.map(storey).join("-"));
@@ -567,12 +626,21 @@ fn listed<'s>(levels: impl Iterator<Item = FloorsThatMeet<'s>>) -> String {
     }
 }
 
-/// The isolated demand of each level; infinite where the buildings collapse by themselves,
-/// which no gap keeps apart.
-fn apart(system: &System, options: &RunOptions) -> Result<Vec<f64>, String> {
+/// The run without gaps. The isolated demand is infinite where the buildings collapse by
+/// themselves, which no gap keeps apart.
+fn apart(system: &System, options: &RunOptions) -> Result<IsolatedRun, String> {
     match isolated_demand(system, options) {
-        Ok((_, peaks)) => Ok(peaks.iter().map(|p| p.value).collect()),
-        Err(TimeHistoryError::Collapse { .. }) => Ok(vec![f64::INFINITY; system.levels().len()]),
+        Ok((outcome, peaks)) => {
+            let storeys = outcome.buildings.into_iter().flat_map(|b| b.storeys);
+            Ok(IsolatedRun {
+                demand: peaks.iter().map(|p| p.value).collect(),
+                storeys: Some(storeys.collect()),
+            })
+        }
+        Err(TimeHistoryError::Collapse { .. }) => Ok(IsolatedRun {
+            demand: vec![f64::INFINITY; system.levels().len()],
+            storeys: None,
+        }),
         Err(e) => Err(e.to_string()),
     }
 }

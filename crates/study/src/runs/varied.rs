@@ -37,8 +37,23 @@ pub(crate) fn leave_out_varied(layout: &mut Layout, study: &Study, system: &Syst
                 }
             }
         }
+        if path.of_elevations() {
+            let names = system.buildings().iter().map(|b| b.name());
+            let name = path.second(names);
+            let varies = |building: &str| name.as_deref().is_none_or(|n| n == building);
+            for link in system.links() {
+                let sides = link.between.each_ref().map(|side| varies(side));
+                for level in layout.link_levels.iter_mut().filter(|l| l.of == link.name) {
+                    let storeys = level.storeys.iter().zip(sides);
+                    for (z, (storey, varies)) in level.elevations.iter_mut().zip(storeys) {
+                        *z = z.filter(|_| *storey == 0 || !varies);
+                    }
+                }
+            }
+        }
         if path.of_plan() {
             number_points(&mut layout.levels);
+            number_points(&mut layout.link_levels);
         }
         if path.table() == "gap" && path.leads_through("width") {
             let name = path.second(system.gaps().iter().map(|g| g.name.as_str()));

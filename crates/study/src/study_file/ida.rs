@@ -9,7 +9,9 @@ use pounding_case::document::{
     AboveZero, Amount, Entry, Fault, Field, FromZero, List, Number, Optional, Reader, TableOr,
     Within, Written,
 };
-use pounding_case::{Building, ContactLevel, Dimension, Gap, Located, Support};
+use pounding_case::{
+    Building, ContactLevel, Dimension, FoundationMotion, Gap, Link, Located, Support,
+};
 use pounding_catalogue::wording::one_line;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -64,6 +66,10 @@ pub enum DemandKind {
     ColumnShear,
     /// Maximum opening of joints with a seat, beyond their width at rest (m).
     Opening,
+    /// Maximum force of links between floors or displacements of foundations (N).
+    LinkForce,
+    /// Maximum deformation of such links (m).
+    LinkDeformation,
     /// Maximum impulse of one impact (N s).
     Impulse,
     /// Number of impacts.
@@ -119,6 +125,11 @@ impl DemandKind {
         )
     }
 
+    /// Whether it belongs to the levels of links.
+    fn of_links(self) -> bool {
+        matches!(self, Self::LinkForce | Self::LinkDeformation)
+    }
+
     /// Whether only floors that turn in plan have it.
     fn of_floors_that_turn(self) -> bool {
         matches!(
@@ -137,6 +148,7 @@ impl DemandKind {
             Self::Displacement
             | Self::IsolatedDemand
             | Self::Opening
+            | Self::LinkDeformation
             | Self::FoundationSway
             | Self::EdgeDisplacement
             | Self::DisplacementAcross => Dimension::LENGTH,
@@ -145,9 +157,11 @@ impl DemandKind {
             | Self::FoundationRotation
             | Self::Rotation
             | Self::OverturningRatio => Dimension::NUMBER,
-            Self::StoreyShear | Self::ContactForce | Self::FoundationShear | Self::ColumnShear => {
-                Dimension::FORCE
-            }
+            Self::StoreyShear
+            | Self::ContactForce
+            | Self::FoundationShear
+            | Self::ColumnShear
+            | Self::LinkForce => Dimension::FORCE,
             Self::AccelerationAbsolute | Self::AccelerationAcross => Dimension::ACCELERATION,
             // Of a moment, as of an energy.
             Self::BaseMoment | Self::FoundationMoment => Dimension::ENERGY,
@@ -184,6 +198,8 @@ pub struct Limit {
     /// Storey from zero; `None`: the worst storey. For demands at gaps the level, from zero, over
     /// the levels of all gaps.
     pub place: Option<usize>,
+    /// Name of the link whose levels count, for demands of links; `None`: all links.
+    pub link: Option<String>,
     /// Value that it exceeds (SI).
     pub exceeds: f64,
 }
@@ -267,6 +283,8 @@ struct LimitTable {
     /// Contact level, for demands at gaps: from 1, over the levels of all gaps in the order of
     /// the case and from the bottom; by default the worst
     level: Optional<Whole<1>>,
+    /// Link whose levels count, for demands of links, by default all
+    link: Optional<String>,
     /// Value that it exceeds (SI, or with a unit)
     exceeds: Field<Written>,
 }
@@ -534,6 +552,60 @@ impl LimitTable {
         reader.refuse(span, message, help)
     }
 
+    /// Refuses a link beside demands of anything else, other places beside those of links, and links
+    /// that the case does not have or that join rotations.
+    fn link(
+        reader: &Reader<'_>,
+        context: &Context,
+        demand: Located<DemandKind>,
+        places: [Option<Range<usize>>; 3],
+        link: Option<Located<String>>,
+    ) -> Option<Option<String>> {
+        if !demand.value.of_links() {
+            let Some(Located { span, .. }) = link else {
+                return Some(None);
+            };
+            let help = "leave it out, or ask for `link_force` or `link_deformation`";
+            return reader.refuse(span, "the demand is not of links: it has no `link`", help);
+        }
+        let keys = ["building", "storey", "level"].into_iter().zip(places);
+        let mut wrong = keys.filter_map(|(key, span)| Some((key, span?)));
+        if let Some((key, span)) = wrong.next() {
+            let message = format!("the demand is of links: it has no `{key}`");
+            let help = "name a `link` in its place, or leave it out: then all links count";
+            return reader.refuse(span, message, help);
+        }
+        let links = &context.base.as_ref()?.case.links;
+        if links.is_empty() {
+            let help = "add a `[[link]]` to the case, or ask for another demand";
+            return reader.refuse(demand.span, "the case has no link", help);
+        }
+        let rocks = |link: &Link| {
+            let joined = link.foundations.as_ref();
+            joined.is_some_and(|joined| joined.value == FoundationMotion::Rocking)
+        };
+        let (name, span) = match link {
+            None => (None, demand.span),
+            Some(Located { value, span }) => (Some(value), span),
+        };
+        if let Some(name) = &name
+            && !links.iter().any(|link| link.name == *name)
+        {
+            let message = format!("the case has no link \"{name}\"");
+            let names: Vec<&str> = links.iter().map(|link| link.name.as_str()).collect();
+            return reader.refuse(span, message, format!("its links are {}", names.join(", ")));
+        }
+        let mut asked = links
+            .iter()
+            .filter(|link| name.as_ref().is_none_or(|n| link.name == *n));
+        if asked.all(rocks) {
+            let message = "the link joins rotations of foundations, by a moment: it has neither force nor displacement";
+            let help = "ask for another link, or for `foundation_rotation` or `foundation_moment`";
+            return reader.refuse(span, message, help);
+        }
+        Some(name)
+    }
+
     /// The limit, without its name.
     fn read(self, reader: &Reader<'_>, context: &Context) -> Option<Limit> {
         let demand_at = self.demand.span();
@@ -564,7 +636,15 @@ impl LimitTable {
         excluded("storey", &places.1)?;
         let storey = self.storey.stated();
         let level = self.level.stated();
-        let (building, storey, level) = (building?, storey?, level?);
+        let link = self.link.stated();
+        let (building, storey, level, link) = (building?, storey?, level?, link?);
+        let link = match (demand, demand_at.clone()) {
+            (Some(value), Some(span)) => {
+                let at = [places.0.clone(), places.1.clone(), places.2.clone()];
+                Self::link(reader, context, Located { value, span }, at, link)?
+            }
+            _ => None,
+        };
         if let Some(demand) = demand {
             let at = [places.0.clone(), places.1.clone(), places.2.clone()];
             let number = level.as_ref().map(|level| level.value.0);
@@ -669,6 +749,7 @@ impl LimitTable {
             demand,
             building,
             place: storey.or(level).map(|number| number.value.0 - 1),
+            link,
             exceeds: exceeds?,
         })
     }

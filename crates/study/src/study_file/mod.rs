@@ -54,6 +54,8 @@ pub struct Study {
     pub chunk: usize,
     /// Whether the maximum relative displacement of the isolated buildings is wanted.
     pub isolated_demand: bool,
+    /// Whether the peaks of the storeys without pounding are wanted, or some of them.
+    pub isolated_peaks: bool,
     /// Names of the quantities that are stored; `None`: all.
     pub quantities: Option<Vec<String>>,
     /// Whether quantities are stored as numbers of 32 bits.

@@ -11,7 +11,7 @@ use pounding_case::{CaseError, Errors, Located};
 use pounding_catalogue::suggestion;
 use pounding_catalogue::wording::one_line;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
-use pounding_results::study::quantity_names;
+use pounding_results::study::{isolated_peaks, quantity_names};
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::de::DeTable;
@@ -87,6 +87,8 @@ struct OutputTable {
     chunk: Optional<Whole<1, MOST_OF_CHUNK>>,
     /// Adds the gap that just keeps the isolated buildings apart, by default false
     isolated_demand: Optional<bool>,
+    /// Adds the peaks of the storeys without pounding, by default false
+    isolated_peaks: Optional<bool>,
     /// Names of the quantities that are stored, by default all
     quantities: Optional<List<String>>,
     /// Type of the numbers of quantities, float64 (default) or float32
@@ -108,6 +110,7 @@ enum Numbers {
 struct Output {
     chunk: usize,
     isolated_demand: bool,
+    isolated_peaks: bool,
     quantities: Option<Vec<String>>,
     float32: bool,
 }
@@ -116,8 +119,9 @@ impl OutputTable {
     fn read(self, reader: &Reader<'_>, with_ida: bool) -> Option<Output> {
         let chunk = self.chunk.value_or(Whole(CHUNK));
         let demand = self.isolated_demand.value_or(false);
+        let peaks = self.isolated_peaks.value_or(false);
         let numbers = self.numbers.value_or(Numbers::Float64);
-        let quantities = match self.quantities.stated()? {
+        let mut quantities = match self.quantities.stated()? {
             None => None,
             Some(list) if with_ida => {
                 let message = "an incremental dynamic analysis is evaluated from all quantities";
@@ -135,18 +139,33 @@ impl OutputTable {
                 reader.refuse(span, format!("no quantity is called {name:?}"), help)
             }))?),
         };
-        let is_chosen = |names: &Vec<String>| names.iter().any(|n| n == ISOLATED_DEMAND);
-        let isolated_demand = demand? || quantities.as_ref().is_some_and(is_chosen);
+        let (demand, peaks) = (demand?, peaks?);
+        let asked = |name: &str| match name {
+            ISOLATED_DEMAND => demand,
+            name => peaks && isolated_peaks().any(|peak| peak == name),
+        };
+        if let Some(names) = &mut quantities {
+            names.extend(
+                quantity_names()
+                    .filter(|name| asked(name))
+                    .map(str::to_owned),
+            );
+        }
+        let chosen = |name: &str| {
+            let mut names = quantities.iter().flatten();
+            names.any(|chosen| chosen == name)
+        };
         Some(Output {
             chunk: chunk?.0,
-            isolated_demand,
+            isolated_demand: demand || chosen(ISOLATED_DEMAND),
+            isolated_peaks: peaks || isolated_peaks().any(chosen),
             quantities,
             float32: numbers? == Numbers::Float32,
         })
     }
 }
 
-/// The quantity that takes runs of its own.
+/// The gap that keeps the buildings apart, which has a key of its own.
 const ISOLATED_DEMAND: &str = "isolated_demand";
 
 /// JSON Schema (2020-12) of a study file: the keys that the reader accepts, with what they
@@ -274,6 +293,7 @@ impl StudyFile {
             None => Some(Output {
                 chunk: CHUNK,
                 isolated_demand: false,
+                isolated_peaks: false,
                 quantities: None,
                 float32: false,
             }),
@@ -296,6 +316,7 @@ impl StudyFile {
             design,
             chunk: output.chunk,
             isolated_demand: output.isolated_demand || ida.is_some(),
+            isolated_peaks: output.isolated_peaks,
             quantities: output.quantities,
             float32: output.float32,
             ida,

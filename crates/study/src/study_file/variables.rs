@@ -331,7 +331,9 @@ impl VariableTable {
             (Some(TableOr::Table(_)), Some(Field::Given(list))) => {
                 models(reader, list, path.as_ref(), tried.as_ref())?
             }
-            (_, Some(Field::Given(list))) if is_named => named(reader, list.value.0, tried.as_ref())?,
+            (_, Some(Field::Given(list))) if is_named => {
+                named(reader, list.value.0, tried.as_ref())?
+            }
             (_, values) => {
                 let numbers = Self { values, ..self }.numbers(reader);
                 let any = |written: Written| written.any().map(|quantity| quantity.value);

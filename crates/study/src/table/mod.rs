@@ -192,6 +192,7 @@ fn header(d: &Description) -> Vec<String> {
             }
             Axis::Storey => &d.layout.storeys,
             Axis::Level => &d.layout.levels,
+            Axis::LinkLevel => &d.layout.link_levels,
             Axis::Building => {
                 let of = |name: &String| with_unit(&format!("{}: {name}", q.name), q.unit);
                 cells.extend(d.layout.buildings.iter().map(of));

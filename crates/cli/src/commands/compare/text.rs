@@ -15,7 +15,7 @@ const LISTED: usize = 6;
 const ROWS: usize = 24;
 
 /// Kinds that a table of a record shows.
-const SHOWN: [QuantityKind; 11] = [
+const SHOWN: [QuantityKind; 13] = [
     QuantityKind::Displacement,
     QuantityKind::StoreyShear,
     QuantityKind::AccelerationAbsolute,
@@ -24,6 +24,8 @@ const SHOWN: [QuantityKind; 11] = [
     QuantityKind::PeakForce,
     QuantityKind::ColumnShear,
     QuantityKind::Opening,
+    QuantityKind::LinkForce,
+    QuantityKind::LinkDeformation,
     QuantityKind::ApproachVelocity,
     QuantityKind::ImpactEnergy,
     QuantityKind::AchievedRestitution,
@@ -32,11 +34,14 @@ const SHOWN: [QuantityKind; 11] = [
 /// Unit of tables, its size in SI, and digits after the point.
 fn shown_in(kind: QuantityKind) -> (&'static str, f64, usize) {
     match kind {
-        QuantityKind::Displacement | QuantityKind::Opening => ("mm", 1e-3, 1),
-        QuantityKind::DriftRatio => ("%", 1e-2, 3),
-        QuantityKind::StoreyShear | QuantityKind::PeakForce | QuantityKind::ColumnShear => {
-            ("kN", 1e3, 1)
+        QuantityKind::Displacement | QuantityKind::Opening | QuantityKind::LinkDeformation => {
+            ("mm", 1e-3, 1)
         }
+        QuantityKind::DriftRatio => ("%", 1e-2, 3),
+        QuantityKind::StoreyShear
+        | QuantityKind::PeakForce
+        | QuantityKind::ColumnShear
+        | QuantityKind::LinkForce => ("kN", 1e3, 1),
         QuantityKind::AccelerationAbsolute => ("g", G, 3),
         QuantityKind::BaseMoment => ("kN m", 1e3, 1),
         QuantityKind::Response(response) => {
@@ -280,10 +285,14 @@ fn not_reached(c: &Comparison) -> String {
             None => said.push((vec![name], without)),
         }
     }
+    let links = match c.quantities.iter().any(Quantity::is_of_link) {
+        true => " and those of their links",
+        false => "",
+    };
     let line = |(buildings, without): &(Vec<&str>, Vec<usize>)| {
         let records: Vec<_> = without.iter().map(|r| c.records[*r].as_str()).collect();
         format!(
-            "{}: reached by no contact with any model under {} of {}, which {} left out of the spread between models and the ranking of their peaks: {}\n",
+            "{}: reached by no contact with any model under {} of {}, which {} left out of the spread between models and the ranking of their peaks{links}: {}\n",
             buildings.join(", "),
             without.len(),
             counted(c.records.len(), "record"),

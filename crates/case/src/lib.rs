@@ -17,6 +17,6 @@ mod units;
 
 pub use error::{CaseError, Errors};
 pub use files::GivenFiles;
-pub use parse::{CaseTree, ground_motion_schema, process_steps, schema};
+pub use parse::{CaseTree, ProcessSteps, ground_motion_schema, process_steps, schema};
 pub use types::*;
 pub use units::{Dimension, Quantity, UnitError, parse_quantity, unit_in};

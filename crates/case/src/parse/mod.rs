@@ -37,7 +37,7 @@ mod separation;
 mod tree;
 
 pub use ground_motion::ground_motion_schema;
-pub use process::process_steps;
+pub use process::{ProcessSteps, process_steps};
 pub(crate) use rule::file as rule_file;
 pub(crate) use separation::keys as separation_keys;
 pub use tree::CaseTree;

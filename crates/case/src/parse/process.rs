@@ -199,15 +199,15 @@ impl<T: JsonSchema> JsonSchema for Words<T> {
     }
 }
 
+/// Steps of a `process` list with their places.
+pub type ProcessSteps = Vec<Located<ProcessingStep<BandSource>>>;
+
 /// Reads a text `process = [...]`, the same list as in a case file: for programs that
-/// offer the steps elsewhere. `name` stands in messages.
+/// offer the steps elsewhere; and what is asked about their values. `name` stands in messages.
 ///
 /// # Errors
 /// All that is wrong in the text, with its places.
-pub fn process_steps(
-    source: &str,
-    name: &str,
-) -> Result<(Vec<Located<ProcessingStep<BandSource>>>, Vec<String>), CaseError> {
+pub fn process_steps(source: &str, name: &str) -> Result<(ProcessSteps, Vec<String>), CaseError> {
     let errors = Errors::default();
     let reader = Reader {
         file: name,

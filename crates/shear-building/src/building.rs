@@ -702,12 +702,20 @@ impl ShearBuilding {
         self.foundation.as_deref()
     }
 
+    /// The building on a fixed base: itself, unless it stands on a foundation that sways or
+    /// rocks.
+    #[must_use]
+    pub fn without_foundation(&self) -> &Self {
+        self.foundation().map_or(self, OnFoundation::fixed_base)
+    }
+
     /// The same building, made of another one on this foundation.
     pub(crate) fn standing_on(self, foundation: OnFoundation) -> Self {
         let fixed = foundation.fixed_base();
         Self {
             geometric: fixed.geometric.clone(),
             asymmetry: fixed.asymmetry,
+            laws: fixed.laws.clone(),
             foundation: Some(Box::new(foundation)),
             ..self
         }

@@ -229,8 +229,8 @@ mod tests {
 
     use super::*;
     use crate::building::StoreyLaw;
-    use crate::isolator::{Isolator, IsolatorKind};
     use crate::foundation::SpringDashpot;
+    use crate::isolator::{Isolator, IsolatorKind};
 
     fn fixed(gravity: f64) -> ShearBuilding {
         let damping = Damping::Modal { ratios: vec![0.05] };
@@ -328,16 +328,13 @@ mod tests {
         };
         let (mass, height) = (vec![5.0e4, 8.0e4], vec![0.5, 4.0]);
         let damping = Damping::MassProportional { ratio: 0.0 };
-        let isolated = ShearBuilding::on_isolators(
-            "b".to_owned(),
-            mass,
-            &[5.0e7],
-            height,
-            damping,
-            isolator,
-        );
+        let isolated =
+            ShearBuilding::on_isolators("b".to_owned(), mass, &[5.0e7], height, damping, isolator);
         let error = on(isolated.unwrap(), 1.0e10).unwrap_err();
-        assert!(error.contains("isolators stand on no foundation"), "{error}");
+        assert!(
+            error.contains("isolators stand on no foundation"),
+            "{error}"
+        );
 
         let foundation = Foundation::new(0.0, 1.0e6, None, spring(1.0e10)).unwrap();
         let twice = fixed(0.0).on_foundation(foundation, None, 10.0).unwrap();

@@ -445,37 +445,31 @@ fn an_integration_of_the_equations_finds_the_same() {
     }
 }
 
-/// Half the step, a quarter of the error; the ledger closes by average accelerations.
+fn hht_alpha(step: f64) -> MethodChoice {
+    MethodChoice::HhtAlpha { step, alpha: -0.1 }
+}
+
+fn runge_kutta_4(step: f64) -> MethodChoice {
+    MethodChoice::RungeKutta4 { step }
+}
+
+/// A quarter of the step leaves a sixteenth of the error, or thereabouts where peaks stand in other branches.
 #[test]
 fn fixed_steps_converge_to_the_same() {
-    let hht: fn(f64) -> MethodChoice = |step| MethodChoice::HhtAlpha { step, alpha: -0.1 };
-    let runge_kutta: fn(f64) -> MethodChoice = |step| MethodChoice::RungeKutta4 { step };
-    let methods: [(fn(f64) -> MethodChoice, f64, f64, f64); 3] = [
-        (newmark, 1.0e-3, 2.5, 1.0e-2),
-        (hht, 1.0e-3, 2.5, 1.0e-1),
-        (runge_kutta, 1.0e-3, 2.5, 1.0e-6),
-    ];
+    let methods: [fn(f64) -> MethodChoice; 3] = [newmark, hht_alpha, runge_kutta_4];
     for (name, example) in examples() {
         let reference = Reference::of(example);
         let system = example.system();
-        for (method, step, order, ledger) in methods {
-            let [coarse, fine] = [step, 0.25 * step].map(|step| {
-                let options = RunOptions {
-                    method: method(step),
-                    duration: Some(DURATION),
-                    energy_tolerance: Some(1.0),
-                };
-                run(&system, &options, &mut [], &mut |_| {}).unwrap()
-            });
-            let errors = [&coarse, &fine].map(|outcome| reference.difference(outcome));
-            let residual = fine.energy.residual_ratio;
-            println!("{name} {}: {errors:?}, {residual:.1e}", fine.method.name);
-            assert!(
-                errors[1] < errors[0] / order || errors[1] < 1.0e-7,
-                "{name}: {errors:?}"
-            );
-            assert!(errors[1] < 1.0e-3, "{name}: {errors:?}");
-            assert!(residual < ledger, "{name}: {residual:e}");
+        for method in methods {
+            let outcomes = [1.0e-3, 2.5e-4].map(|step| go(&system, method(step), DURATION));
+            let errors = outcomes.each_ref().map(|o| reference.difference(o));
+            let residual = outcomes[1].energy.residual_ratio;
+            let method = outcomes[1].method.name;
+            println!("{name} {method}: {errors:?}, residual {residual:.1e}");
+            let converges = errors[1] < errors[0] / 6.0 || errors[1] < 1.0e-7;
+            assert!(converges, "{name} {method}: {errors:?}");
+            assert!(errors[1] < 2.0e-5, "{name} {method}: {errors:?}");
+            assert!(residual < 1.0e-5, "{name} {method}: {residual:e}");
         }
     }
 }
@@ -600,11 +594,8 @@ fn no_history_exceeds_its_peak_and_recorders_change_nothing() {
             EVENT_DRIVEN,
             ADAPTIVE,
             newmark(2.0e-3),
-            MethodChoice::HhtAlpha {
-                step: 2.0e-3,
-                alpha: -0.1,
-            },
-            MethodChoice::RungeKutta4 { step: 1.0e-3 },
+            hht_alpha(2.0e-3),
+            runge_kutta_4(1.0e-3),
         ] {
             let options = RunOptions {
                 method,

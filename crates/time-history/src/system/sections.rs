@@ -62,7 +62,7 @@ pub(super) fn section_forces(
     for (b, building) in buildings.iter().enumerate() {
         let first = offsets[b];
         let parts = [first..offsets[b + 1], further[b]..further[b + 1]];
-        let mut add = |place: SectionPlace, weights: Vec<f64>, elements: Vec<(usize, f64)>| {
+        let mut add = |place: SectionPlace, Sum { weights, elements }: Sum| {
             all.push(SectionForce {
                 place,
                 parts: parts.clone(),
@@ -74,32 +74,28 @@ pub(super) fn section_forces(
         let moment = moment_with_laws(b, building, elements);
         let rows = building.section_forces().into_iter().flatten();
         for (i, weights) in rows.enumerate() {
-            let (place, (weights, elements)) = match (laws.get(i), &moment) {
+            match (laws.get(i), &moment) {
                 // Its element has the shear.
-                (Some(Some(_)), _) => (
-                    SectionPlace::StoreyShear(first + i),
-                    (vec![0.0; weights.len()], Vec::new()),
-                ),
-                (Some(None), _) => (SectionPlace::StoreyShear(first + i), (weights, Vec::new())),
-                (None, Some(moment)) => (SectionPlace::BaseMoment(b), moment.clone()),
-                (None, None) => (SectionPlace::BaseMoment(b), (weights, Vec::new())),
-            };
-            add(place, weights, elements);
+                (Some(Some(_)), _) => {
+                    let nothing = Sum::from(vec![0.0; weights.len()]);
+                    add(SectionPlace::StoreyShear(first + i), nothing);
+                }
+                (Some(None), _) => add(SectionPlace::StoreyShear(first + i), weights.into()),
+                (None, Some(moment)) => add(SectionPlace::BaseMoment(b), moment.clone()),
+                (None, None) => add(SectionPlace::BaseMoment(b), weights.into()),
+            }
         }
         for (i, weights) in building.drifts().unwrap_or_default().iter().enumerate() {
-            add(SectionPlace::Drift(first + i), weights.clone(), Vec::new());
+            add(SectionPlace::Drift(first + i), weights.clone().into());
         }
         for row in building.responses() {
             if row.kind == ResponseKind::Displacement {
                 let overturning = overturning_by_base_moment(building, row);
-                let (weights, elements) = match (overturning, &moment) {
-                    (Some(limit), Some((weights, elements))) => (
-                        weights.iter().map(|w| w / limit).collect(),
-                        elements.iter().map(|(e, w)| (*e, w / limit)).collect(),
-                    ),
-                    _ => (row.weights.clone(), Vec::new()),
+                let sum = match (overturning, &moment) {
+                    (Some(limit), Some(moment)) => moment.over(limit),
+                    _ => row.weights.clone().into(),
                 };
-                add(SectionPlace::Named(named), weights, elements);
+                add(SectionPlace::Named(named), sum);
             }
             named += 1;
         }
@@ -107,13 +103,35 @@ pub(super) fn section_forces(
     all
 }
 
+/// A sum over the coordinates of a building and over forces of elements.
+#[derive(Debug, Clone)]
+struct Sum {
+    weights: Vec<f64>,
+    elements: Vec<(usize, f64)>,
+}
+
+impl From<Vec<f64>> for Sum {
+    fn from(weights: Vec<f64>) -> Self {
+        Self {
+            weights,
+            elements: Vec::new(),
+        }
+    }
+}
+
+impl Sum {
+    fn over(&self, divisor: f64) -> Self {
+        let elements = self.elements.iter();
+        Self {
+            weights: self.weights.iter().map(|w| w / divisor).collect(),
+            elements: elements.map(|(e, w)| (*e, w / divisor)).collect(),
+        }
+    }
+}
+
 /// The moment at the base of a building some of whose storeys follow laws, `sum V_i h_i` over the
 /// storeys: the row of the elastic ones, and the elements of the others with their heights.
-fn moment_with_laws(
-    index: usize,
-    building: &ShearBuilding,
-    elements: &[Element],
-) -> Option<(Vec<f64>, Vec<(usize, f64)>)> {
+fn moment_with_laws(index: usize, building: &ShearBuilding, elements: &[Element]) -> Option<Sum> {
     building.laws().iter().flatten().next()?;
     let drifts = building.drifts()?;
     let height = building.height();
@@ -131,7 +149,10 @@ fn moment_with_laws(
         ElementPlace::Storey { building, storey } if building == index => Some((e, height[storey])),
         _ => None,
     });
-    Some((weights, own.collect()))
+    Some(Sum {
+        weights,
+        elements: own.collect(),
+    })
 }
 
 /// The moment (N m) over which a response is that at the base, where it is the

@@ -264,6 +264,117 @@ fn run_shows_and_keeps_responses_of_foundations() {
     assert_eq!(mild["warnings"], serde_json::json!([]));
 }
 
+/// Both buildings with storeys that yield.
+fn yielding(analysis: &str) -> String {
+    let with_law = |building: &str, force: &str| {
+        let law = format!(
+            "law = {{ model = \"bilinear\", yield_force = \"{force}\", hardening_ratio = 0.05 }}\ndamping"
+        );
+        building.replacen("damping", &law, 1)
+    };
+    let case = by_soil().replace("[analysis]\n", &format!("[analysis]\n{analysis}"));
+    let (first, second) = case.split_once("name = \"B\"").unwrap();
+    let [first, second] = [with_law(first, "400 kN"), with_law(second, "1.6 MN")];
+    format!("{first}name = \"B\"{second}")
+}
+
+/// Storeys yield on soil: the base moment of every instant is that of the shears, no peak lies below the
+/// history beside it, and `check` and `gap` say what yields.
+#[test]
+fn storeys_yield_on_soil() {
+    let bench = Bench::with(&yielding(""));
+    let checked = bench.text("check case.toml");
+    let yields = checked.matches("law bilinear, yields at a drift of");
+    assert_eq!(yields.count(), 6, "{checked}");
+    for method in [
+        "",
+        "method = \"adaptive\"\n",
+        "method = \"newmark\"\nstep = \"1 ms\"\n",
+    ] {
+        let bench = Bench::with(&yielding(&format!("output_step = \"1 ms\"\n{method}")));
+        let told = bench.json("run case.toml -o case.h5");
+        assert!(told["energy"]["residual_ratio"].as_f64().unwrap() < 1e-3);
+        assert!(told["energy"]["hysteretic"].as_f64().unwrap() > 0.0);
+        let file = hdf5::File::open(bench.folder().join("case.h5")).unwrap();
+        for name in ["A", "B"] {
+            let history = |own: &str| {
+                let path = format!("building/{name}/{own}");
+                file.dataset(&path).unwrap().read_dyn::<f64>().unwrap()
+            };
+            let peak = |own: &str| {
+                let path = format!("building/{name}/peak/{own}");
+                file.dataset(&path).unwrap().read_dyn::<f64>().unwrap()
+            };
+            let (shears, moments) = (history("storey_shear"), history("base_moment"));
+            let largest = moments.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let height = 3.2;
+            for (row, moment) in shears.outer_iter().zip(&moments) {
+                assert!((height * row.sum() - moment).abs() < 1e-12 * largest);
+            }
+            let bound = peak("base_moment").sum();
+            assert!(largest <= bound * (1.0 + 1e-12) && largest > 0.99 * bound);
+            for (storey, column) in shears.columns().into_iter().enumerate() {
+                let largest = column.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+                let bound = peak("storey_shear")[storey];
+                assert!(largest <= bound * (1.0 + 1e-12) && largest > 0.98 * bound);
+            }
+        }
+    }
+    let shown = String::from_utf8(bench.output("gap case.toml --points 0").stdout).unwrap();
+    assert!(
+        shown.contains("count sway and rotation of the foundation"),
+        "{shown}"
+    );
+    // Those of codes that hold for elastic displacements.
+    assert!(shown.contains("not judged: elastic only"), "{shown}");
+}
+
+/// With contacts, with velocity jumps, and under a motion that comes later below one of the buildings.
+#[test]
+fn both_methods_agree_where_storeys_yield_on_soil() {
+    let jumps = |case: String| {
+        let contact = "model = \"anagnostopoulos_2004\"\nstiffness = \"200 MN/m\"";
+        case.replace(contact, "model = \"stereomechanical\"")
+    };
+    let later = |case: String| {
+        let ground = "name = \"B\"\nground = { delay = \"0.13 s\" }";
+        case.replace("name = \"B\"", ground)
+    };
+    let as_it_is = |case: String| case;
+    for change in [as_it_is, jumps, later] {
+        let adaptive = "method = \"adaptive\"\nrelative_tolerance = 1e-11\n";
+        let told = ["", adaptive].map(|method| {
+            let bench = Bench::with(&change(yielding(method)));
+            bench.json("run case.toml --no-output")
+        });
+        let peaks = told.each_ref().map(|told| {
+            assert!(told["energy"]["residual_ratio"].as_f64().unwrap() < 1e-9);
+            let mut peaks = Vec::new();
+            for building in told["buildings"].as_array().unwrap() {
+                for storey in building["storeys"].as_array().unwrap() {
+                    peaks.extend(storey.as_object().unwrap().values().cloned());
+                }
+                peaks.push(building["base_moment"].clone());
+                peaks.extend(building["responses"].as_array().unwrap().iter().cloned());
+            }
+            let peaks = peaks.iter().map(|p| p["peak"].as_f64().unwrap());
+            peaks.collect::<Vec<_>>()
+        });
+        assert_eq!(peaks[0].len(), 2 * (3 * 4 + 1 + 5));
+        for (a, b) in peaks[0].iter().zip(&peaks[1]) {
+            assert!((a / b - 1.0).abs() < 1e-9, "{a} {b}");
+        }
+        let impacts = told.each_ref().map(|told| {
+            let levels = told["gaps"][0]["levels"].as_array().unwrap();
+            levels
+                .iter()
+                .map(|l| l["impacts"].as_u64())
+                .collect::<Vec<_>>()
+        });
+        assert_eq!(impacts[0], impacts[1]);
+    }
+}
+
 /// Floors move with the foundation: what `gap` demands holds it, and it says so.
 #[test]
 fn the_demand_counts_the_foundations() {
@@ -731,9 +842,13 @@ fn gravity_acts_on_buildings_on_soil() {
 /// Each with what its message says, and the remedy.
 #[test]
 fn what_cannot_stand_on_soil_is_refused_at_its_place() {
-    let law = "law = { model = \"bilinear\", yield_force = \"1 MN\", hardening_ratio = 0.1 }\n";
-    let after_damping =
-        |line: &str, more: &str| by_soil().replacen(line, &format!("{more}{line}"), 1);
+    let isolator = "isolator = { model = \"friction_pendulum\", radius = 2, friction_fast = 0.08, friction_slow = 0.04, rate = 30, yield_displacement = 0.001 }\n";
+    let after_damping = |line: &str, more: &str| {
+        let three = "stiffness = [\"60 MN/m\", \"55 MN/m\", \"50 MN/m\"]";
+        let two = "stiffness = [\"55 MN/m\", \"50 MN/m\"]";
+        let isolated = by_soil().replacen(three, two, 1);
+        isolated.replacen(line, &format!("{more}{line}"), 1)
+    };
     let link = |keys: &str| {
         format!(
             "{}[[link]]\nbetween = [\"A\", \"B\"]\nmodel = \"linear\"\n{keys}\n",
@@ -753,10 +868,10 @@ fn what_cannot_stand_on_soil_is_refused_at_its_place() {
         );
     for (case, words) in [
         (
-            after_damping("damping =", law),
+            after_damping("[building.foundation]", isolator),
             [
-                "law bilinear in a storey of \"A\", which stands on a foundation that sways or rocks",
-                "remove `law`, or `foundation`",
+                "\"A\" stands on isolators and on a foundation that sways or rocks",
+                "remove `isolator` or `foundation`",
             ],
         ),
         (

@@ -589,7 +589,7 @@ impl ShearBuilding {
     /// rows on the floor displacements: `V_i = sum (K u)_j` over the floors from `i` on,
     /// `M = sum (K u)_j z_j`, with `K` without what gravity takes off (Chopra, Dynamics of
     /// Structures, section 9.4). `None` for a chain of storeys, whose shears are stiffness
-    /// times drift.
+    /// times drift. Rows of a building on a foundation are elastic, also of storeys with laws.
     #[must_use]
     pub fn section_forces(&self) -> Option<Vec<Vec<f64>>> {
         if self.sections.is_some() {
@@ -702,12 +702,20 @@ impl ShearBuilding {
         self.foundation.as_deref()
     }
 
+    /// The building on a fixed base: itself, unless it stands on a foundation that sways or
+    /// rocks.
+    #[must_use]
+    pub fn without_foundation(&self) -> &Self {
+        self.foundation().map_or(self, OnFoundation::fixed_base)
+    }
+
     /// The same building, made of another one on this foundation.
     pub(crate) fn standing_on(self, foundation: OnFoundation) -> Self {
         let fixed = foundation.fixed_base();
         Self {
             geometric: fixed.geometric.clone(),
             asymmetry: fixed.asymmetry,
+            laws: fixed.laws.clone(),
             foundation: Some(Box::new(foundation)),
             ..self
         }

@@ -80,23 +80,25 @@ impl ShearBuilding {
     /// moment (that at the base where the foundation does not rock) over half of weight
     /// times length. `gravity` in m/s2.
     ///
+    /// Laws of its storeys stay, with the drifts of the building itself as their deformations.
+    /// Modes, damping and the rows of its forces are those of the elastic building.
+    ///
     /// # Errors
-    /// A building with storey laws or further coordinates, gravity that overturns building
-    /// and foundation, and values so far apart that the modes cannot be resolved.
+    /// A building with further coordinates or on isolators that follow a law, gravity that
+    /// overturns building and foundation, and values so far apart that the modes cannot be
+    /// resolved.
     pub fn on_foundation(
         self,
         foundation: Foundation,
         length: Option<f64>,
         gravity: f64,
     ) -> Result<Self, ShearBuildingError> {
-        if let Some(storey) = self.laws().iter().position(Option::is_some) {
-            let law = self.laws()[storey].as_ref();
+        if let (Some(_), Some(Some(law))) = (self.isolator(), self.laws().first()) {
             return Err(ShearBuildingError::Law {
-                law: law.map_or("", |l| l.law.descriptor().name),
+                law: law.law.descriptor().name,
                 building: self.name().to_owned(),
-                storey: storey + 1,
-                reason: "a building on a foundation that sways or rocks has elastic storeys"
-                    .to_owned(),
+                storey: 1,
+                reason: "isolators stand on no foundation that sways or rocks".to_owned(),
             });
         }
         let n = self.storeys();
@@ -228,6 +230,7 @@ mod tests {
     use super::*;
     use crate::building::StoreyLaw;
     use crate::foundation::SpringDashpot;
+    use crate::isolator::{Isolator, IsolatorKind};
 
     fn fixed(gravity: f64) -> ShearBuilding {
         let damping = Damping::Modal { ratios: vec![0.05] };
@@ -312,8 +315,26 @@ mod tests {
             yield_drift: None,
         };
         let yields = fixed(0.0).with_laws(vec![Some(law), None]).unwrap();
-        let error = on(yields, 1.0e10).unwrap_err();
-        assert!(error.contains("storey 1: law bilinear"), "{error}");
+        assert_eq!(on(yields, 1.0e10), Ok(()));
+        let isolator = Isolator {
+            kind: IsolatorKind::FrictionPendulum {
+                radius: 2.0,
+                friction_fast: 0.08,
+                friction_slow: 0.04,
+                rate: 30.0,
+                yield_displacement: 0.001,
+            },
+            dashpot: 0.0,
+        };
+        let (mass, height) = (vec![5.0e4, 8.0e4], vec![0.5, 4.0]);
+        let damping = Damping::MassProportional { ratio: 0.0 };
+        let isolated =
+            ShearBuilding::on_isolators("b".to_owned(), mass, &[5.0e7], height, damping, isolator);
+        let error = on(isolated.unwrap(), 1.0e10).unwrap_err();
+        assert!(
+            error.contains("isolators stand on no foundation"),
+            "{error}"
+        );
 
         let foundation = Foundation::new(0.0, 1.0e6, None, spring(1.0e10)).unwrap();
         let twice = fixed(0.0).on_foundation(foundation, None, 10.0).unwrap();

@@ -33,6 +33,13 @@ pub enum ElementPlace {
     },
 }
 
+impl ElementPlace {
+    /// Whether it is a storey of this building.
+    pub(crate) fn is_in(self, of: usize) -> bool {
+        matches!(self, Self::Storey { building, .. } if building == of)
+    }
+}
+
 /// A storey or a level of a link whose force follows a law with memory.
 #[derive(Debug, Clone)]
 pub struct Element {
@@ -43,7 +50,7 @@ pub struct Element {
     pub far: Option<usize>,
     /// Degree of freedom at the other end; `None` moves with the ground.
     pub near: Option<usize>,
-    /// What the deformation holds beside both ends.
+    /// What the deformation holds beside both ends: of a storey the motion of a foundation.
     pub(crate) terms: Terms,
     /// Storeys and elevations of both ends of a level of a link.
     pub(crate) level_place: Option<LevelPlace>,

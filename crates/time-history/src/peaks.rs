@@ -109,7 +109,12 @@ impl Peaks {
             }
         }
         for section in system.sections() {
-            self.raise_section(section.place, section.at(u).abs(), 0.0);
+            let mut sum = section.at(u);
+            for (index, weight) in &section.elements {
+                let dynamics = &mut *context.dynamics;
+                sum += weight * dynamics.element_force(context.contacts, *index, state, None);
+            }
+            self.raise_section(section.place, sum.abs(), 0.0);
         }
         for row in system.acceleration_rows() {
             let own = |i: usize| self.acceleration[0][i] + system.ground_on(i, ground);
@@ -186,6 +191,10 @@ impl Peaks {
                 for (sum, c) in force.iter_mut().zip(method.polynomial(i)) {
                     *sum += weight * c;
                 }
+            }
+            if !section.elements.is_empty() {
+                self.section_with_elements(context, method, (section, &force), place);
+                continue;
             }
             let peak = self.of_section(section.place).value;
             if let Some((theta, top)) = absolute_maximum(&force, peak) {
@@ -289,21 +298,9 @@ impl Peaks {
         }
         let implicit = method.information().implicit;
         let velocity = element.polynomial(|i| *method.polynomial(i), context.dynamics.layout.dofs);
-        let own = element.range(context.dynamics.layout);
-        let mut variables = [0.0; MAXIMUM_INTERNAL_VARIABLES];
-        let mut force = |theta: f64| {
-            let motion = Motion {
-                deformation: value(&deformation, theta),
-                velocity: value(&velocity, theta),
-            };
-            for (variable, i) in variables.iter_mut().zip(own.clone()) {
-                *variable = value(method.polynomial(i), theta);
-            }
-            let elapsed = (implicit && theta > 0.0).then_some(theta * step);
-            let at = (motion, &variables[..own.len()]);
-            let dynamics = &mut *context.dynamics;
-            dynamics.element_force_at(context.contacts, index, at, elapsed)
-        };
+        let motion = [deformation, velocity];
+        let mut force =
+            |theta: f64| force_of_element(context, method, (index, &motion), (theta, step));
         let samples = fit_nodes().map(&mut force);
         let fitted = fit(&samples);
         let maximum = self.elements[index].force.value;
@@ -324,6 +321,52 @@ impl Peaks {
         if let Some((theta, _)) = absolute_maximum(&fitted, near) {
             let exact = force(theta).abs();
             self.raise_force(element, index, exact, start + theta * step);
+        }
+    }
+
+    /// A sum over coordinates, by its interpolant, and over forces of elements along theirs.
+    fn section_with_elements(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        (section, row): (&SectionForce, &Polynomial),
+        (tau, step): (f64, f64),
+    ) {
+        let (system, dofs) = (context.dynamics.system, context.dynamics.layout.dofs);
+        let start = context.segment.start + tau;
+        let implicit = method.information().implicit;
+        let of = |(index, weight): &(usize, f64)| {
+            let element = &system.elements()[*index];
+            let motion = [0, dofs].map(|at| element.polynomial(|i| *method.polynomial(i), at));
+            (*index, *weight, motion)
+        };
+        let parts: Vec<_> = section.elements.iter().map(of).collect();
+        let mut sum = |theta: f64| {
+            let of = |(index, weight, motion): &(usize, f64, [Polynomial; 2])| {
+                let element = (*index, motion);
+                weight * force_of_element(context, method, element, (theta, step))
+            };
+            value(row, theta) + parts.iter().map(of).sum::<f64>()
+        };
+        let samples = fit_nodes().map(&mut sum);
+        let fitted = fit(&samples);
+        let present = self.of_section(section.place).value;
+        let most = bound(&fitted).max(bound(&fitted.map(|c| -c)));
+        if most <= present * if implicit { branches::FAR } else { NEAR } {
+            return;
+        }
+        for (theta, sample) in fit_nodes().iter().zip(samples) {
+            self.raise_section(section.place, sample.abs(), start + theta * step);
+        }
+        if implicit {
+            let (theta, top) = branches::largest(|theta| sum(theta).abs());
+            self.raise_section(section.place, top, start + theta * step);
+            return;
+        }
+        let near = self.of_section(section.place).value * NEAR;
+        if let Some((theta, _)) = absolute_maximum(&fitted, near) {
+            let exact = sum(theta).abs();
+            self.raise_section(section.place, exact, start + theta * step);
         }
     }
 
@@ -521,6 +564,30 @@ impl Peaks {
             peak.raise(force(theta), start + theta * step);
         }
     }
+}
+
+/// Force of an element at a place in the step, from the interpolants of its deformation and of the
+/// rate of it.
+fn force_of_element(
+    context: &mut Context<'_, '_>,
+    method: &dyn Method,
+    (index, [deformation, velocity]): (usize, &[Polynomial; 2]),
+    (theta, step): (f64, f64),
+) -> f64 {
+    let own = context.dynamics.system.elements()[index].range(context.dynamics.layout);
+    let motion = Motion {
+        deformation: value(deformation, theta),
+        velocity: value(velocity, theta),
+    };
+    let mut variables = [0.0; MAXIMUM_INTERNAL_VARIABLES];
+    for (variable, i) in variables.iter_mut().zip(own.clone()) {
+        *variable = value(method.polynomial(i), theta);
+    }
+    let implicit = method.information().implicit;
+    let elapsed = (implicit && theta > 0.0).then_some(theta * step);
+    let at = (motion, &variables[..own.len()]);
+    let dynamics = &mut *context.dynamics;
+    dynamics.element_force_at(context.contacts, index, at, elapsed)
 }
 
 /// Force of a closed level at a place in the step, with its penetration and their rate there.

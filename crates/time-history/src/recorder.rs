@@ -194,6 +194,22 @@ fn append_elements(
             rows.storey_shear[shear + dof] = force;
         }
     }
+    let forces = &rows.element_force[rows.element_force.len() - system.elements().len()..];
+    let response = rows.response.len() - system.named_responses() - system.level_rows().len();
+    let moment = rows.base_moment.len() - system.base_moments_before(system.buildings().len());
+    for section in system.sections() {
+        let sum: f64 = section.elements.iter().map(|(e, w)| w * forces[*e]).sum();
+        if section.elements.is_empty() {
+            continue;
+        }
+        match section.place {
+            SectionPlace::BaseMoment(building) => {
+                rows.base_moment[moment + system.base_moments_before(building)] += sum;
+            }
+            SectionPlace::Named(number) => rows.response[response + number] += sum,
+            SectionPlace::StoreyShear(_) | SectionPlace::Drift(_) => {}
+        }
+    }
 }
 
 /// A sink for responses.

@@ -655,7 +655,8 @@ impl Warning {
         );
         warnings.extend(unusual_values::of(system));
         warnings.extend(system.buildings().iter().filter_map(|b| stiff_soil(b)));
-        warnings.extend(system.buildings().iter().filter_map(|b| braked_isolator(b)));
+        let fixed = system.buildings().iter().map(|b| b.without_foundation());
+        warnings.extend(fixed.filter_map(braked_isolator));
         for gap in system.gaps() {
             let levels = &system.levels()[gap.first_level..gap.first_level + gap.levels];
             let wide = levels.iter().filter_map(|level| {

@@ -4,6 +4,7 @@
 use std::sync::Arc;
 
 use pounding_hysteresis::{LawParameters, descriptors};
+use pounding_shear_building::{Foundation, ShearBuilding, SpringDashpot};
 use pounding_time_history::{Floor, LinkedPair, System};
 
 use super::setup::{
@@ -30,15 +31,29 @@ fn parameters(name: &str) -> LawParameters {
 
 /// A building of two storeys with the law in both, of a mass that makes the elastic
 /// period half a second and lets it yield.
-fn storeys(name: &str) -> Option<System> {
+fn storeys(name: &str) -> Option<ShearBuilding> {
     let law = law(name, &parameters(name));
     let stiffness = law.law.initial_stiffness();
     if !(stiffness.is_finite() && stiffness > 0.0 && law.law.holds_static_load()) {
         return None;
     }
     let mass = stiffness * (0.5 / std::f64::consts::TAU).powi(2) * 0.4;
-    let building = building("frame", (2, mass, stiffness), Some(law));
-    Some(System::new(vec![Arc::new(building)], el_centro()))
+    Some(building("frame", (2, mass, stiffness), Some(law)))
+}
+
+/// The same on a foundation that sways and rocks.
+fn on_soil(name: &str) -> Option<ShearBuilding> {
+    let building = storeys(name)?;
+    let (mass, stiffness) = (building.mass()[0], building.stiffness()[0]);
+    let held = |stiffness: f64| {
+        Some(SpringDashpot {
+            stiffness,
+            dashpot: 0.02 * stiffness,
+        })
+    };
+    let springs = [held(8.0 * stiffness), held(200.0 * stiffness)];
+    let foundation = Foundation::new(mass, 5.0 * mass, springs[0], springs[1]).unwrap();
+    Some(building.on_foundation(foundation, None, 9.8).unwrap())
 }
 
 /// Two elastic buildings of one storey, linked by the law.
@@ -102,9 +117,19 @@ fn check(law: &str, system: &System) {
 
 #[test]
 fn every_law_as_a_storey() {
+    every_law(storeys);
+}
+
+#[test]
+fn every_law_as_a_storey_on_soil() {
+    every_law(on_soil);
+}
+
+fn every_law(building: fn(&str) -> Option<ShearBuilding>) {
     let mut count = 0;
     for descriptor in descriptors() {
-        if let Some(system) = storeys(descriptor.name) {
+        if let Some(building) = building(descriptor.name) {
+            let system = System::new(vec![Arc::new(building)], el_centro());
             check(descriptor.name, &system);
             count += 1;
         }

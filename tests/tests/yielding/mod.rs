@@ -8,6 +8,7 @@ mod event_driven;
 mod exact_oscillator;
 mod fixed_step_peaks;
 mod from_rest;
+mod on_soil;
 mod p_delta;
 mod properties;
 pub mod setup;

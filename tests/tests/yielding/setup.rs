@@ -142,10 +142,15 @@ pub fn newmark(step: f64) -> MethodChoice {
     }
 }
 
-/// Maximum relative difference of the peaks of storeys.
+/// Maximum relative difference of the peaks of storeys, of base moments and of responses with names.
 pub fn difference(a: &Outcome, b: &Outcome) -> f64 {
     let mut worst = 0.0_f64;
     for (a, b) in a.buildings.iter().zip(&b.buildings) {
+        let moments = a.base_moment.iter().zip(&b.base_moment);
+        let responses = a.responses.iter().zip(&b.responses);
+        for (x, y) in moments.chain(responses.map(|(x, y)| (&x.peak, &y.peak))) {
+            worst = worst.max((x.value - y.value).abs() / y.value);
+        }
         for (a, b) in a.storeys.iter().zip(&b.storeys) {
             for (x, y) in [
                 (a.displacement, b.displacement),

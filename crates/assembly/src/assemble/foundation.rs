@@ -54,14 +54,6 @@ pub(super) fn on_foundation(
         let help = "remove `isolator` or `foundation`; isolators are far softer than most soil";
         return Err(case.error(isolator.span.clone(), message, Some(help.to_owned())));
     }
-    if let Some(law) = b.laws.first() {
-        let message = format!(
-            "law {} in a storey of \"{}\", which stands on a foundation that sways or rocks: its storeys are elastic",
-            law.model.value, b.name.value
-        );
-        let help = "remove `law`, or `foundation`; a foundation that only sways can be a first storey of its own, with the soil as its stiffness, and `dashpots` for its damping";
-        return Err(case.error(law.model.span.clone(), message, Some(help.to_owned())));
-    }
     let length = given.value.length;
     let made = building.on_foundation(foundation, length, STANDARD_GRAVITY);
     made.map_err(|e| {

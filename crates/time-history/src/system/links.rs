@@ -199,22 +199,29 @@ impl System {
 pub(super) fn storeys(
     buildings: &[Arc<ShearBuilding>],
     offsets: &[usize],
+    further_offsets: &[usize],
 ) -> (Vec<f64>, Vec<Element>) {
     let (mut spring, mut elements) = (Vec::new(), Vec::new());
     for (b, building) in buildings.iter().enumerate() {
         for (storey, law) in building.laws().iter().enumerate() {
-            let Some(elastic) = building.stiffness().get(storey).copied() else {
-                // The energy of the matrix is that of the whole building.
-                spring.push(0.0);
-                continue;
-            };
+            let own = building.stiffness().get(storey);
             let geometric = building.geometric_stiffness()[storey];
             let dof = offsets[b] + storey;
-            let Some(StoreyLaw { law, yield_drift }) = law else {
-                spring.push(elastic - geometric);
+            // The energy of a matrix is that of the whole building, of which
+            // [`System::strain_energy`] takes off what stands in the place of laws.
+            spring.push(match (own, law) {
+                (None, _) => 0.0,
+                (Some(_), Some(_)) => -geometric,
+                (Some(elastic), None) => elastic - geometric,
+            });
+            let elastic = building.without_foundation().stiffness().get(storey);
+            let (Some(StoreyLaw { law, yield_drift }), Some(elastic)) = (law, elastic) else {
                 continue;
             };
-            spring.push(-geometric);
+            // A foundation moves a storey without deforming it.
+            let drift = building.drifts().map(|rows| rows[storey].iter());
+            let by_foundation = drift.into_iter().flatten().skip(building.storeys());
+            let by_foundation = by_foundation.enumerate().filter(|(_, w)| **w != 0.0);
             elements.push(Element {
                 place: ElementPlace::Storey {
                     building: b,
@@ -222,11 +229,16 @@ pub(super) fn storeys(
                 },
                 far: Some(dof),
                 near: (storey > 0).then(|| dof - 1),
-                terms: Terms::default(),
+                terms: Terms {
+                    pushed: by_foundation
+                        .map(|(j, w)| (further_offsets[b] + j, *w))
+                        .collect(),
+                    ground: Vec::new(),
+                },
                 level_place: None,
                 law: Arc::clone(law),
                 yield_deformation: *yield_drift,
-                carried: elastic,
+                carried: *elastic,
                 first_variable: next_variable(&elements),
             });
         }

@@ -168,8 +168,8 @@ impl System {
             mass.extend_from_slice(&building.inertia()[building.storeys()..]);
             further_offsets.push(mass.len());
         }
-        let (spring, elements) = storeys(&buildings, &offsets);
-        let sections = section_forces(&buildings, &offsets, &further_offsets);
+        let (spring, elements) = storeys(&buildings, &offsets, &further_offsets);
+        let sections = section_forces(&buildings, &offsets, &further_offsets, &elements);
         let acceleration_rows = acceleration_responses(&buildings, &offsets, &further_offsets);
         let mut this = Self {
             offsets,
@@ -441,7 +441,7 @@ impl System {
             levels: Vec::new(),
             weighted_levels: false,
             level_rows: Vec::new(),
-            elements: storeys(&self.buildings, &self.offsets).1,
+            elements: storeys(&self.buildings, &self.offsets, &self.further_offsets).1,
             links: Vec::new(),
             ..self.clone()
         };
@@ -615,6 +615,12 @@ impl System {
         self.buildings.iter().map(|b| b.responses().len()).sum()
     }
 
+    /// Number of buildings from the left, before this one, whose base moment is followed.
+    pub(crate) fn base_moments_before(&self, building: usize) -> usize {
+        let before = self.buildings[..building].iter();
+        before.filter(|b| b.stiffness().is_empty()).count()
+    }
+
     /// Matrices of all buildings, if they are all tridiagonal.
     pub(crate) fn bands(&self) -> Option<&Bands> {
         self.bands.as_ref()
@@ -736,6 +742,12 @@ impl System {
                 for (column, x) in columns.zip(floors.iter().chain(others)) {
                     let (of_floors, of_others) = column.split_at(floors.len());
                     sum += 0.5 * (product(of_floors, floors) + product(of_others, others)) * x;
+                }
+                for element in &self.elements {
+                    if element.place.is_in(index) {
+                        let drift = element.relative(u);
+                        sum -= 0.5 * element.carried * drift * drift;
+                    }
                 }
                 continue;
             }

@@ -5,7 +5,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use pounding_shear_building::{ResponseKind, ShearBuilding};
+use pounding_shear_building::{OVERTURNING_RATIO, ResponseKind, ResponseRow, ShearBuilding};
+
+use crate::elements::{Element, ElementPlace};
 
 /// A response as a row on the coordinates of a building.
 #[derive(Debug, Clone)]
@@ -15,6 +17,9 @@ pub(crate) struct SectionForce {
     parts: [Range<usize>; 2],
     /// One a coordinate (N/m, or N).
     weights: Vec<f64>,
+    /// Storeys with laws whose forces are a part of it, by their numbers in
+    /// [`super::System::elements`], with their weights.
+    pub elements: Vec<(usize, f64)>,
 }
 
 /// Which response.
@@ -38,7 +43,7 @@ impl SectionForce {
         floors.chain(further).zip(self.weights.iter().copied())
     }
 
-    /// The response at these displacements.
+    /// The response at these displacements, without the forces of elements.
     pub(crate) fn at(&self, u: &[f64]) -> f64 {
         self.terms().map(|(i, weight)| weight * u[i]).sum()
     }
@@ -50,38 +55,112 @@ pub(super) fn section_forces(
     buildings: &[Arc<ShearBuilding>],
     offsets: &[usize],
     further: &[usize],
+    elements: &[Element],
 ) -> Vec<SectionForce> {
     let mut all = Vec::new();
     let mut named = 0;
     for (b, building) in buildings.iter().enumerate() {
         let first = offsets[b];
         let parts = [first..offsets[b + 1], further[b]..further[b + 1]];
-        let mut add = |place: SectionPlace, weights: Vec<f64>| {
+        let mut add = |place: SectionPlace, Sum { weights, elements }: Sum| {
             all.push(SectionForce {
                 place,
                 parts: parts.clone(),
                 weights,
+                elements,
             });
         };
+        let laws = building.laws();
+        let moment = moment_with_laws(b, building, elements);
         let rows = building.section_forces().into_iter().flatten();
         for (i, weights) in rows.enumerate() {
-            let place = match i < building.storeys() {
-                true => SectionPlace::StoreyShear(first + i),
-                false => SectionPlace::BaseMoment(b),
-            };
-            add(place, weights);
+            match (laws.get(i), &moment) {
+                // Its element has the shear.
+                (Some(Some(_)), _) => {
+                    let nothing = Sum::from(vec![0.0; weights.len()]);
+                    add(SectionPlace::StoreyShear(first + i), nothing);
+                }
+                (Some(None), _) => add(SectionPlace::StoreyShear(first + i), weights.into()),
+                (None, Some(moment)) => add(SectionPlace::BaseMoment(b), moment.clone()),
+                (None, None) => add(SectionPlace::BaseMoment(b), weights.into()),
+            }
         }
         for (i, weights) in building.drifts().unwrap_or_default().iter().enumerate() {
-            add(SectionPlace::Drift(first + i), weights.clone());
+            add(SectionPlace::Drift(first + i), weights.clone().into());
         }
         for row in building.responses() {
             if row.kind == ResponseKind::Displacement {
-                add(SectionPlace::Named(named), row.weights.clone());
+                let overturning = overturning_by_base_moment(building, row);
+                let sum = match (overturning, &moment) {
+                    (Some(limit), Some(moment)) => moment.over(limit),
+                    _ => row.weights.clone().into(),
+                };
+                add(SectionPlace::Named(named), sum);
             }
             named += 1;
         }
     }
     all
+}
+
+/// A sum over the coordinates of a building and over forces of elements.
+#[derive(Debug, Clone)]
+struct Sum {
+    weights: Vec<f64>,
+    elements: Vec<(usize, f64)>,
+}
+
+impl From<Vec<f64>> for Sum {
+    fn from(weights: Vec<f64>) -> Self {
+        Self {
+            weights,
+            elements: Vec::new(),
+        }
+    }
+}
+
+impl Sum {
+    fn over(&self, divisor: f64) -> Self {
+        let elements = self.elements.iter();
+        Self {
+            weights: self.weights.iter().map(|w| w / divisor).collect(),
+            elements: elements.map(|(e, w)| (*e, w / divisor)).collect(),
+        }
+    }
+}
+
+/// The moment at the base of a building some of whose storeys follow laws, `sum V_i h_i` over the
+/// storeys: the row of the elastic ones, and the elements of the others with their heights.
+fn moment_with_laws(index: usize, building: &ShearBuilding, elements: &[Element]) -> Option<Sum> {
+    building.laws().iter().flatten().next()?;
+    let drifts = building.drifts()?;
+    let height = building.height();
+    let mut weights = vec![0.0; building.coordinates()];
+    let stiffness = building.without_foundation().stiffness().iter();
+    for (storey, stiffness) in stiffness.enumerate() {
+        if building.laws()[storey].is_none() {
+            for (sum, w) in weights.iter_mut().zip(&drifts[storey]) {
+                *sum += stiffness * height[storey] * w;
+            }
+        }
+    }
+    let own = elements.iter().enumerate();
+    let own = own.filter_map(|(e, element)| match element.place {
+        ElementPlace::Storey { building, storey } if building == index => Some((e, height[storey])),
+        _ => None,
+    });
+    Some(Sum {
+        weights,
+        elements: own.collect(),
+    })
+}
+
+/// The moment (N m) over which a response is that at the base, where it is the
+/// [`OVERTURNING_RATIO`] of a foundation that does not rock.
+fn overturning_by_base_moment(building: &ShearBuilding, row: &ResponseRow) -> Option<f64> {
+    let on = building.foundation()?;
+    let by_base = row.name == OVERTURNING_RATIO && on.matrices().rotation().is_none();
+    on.moment_of_uplift().filter(|_| by_base)
 }
 
 /// Those of absolute accelerations.
@@ -99,6 +178,7 @@ pub(super) fn acceleration_responses(
             place: SectionPlace::Named(number),
             parts: parts.clone(),
             weights: row.weights.clone(),
+            elements: Vec::new(),
         });
         made.collect::<Vec<_>>()
     };

@@ -373,7 +373,8 @@ fn seats(runner: &Runner<'_>) -> Vec<(usize, f64)> {
 impl SweepReport {
     fn count(&mut self, row: &Row) {
         self.runs += 1;
-        let beyond = |(column, seat): &(usize, f64)| row.values.get(*column).is_some_and(|u| u > seat);
+        let beyond =
+            |(column, seat): &(usize, f64)| row.values.get(*column).is_some_and(|u| u > seat);
         self.unseated += usize::from(self.seats.iter().any(beyond));
         let (count, first, reason) = match &row.ending {
             Ending::Complete => return,

@@ -89,7 +89,12 @@ pub(super) fn of_hazard(
 }
 
 /// What is said of a limit without a unit on accelerations of floors, or of one on drift ratios that no building has.
-pub(super) fn of_limit(name: &str, demand: DemandKind, exceeds: f64, is_bare: bool) -> Option<String> {
+pub(super) fn of_limit(
+    name: &str,
+    demand: DemandKind,
+    exceeds: f64,
+    is_bare: bool,
+) -> Option<String> {
     let number = six_digits(exceeds);
     match demand {
         DemandKind::AccelerationAbsolute | DemandKind::AccelerationAcross

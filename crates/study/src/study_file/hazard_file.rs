@@ -133,7 +133,10 @@ pub(super) fn points(
 
 /// Whether the first line is a point already, so that no column states its unit.
 pub(super) fn has_no_header(text: &str) -> bool {
-    let mut lines = text.trim_start_matches('\u{feff}').lines().map(str::trim_start);
+    let mut lines = text
+        .trim_start_matches('\u{feff}')
+        .lines()
+        .map(str::trim_start);
     let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
     first.is_some_and(|line| {
         let mut cells = line.split(['\t', ';', ',', ' ']);

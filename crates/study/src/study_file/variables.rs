@@ -15,11 +15,11 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
+use super::asked;
 use super::context::{Base, Context};
 use super::intensity::{BelowOne, IntensityKeys, Measure};
 use super::records::{Record, SyntheticTable};
 use super::rows::{self, Refused};
-use super::asked;
 use super::values::{Numbers, Spacing, Values, Whole, all, table_with_range, unit_of};
 use super::{IntensityMeasure, RecordSource, Target, Variable, records};
 use crate::case_text::{Edit, Entry as CaseEntry, Lost, Path, entry, with_model};

@@ -77,6 +77,69 @@ fn three_frame_bridge() {
     }
 }
 
+/// Frames that yield on soil, beside the same on a fixed base and elastic ones on the soil.
+#[test]
+fn yielding_pair_on_soil() {
+    let hits = |result: &Value| {
+        let levels = result["gaps"][0]["levels"].as_array().unwrap();
+        let impacts: u64 = levels.iter().map(|l| l["impacts"].as_u64().unwrap()).sum();
+        let force = levels
+            .iter()
+            .map(|l| l["peak_force"]["peak"].as_f64().unwrap());
+        (impacts, force.fold(0.0, f64::max))
+    };
+    for adaptive in [false, true] {
+        let result = run("yielding_pair_on_soil", adaptive);
+        let (impacts, force) = hits(&result);
+        assert_eq!(impacts, 18);
+        close(&force.into(), 1.577_254e6, 1e-6);
+        for (b, [ductility, energy, sway]) in [
+            [4.762_206, 67_987.1, 0.001_578_1],
+            [4.182_344, 124_658.1, 0.002_374],
+        ]
+        .into_iter()
+        .enumerate()
+        {
+            let building = &result["buildings"][b];
+            let first = &building["yielding"][0];
+            close(&first["ductility"]["peak"], ductility, 1e-6);
+            close(&first["hysteretic_energy"], energy, 1e-5);
+            close(response(building, "foundation_sway"), sway, 1e-3);
+        }
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples/yielding_pair_on_soil");
+    let text = std::fs::read_to_string(folder.join("case.toml")).unwrap();
+    let motions = folder.join("../../ground_motions").canonicalize().unwrap();
+    let text = text.replace("../../ground_motions", &motions.display().to_string());
+    let without = |words: &[&str]| {
+        let stays = |line: &&str| !words.iter().any(|word| line.starts_with(word));
+        let lines: Vec<&str> = text.lines().filter(stays).collect();
+        let place = tempfile::tempdir().unwrap();
+        let case = place.path().join("case.toml");
+        std::fs::write(&case, lines.join("\n")).unwrap();
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .arg("run")
+            .arg(case)
+            .args(["--no-output", "--json"])
+            .output()
+            .unwrap();
+        hits(&serde_json::from_slice(&output.stdout).unwrap())
+    };
+    let table = [
+        "[building.foundation]",
+        "mass = \"120 t\"",
+        "mass = \"160 t\"",
+        "rotational",
+        "soil = ",
+    ];
+    let (impacts, force) = without(&table);
+    assert_eq!(impacts, 20);
+    close(&force.into(), 9.705e5, 1e-4);
+    let (impacts, force) = without(&["law = "]);
+    assert_eq!(impacts, 46);
+    close(&force.into(), 4.894_7e6, 1e-4);
+}
+
 #[test]
 fn pair_that_turns() {
     for adaptive in [false, true] {

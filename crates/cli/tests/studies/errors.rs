@@ -84,7 +84,7 @@ fn errors_point_at_their_place() {
         (
             "kind = \"latin_hypercube\"\nruns = 60\nseed = 3",
             "kind = \"grid\"",
-            vec!["no `count`, which a grid needs"],
+            vec!["study.toml:4:1: ", "no `count`, which a grid needs"],
         ),
         (
             "name = \"gap\"",

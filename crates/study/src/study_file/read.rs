@@ -259,13 +259,14 @@ impl StudyFile {
         // Without records of its own the study takes that of the case.
         read_case(reader, self.case, context, !names_records);
         context.in_rows = list.as_ref().is_some_and(|list| list.len() > 1) && is_list(&self.design);
+        let tables: Vec<Range<usize>> = list.iter().flatten().filter_map(Entry::span).collect();
         let read = list.map(|list| variables(reader, list, context));
         let whole = read.as_ref().filter(|read| read.whole && all_known);
         let design_place = self.design.span();
         let design = design(
             reader,
             self.design,
-            whole.map(|read| &*read.variables),
+            whole.map(|read| (&*read.variables, &*tables)),
             counts,
         );
         let rows = match (whole, &design) {
@@ -518,7 +519,7 @@ fn collide(a: &Variable, b: &Variable) -> bool {
 fn design(
     reader: &Reader<'_>,
     table: Optional<DesignTable>,
-    variables: Option<&[Variable]>,
+    variables: Option<(&[Variable], &[Range<usize>])>,
     counts: Vec<Range<usize>>,
 ) -> Option<Design> {
     let Some(Located { value: table, span }) = table.stated()? else {
@@ -536,7 +537,7 @@ fn design(
         }
         return match kind {
             Kind::Grid => grid(reader, place, variables?),
-            _ => list(reader, place, variables?),
+            _ => list(reader, place, variables?.0),
         };
     }
     let name = match kind {
@@ -557,20 +558,25 @@ fn design(
         let seed = seed.unwrap_or(1);
         return Some(Design::LatinHypercube { runs, seed });
     }
-    match Design::sobol(runs, seed, variables?.len()) {
+    match Design::sobol(runs, seed, variables?.0.len()) {
         Ok(design) => Some(design),
         Err(reason) => reader.refuse(place, reason, "use latin_hypercube"),
     }
 }
 
-fn grid(reader: &Reader<'_>, place: Range<usize>, variables: &[Variable]) -> Option<Design> {
-    let sizes = all(variables.iter().map(|v| {
+/// The grid of these variables, whose tables stand at these places.
+fn grid(
+    reader: &Reader<'_>,
+    place: Range<usize>,
+    (variables, tables): (&[Variable], &[Range<usize>]),
+) -> Option<Design> {
+    let sizes = all(variables.iter().zip(tables).map(|(v, table)| {
         v.values.count().or_else(|| {
             let message = format!(
                 "the range of \"{}\" has no `count`, which a grid needs",
                 v.name
             );
-            reader.refuse(place.clone(), message, "add `count = ...` to the variable")
+            reader.refuse(table.clone(), message, "add `count = ...` to the variable")
         })
     }))?;
     let runs = sizes.iter().try_fold(1_usize, |n, s| n.checked_mul(*s));

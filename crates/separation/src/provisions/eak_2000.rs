@@ -31,6 +31,8 @@ static EDITION: Edition = Edition {
     superseded_by: None,
 };
 
+const BESIDE: &str = "EN 1998-1 with the National Annex of Greece is admitted beside EAK 2000 (recalled, unverified): `eurocode_8_2004` is that code.";
+
 pub(crate) static DISPLACEMENT: ProvisionDescriptor = ProvisionDescriptor {
     name: "eak_2000_between",
     edition: &EDITION,
@@ -42,7 +44,7 @@ pub(crate) static DISPLACEMENT: ProvisionDescriptor = ProvisionDescriptor {
     formula: "sqrt(u1^2 + u2^2)",
     inputs: &[Input::Displacement],
     status: Status::Unverified("that SRSS is allowed; a sum is the safe reading"),
-    remarks: &[],
+    remarks: &[BESIDE],
     worked: "sqrt(pow(80, 2) + pow(60, 2))",
     rule: Rule::Between(displacement),
 };
@@ -53,7 +55,10 @@ pub(crate) static JOINT: ProvisionDescriptor = ProvisionDescriptor {
     formula: "40 mm up to 3 storeys in contact, 80 mm up to 8, 100 mm above",
     inputs: &[],
     status: Status::Unverified("the widths, and the numbers of storeys at which they change"),
-    remarks: &["The storeys in contact are taken as those of the lower building."],
+    remarks: &[
+        "The storeys in contact are taken as those of the lower building.",
+        BESIDE,
+    ],
     rule: Rule::Between(joint),
     worked: "80",
     ..DISPLACEMENT

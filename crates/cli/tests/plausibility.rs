@@ -219,7 +219,7 @@ fn values_as_no_building_has_them() {
     );
     let soil = CASE.replacen(
         "damping = { ratio = 0.05, modes = [1, 2] }",
-        "damping = { ratio = 0.05, modes = [1, 2] }\nfoundation = { mass = \"250 t\", rotational_inertia = \"14812 t m2\", soil = { shear_wave_speed = \"180 m/s\", density = 1.8, poisson = 0.33, length = \"15 m\", width = \"12 m\" } }",
+        "damping = { ratio = 0.05, modes = [1, 2] }\nfoundation = { mass = \"250 t\", rotational_inertia = \"14812 t m2\", soil = { shear_wave_speed = \"100 m/s\", density = 1.8, poisson = 0.33, length = \"15 m\", width = \"12 m\" } }",
         1,
     );
     one(
@@ -567,7 +567,7 @@ fn keys_of_another_method() {
         (
             "gap.0.seat",
             "[0.1, 0.2]",
-            "no result of a study tells of `gap.0.seat`",
+            "`gap.0.seat` moves nothing: runs that differ in it alone are equal",
         ),
         ("gap.0.width", "[0.1, 0.2]", ""),
     ] {
@@ -650,6 +650,34 @@ fn a_drift_of_more_than_a_tenth_of_the_height() {
 /// By hand, two floors of 25 t on 0.1 MN/m and 30 MN/m: the upper storey takes
 /// `k2 d2^2 / (k1 d1^2 + k2 d2^2)` of the damping in proportion to the stiffness, with
 /// `d2 / d1 = k1 / (2 k2)` for two equal masses that move together: 0.08 %.
+/// By an independent integration of this building: floors move up to 0.226 of the storey height beside one another, of
+/// which the storeys themselves drift by 2.6 % only.
+#[test]
+fn gravity_through_the_rotation_of_a_foundation() {
+    let case = r#"
+[[building]]
+name = "A"
+storeys = 2
+mass = ["20 t", "15 t"]
+stiffness = ["12 MN/m", "9 MN/m"]
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+p_delta = true
+law = { model = "bilinear", yield_force = ["150 kN", "90 kN"], hardening_ratio = 0.05 }
+foundation = { rotational_inertia = "200 t m2", rocking = { stiffness = "2.5 MN m/rad", dashpot = "0.1 MN m s/rad" }, length = "8 m" }
+[ground_motion]
+file = "record.csv"
+scale = 12
+[analysis]
+duration = "2 s"
+"#;
+    let run = said(case).run;
+    let drift = "storey 1: the peak drift, with the rotation of the foundation at most, is";
+    assert!(run.iter().any(|w| w.contains(drift)), "{run:?}");
+    let run = said(&case.replace("p_delta = true", "p_delta = false")).run;
+    assert!(!run.iter().any(|w| w.contains("the peak drift")), "{run:?}");
+}
+
 #[test]
 fn damping_that_brakes_the_isolators() {
     let isolated = CASE.replace("stiffness = \"3.46 MN/m\"", "stiffness = [1e5, 3e7]");

@@ -276,8 +276,24 @@ fn openings_of_joints_in_studies() {
     let (_, again, _) = pounding("sweep chunks.toml -o chunks.h5 --resume --json");
     let again: Value = serde_json::from_str(&again).unwrap();
     assert_eq!(again["unseated"], 1);
-    // Of the gaps one has no seat, or none has.
+    // A seat that a variable brings or changes is that of each run; the other gap keeps its own.
     let bridge = std::fs::read_to_string(&case).unwrap();
+    let bare = bridge.replace("seat = \"0.35 m\"\n", "");
+    std::fs::write(folder.join("bare.toml"), &bare).unwrap();
+    for (case, fallen) in [("bare.toml", 2), ("case.toml", 2)] {
+        let study = format!(
+            "case = \"{case}\"\n[[variable]]\npath = \"gap.1.seat\"\nvalues = [\"60 mm\", \"70 mm\", \"100 mm\"]\n"
+        );
+        std::fs::write(folder.join("seats.toml"), study).unwrap();
+        let (_, swept, complaint) = pounding("sweep seats.toml -o seats.h5 --csv seats.csv");
+        assert!(
+            swept.contains(&format!("The deck falls in {fallen} runs")),
+            "{swept}{complaint}"
+        );
+        let rows = std::fs::read_to_string(folder.join("seats.csv")).unwrap();
+        assert!(rows.contains("peak_opening: middle-east 1-1"), "{rows}");
+    }
+    // Of the gaps one has no seat, or none has.
     let one = bridge.replacen("seat = \"0.35 m\"\n", "", 1);
     std::fs::write(&case, &one).unwrap();
     let at_level = |level: usize| {

@@ -127,10 +127,10 @@ pub struct SweepReport {
     /// The first few of them: number, and what collapsed when.
     pub collapses: Vec<(usize, String)>,
     /// Runs in the result in which a joint opens further than its seat is wide; none of a study
-    /// whose seats vary, or that does not keep openings.
+    /// that does not keep openings.
     pub unseated: usize,
-    /// Columns of openings, with the seats of their gaps (m).
-    seats: Vec<(usize, f64)>,
+    /// Columns of openings, with the seats of their gaps.
+    seats: Vec<(usize, Seat)>,
     /// Identity of the study.
     pub study_sha256: String,
     /// Its motions; those that could be read.
@@ -353,28 +353,53 @@ fn empty_report(runner: &Runner<'_>, description: &Description) -> SweepReport {
     }
 }
 
-/// Columns of openings, with the seats of their gaps (m), where no variable changes these.
-fn seats(runner: &Runner<'_>) -> Vec<(usize, f64)> {
-    let varied = |v: &Variable| matches!(&v.target, Target::Entry { path, .. } if path.of_seat());
-    if runner.study.variables.iter().any(varied) {
-        return Vec::new();
-    }
+/// The seat of a gap in the runs of a study.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Seat {
+    /// That of the case (m).
+    OfCase(f64),
+    /// The value of a variable, by its number.
+    Varied(usize),
+}
+
+/// Columns of openings, with the seats of their gaps.
+fn seats(runner: &Runner<'_>) -> Vec<(usize, Seat)> {
+    let study = runner.study;
+    let names = || study.base.gaps.iter().map(|gap| gap.name.as_str());
+    let seat = |of: &str| {
+        let varies = |v: &Variable| match &v.target {
+            Target::Entry { path, .. } => {
+                path.of_seat() && path.second(names()).is_some_and(|gap| gap == of)
+            }
+            _ => false,
+        };
+        let varied = study.variables.iter().position(varies).map(Seat::Varied);
+        let gap = study.base.gaps.iter().find(|gap| gap.name == of)?;
+        let of_case = gap.seat.as_ref().map(|seat| Seat::OfCase(seat.value));
+        varied.or(of_case)
+    };
     let layout = &runner.layout;
     let columns = layout.range(OPENING.peak.name).zip(&layout.levels);
-    let seat = |of: &str| {
-        let gap = runner.study.base.gaps.iter().find(|gap| gap.name == of)?;
-        Some(gap.seat.as_ref()?.value)
-    };
     columns
         .filter_map(|(column, level)| Some((column, seat(&level.of)?)))
         .collect()
 }
 
 impl SweepReport {
-    fn count(&mut self, row: &Row) {
+    /// Counts a run with these values of the variables.
+    fn count(&mut self, row: &Row, point: &[Value]) {
         self.runs += 1;
-        let beyond =
-            |(column, seat): &(usize, f64)| row.values.get(*column).is_some_and(|u| u > seat);
+        let beyond = |(column, seat): &(usize, Seat)| {
+            let seat = match (seat, row.values.get(*column)) {
+                (Seat::OfCase(seat), Some(opening)) => (*seat, opening),
+                (Seat::Varied(variable), Some(opening)) => match point.get(*variable) {
+                    Some(Value::Number(seat)) => (*seat, opening),
+                    _ => return false,
+                },
+                (_, None) => return false,
+            };
+            *seat.1 > seat.0
+        };
         self.unseated += usize::from(self.seats.iter().any(beyond));
         let (count, first, reason) = match &row.ending {
             Ending::Complete => return,
@@ -427,7 +452,7 @@ fn complete(
         .transpose()?;
     for start in (0..reader.rows).step_by(READ_AT_ONCE) {
         for (row, point) in reader.block(start..(start + READ_AT_ONCE).min(reader.rows))? {
-            report.count(&row);
+            report.count(&row, &point);
             if let Some(table) = &mut table {
                 table.push(&row, &point)?;
             }
@@ -530,7 +555,7 @@ fn assemble(
     }
     parts.rows(&mut |row| {
         let point: Vec<Value> = runner.study.point(row.run);
-        report.count(&row);
+        report.count(&row, &point);
         writer.push(row, point).map_err(StudyError::from)
     })?;
     table.map_or(Ok(()), |table| table.finish(parts))?;

@@ -6,18 +6,18 @@ use crate::estimate::short;
 use crate::system::System;
 use crate::warnings::Warning;
 
-/// Height (m) that no storey reaches, and few piers.
-const HEIGHT: f64 = 100.0;
+/// Height (m) that no storey reaches, and no pier.
+const HEIGHT: f64 = 400.0;
 /// Damping ratios of the fundamental mode that dampers give at most, and that a structure has at least (-).
 const DAMPING: (f64, f64) = (0.5, 1.0e-4);
 /// Period on soil over that on a fixed base (-) beyond which no building is left on such soil.
-const LENGTHENING: f64 = 4.0;
+const LENGTHENING: f64 = 6.0;
 /// Longest period (s) of isolators after yield or on their dishes.
 const ISOLATED_PERIOD: f64 = 15.0;
 /// Displacement (m) at which no isolator is still to yield.
 const YIELD_DISPLACEMENT: f64 = 0.5;
 /// Width (m) of no seat.
-const SEAT: f64 = 10.0;
+const SEAT: f64 = 30.0;
 
 /// Warnings of all buildings and joints.
 pub(crate) fn of(system: &System) -> Vec<Warning> {
@@ -40,7 +40,7 @@ pub(crate) fn of(system: &System) -> Vec<Warning> {
 fn in_millimetres(length: f64) -> String {
     let number = short(length);
     format!(
-        "a number without unit is in m, and \"{number} mm\" would be {} m",
+        "check the unit; \"{number} mm\" would be {} m",
         short(length / 1000.0)
     )
 }
@@ -107,7 +107,7 @@ fn isolators(building: &ShearBuilding) -> Vec<String> {
     // Without any stiffness they slide on flat plates.
     if period > ISOLATED_PERIOD && period.is_finite() {
         said.push(format!(
-            "the period of its isolators after they yield or slide is {} s, usually 2 to 5 s: check the unit of their stiffness or radius",
+            "the period of its isolators after they yield or slide is {} s, usually 2 to 5 s: check the unit of their stiffness or radius, unless they slide on flat plates",
             short(period)
         ));
     }

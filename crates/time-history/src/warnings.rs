@@ -250,6 +250,9 @@ pub enum Warning {
         ratio: f64,
         /// Whether gravity acts through the drift.
         second_order: bool,
+        /// Rotation of the foundation (rad), which gravity follows too; zero without P-Delta or
+        /// on a base that does not rotate.
+        rotation: f64,
     },
     /// A moment on a foundation that lifts its edge off the soil.
     Uplift {
@@ -486,10 +489,16 @@ impl fmt::Display for Warning {
                 storey,
                 ratio,
                 second_order,
+                rotation,
             } => write!(
                 f,
-                "{building}, storey {storey}: the peak drift is {:.1} % of the height; beyond {:.0} % storeys are damaged or gone, and the model of small displacements{} does not hold",
-                100.0 * ratio,
+                "{building}, storey {storey}: the peak drift{} is {:.1} % of the height; beyond {:.0} % storeys are damaged or gone, and the model of small displacements{} does not hold",
+                if *rotation > 0.0 {
+                    ", with the rotation of the foundation at most,"
+                } else {
+                    ""
+                },
+                100.0 * (ratio + rotation),
                 100.0 * DRIFT_RATIO,
                 if *second_order {
                     ", P-Delta by the straight-line approximation included,"
@@ -773,12 +782,22 @@ impl Warning {
                 .enumerate()
                 .skip(isolators)
                 .max_by(|a, b| a.1.total_cmp(&b.1));
-            if let Some((storey, ratio)) = most.filter(|m| m.1 > DRIFT_RATIO) {
+            let second_order = building.geometric_stiffness().iter().any(|k| *k > 0.0);
+            // Gravity acts through the drift with what the foundation turns.
+            let turned = outcome
+                .responses
+                .iter()
+                .find(|r| r.name == "foundation_rotation");
+            let rotation = turned
+                .filter(|_| second_order)
+                .map_or(0.0, |r| r.peak.value);
+            if let Some((storey, ratio)) = most.filter(|m| m.1 + rotation > DRIFT_RATIO) {
                 warnings.push(Self::Drift {
                     building: outcome.name.clone(),
                     storey: storey + 1,
                     ratio,
-                    second_order: building.geometric_stiffness().iter().any(|k| *k > 0.0),
+                    second_order,
+                    rotation,
                 });
             }
             let mut responses = outcome.responses.iter();

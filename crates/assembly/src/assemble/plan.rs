@@ -9,8 +9,8 @@ use pounding_shear_building::{
 };
 use pounding_time_history::{BuildingPoint, Floor, System};
 
-/// Part of the floor by which a frame may stand beyond its edge.
-const BEYOND_EDGE: f64 = 0.5;
+/// Parts of the floor by which a frame may stand beyond its edge.
+const BEYOND_EDGE: f64 = 1.5;
 
 /// Frames that stand far beside the floors of their building, one of each in words.
 pub(super) fn frames_outside(case: &Case) -> Vec<String> {
@@ -24,7 +24,7 @@ pub(super) fn frames_outside(case: &Case) -> Vec<String> {
         let (at, size) = of(&plan.along, plan.width).or_else(|| of(&plan.across, plan.length))?;
         let at = six_digits(at);
         Some(format!(
-            "{}: a frame stands {at} m from the mass centre of floors of {} m: a number without unit is in m, check the unit",
+            "{}: a frame stands {at} m from the mass centre of floors of {} m: check the unit",
             b.name.value,
             six_digits(size)
         ))

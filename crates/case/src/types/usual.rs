@@ -109,7 +109,7 @@ pub(super) fn bare_acceleration(what: &str, value: f64, least: f64) -> Option<St
     meant.contains(&value).then(|| {
         let number = six_digits(value);
         format!(
-            "{what} is {}, little for a record that is scaled; a number without unit is in m/s2: was \"{number} g\" meant? If not, write \"{number} m/s2\"",
+            "{what} is {}, little for a strong motion; a number without unit is in m/s2: was \"{number} g\" meant? If not, write \"{number} m/s2\"",
             Kind::Acceleration.shown(value)
         )
     })

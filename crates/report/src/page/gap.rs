@@ -204,6 +204,21 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     } else {
         points.push(format!("<strong>Gap {name} {}.</strong>", word(adequate)));
     }
+    for c in 0..answer.list(&at("columns")).len() {
+        let column = |key: &str| at(&format!("columns/{c}/{key}"));
+        let ratio = answer.at(&column("demand_over_capacity")).as_f64();
+        if !ratio.is_some_and(|ratio| ratio > 1.0) {
+            continue;
+        }
+        let level = answer.at(&column("level")).as_u64();
+        let level = level.map_or(0, |level| level.saturating_sub(1));
+        points.push(format!(
+            "At level {} the columns that floors of the neighbour face bear {} times their shear capacity under {}: <strong>they fail</strong>.",
+            answer.quote(&at(&format!("levels/{level}/level"))),
+            answer.say(&column("demand_over_capacity"), 1.0),
+            answer.quote(&column("record")),
+        ));
+    }
     for o in 0..answer.list(&at("openings")).len() {
         let opening = |key: &str| at(&format!("openings/{o}/{key}"));
         let (peak, seat) = (

@@ -599,6 +599,24 @@ impl Layout {
         }
     }
 
+    /// The same with openings of joints, also where the case itself has no seat.
+    #[must_use]
+    pub fn with_openings(mut self) -> Self {
+        if !self.quantities.contains(&OPENING.peak) {
+            let later = |q: &Quantity| {
+                let mut behind = OF_LINKS
+                    .iter()
+                    .chain(&ISOLATED_PEAKS)
+                    .chain([&ISOLATED_DEMAND]);
+                behind.any(|later| later == q)
+            };
+            let place = self.quantities.iter().position(later);
+            let place = place.unwrap_or(self.quantities.len());
+            self.quantities.insert(place, OPENING.peak);
+        }
+        self
+    }
+
     /// Keeps the quantities of these names alone, in the order that all have.
     pub fn keep<N: AsRef<str>>(&mut self, names: &[N]) {
         let kept = |q: &Quantity| names.iter().any(|name| name.as_ref() == q.name);

@@ -96,9 +96,9 @@ impl Path {
         ["title", "analysis.output_step"].contains(&&*self.to_string())
     }
 
-    /// Whether it leads to what `gap` asks of a code, or to a seat, of which no result of a study tells.
+    /// Whether it leads to what `gap` asks of a code, of which no result of a study tells.
     pub(crate) fn without_result(&self) -> bool {
-        self.table() == "separation" || self.of_seat()
+        self.table() == "separation"
     }
 
     /// Whether it leads to the seat of a gap.

@@ -96,6 +96,12 @@ impl<'s> Runner<'s> {
             peaks: study.isolated_peaks,
         };
         let mut layout = Layout::of(&system, isolated);
+        // A variable may bring the seat.
+        let brings_seat =
+            |v: &Variable| matches!(&v.target, Target::Entry { path, .. } if path.of_seat());
+        if study.variables.iter().any(brings_seat) {
+            layout = layout.with_openings();
+        }
         let levels = floors_that_meet(&system).map(|(gap, sides)| (gap.to_owned(), sides));
         let levels = levels.collect();
         let joined = joined_storeys(&system);
@@ -151,7 +157,9 @@ impl<'s> Runner<'s> {
         warnings.extend(study.variables.iter().filter_map(|v| v.asked.clone()));
         warnings.extend(study.ida.iter().flat_map(|ida| ida.asked.clone()));
         warnings.extend(study.variables.iter().filter_map(without_result));
-        warnings.extend(study.variables.iter().filter_map(of_other_levels));
+        let joins = !layout.link_levels.is_empty();
+        let varied_levels = study.variables.iter().filter(|_| joins);
+        warnings.extend(varied_levels.filter_map(of_other_levels));
         warnings.extend(study.variables.iter().filter_map(model_named_twice));
         warnings.extend(
             study
@@ -484,16 +492,17 @@ fn of_no_method(study: &Study, variable: &Variable) -> Option<String> {
     })
 }
 
-/// What to say of a variable that changes which floors a link joins.
+/// What to say of a variable that changes, or may change, which floors a link joins.
 fn of_other_levels(variable: &Variable) -> Option<String> {
     let Target::Entry { path, .. } = &variable.target else {
         return None;
     };
     let mut keys = ["levels", "elevation_tolerance"].into_iter();
     let changes = path.table() == "link" && keys.any(|key| path.leads_through(key));
-    changes.then(|| {
+    let may = if changes { "changes" } else { "may change" };
+    (changes || path.of_elevations()).then(|| {
         format!(
-            "variable \"{}\" changes which floors a link joins: peaks of links are of the levels that they have in the case, and missing in runs without these",
+            "variable \"{}\" {may} which floors a link joins: peaks of links are of the levels that they have in the case, and missing in runs without these",
             variable.name
         )
     })
@@ -504,6 +513,12 @@ fn without_result(variable: &Variable) -> Option<String> {
     let Target::Entry { path, .. } = &variable.target else {
         return None;
     };
+    if path.of_seat() {
+        return Some(format!(
+            "variable \"{}\": `{path}` moves nothing: runs that differ in it alone are equal; `peak_opening` is to be held against it, as the count of decks that fall is, and `pounding gap` says more",
+            variable.name
+        ));
+    }
     path.without_result().then(|| {
         format!(
             "variable \"{}\": no result of a study tells of `{path}`: runs that differ in it alone are equal; `pounding gap` asks for it",

@@ -15,6 +15,8 @@ const GREATEST_AT_LEAST: f64 = 0.2;
 const HAZARD_AT_LEAST: f64 = 0.05;
 /// Mean annual frequency (1/year) of what codes design for: 10 % in 50 years.
 const DESIGN_FREQUENCY: f64 = 1.0 / 475.0;
+/// What hardly a site has (g) once in 475 years.
+const STRONGEST_HAZARD: f64 = 1.5;
 /// What a limit on accelerations of floors is at least (g).
 const LIMIT_AT_LEAST: f64 = 0.25;
 /// Drift ratio from which on no limit lies.
@@ -40,8 +42,8 @@ pub(super) fn of_intensities(measure: &IntensityMeasure, values: &Values) -> Opt
     bare_acceleration(&what, greatest(values)?, least)
 }
 
-/// The intensity of a hazard curve at the frequency of what codes design for, or at its nearer end.
-fn of_design(points: &[(f64, f64)]) -> Option<f64> {
+/// The intensity of a hazard curve at the frequency of what codes design for, with that frequency, or its nearer end.
+fn of_design(points: &[(f64, f64)]) -> Option<(f64, f64)> {
     let (first, last) = (points.first()?, points.last()?);
     let around = points
         .windows(2)
@@ -49,10 +51,10 @@ fn of_design(points: &[(f64, f64)]) -> Option<f64> {
     Some(match around {
         Some([(x, f), (y, g)]) => {
             let part = libm::log(f / DESIGN_FREQUENCY) / libm::log(f / g);
-            x * libm::exp(part * libm::log(y / x))
+            (x * libm::exp(part * libm::log(y / x)), DESIGN_FREQUENCY)
         }
-        _ if first.1 < DESIGN_FREQUENCY => first.0,
-        _ => last.0,
+        _ if first.1 < DESIGN_FREQUENCY => *first,
+        _ => *last,
     })
 }
 
@@ -66,20 +68,24 @@ pub(super) fn of_hazard(
     if measure.dimension() != Dimension::ACCELERATION {
         return None;
     }
-    let (design, end) = (of_design(points)?, points.last()?.0);
+    let ((design, frequency), end) = (of_design(points)?, points.last()?.0);
     let in_gravity = |x: f64| six_digits(x / STANDARD_GRAVITY);
     let why = match greatest(values) {
         _ if design < HAZARD_AT_LEAST / measure.long_period() * STANDARD_GRAVITY => format!(
-            "it has {} m/s2 ({} g) once in 475 years, little for a site whose earthquakes are studied",
+            "it has {} m/s2 ({} g) once in {:.0} years, little for a site whose earthquakes are studied",
             six_digits(design),
-            in_gravity(design)
+            in_gravity(design),
+            1.0 / frequency
         ),
-        Some(most) if end < most && most <= end * STANDARD_GRAVITY => format!(
-            "it ends at {} m/s2 ({} g), below the greatest intensity of the study, {} g",
-            six_digits(end),
-            in_gravity(end),
-            in_gravity(most)
-        ),
+        // And is one that sites have in g.
+        Some(most) if end < most && most <= end * STANDARD_GRAVITY && design < STRONGEST_HAZARD => {
+            format!(
+                "it ends at {} m/s2 ({} g), below the greatest intensity of the study, {} g",
+                six_digits(end),
+                in_gravity(end),
+                in_gravity(most)
+            )
+        }
         _ => return None,
     };
     let number = six_digits(points[0].0);
@@ -105,8 +111,8 @@ pub(super) fn of_limit(
                 six_digits(exceeds / STANDARD_GRAVITY)
             ))
         }
-        DemandKind::DriftRatio if exceeds > NO_DRIFT_LIMIT => Some(format!(
-            "the limit \"{name}\" is a drift ratio of {} %, which no building reaches: was \"{number} %\" meant?",
+        DemandKind::DriftRatio if is_bare && exceeds > NO_DRIFT_LIMIT => Some(format!(
+            "the limit \"{name}\" is a drift ratio of {} %, which few buildings reach: was \"{number} %\" meant?",
             six_digits(100.0 * exceeds)
         )),
         _ => None,
@@ -135,9 +141,9 @@ mod tests {
     /// 0.05 * 4^0.7515 = 0.1417.
     #[test]
     fn design_intensities_are_read_off_the_curve() {
-        assert!((of_design(&POINTS).unwrap() - 0.1417).abs() < 1e-4);
-        assert_eq!(of_design(&POINTS[..2]), Some(0.05));
-        assert_eq!(of_design(&POINTS[3..]), Some(1.0));
+        assert!((of_design(&POINTS).unwrap().0 - 0.1417).abs() < 1e-4);
+        assert_eq!(of_design(&POINTS[..2]), Some((0.05, 0.02)));
+        assert_eq!(of_design(&POINTS[3..]), Some((1.0, 2e-5)));
     }
 
     #[test]
@@ -154,6 +160,9 @@ mod tests {
         let said = of_hazard(&measure, &times(4.0), &stronger).unwrap();
         assert!(said.contains("it ends at 12 m/s2"), "{said}");
         assert_eq!(of_hazard(&measure, &times(9.806_65), &study), None);
+        // 3 g once in 475 years is none.
+        let beyond = Values::Numbers(vec![1.0, 80.0]);
+        assert_eq!(of_hazard(&measure, &times(21.0), &beyond), None);
         let velocity = IntensityMeasure::PeakGroundVelocity;
         assert_eq!(of_hazard(&velocity, &POINTS, &study), None);
     }

@@ -242,8 +242,8 @@ struct Gap<'c> {
     /// Seat of the deck, and how far its joint opens at the provided widths.
     #[serde(skip_serializing_if = "Option::is_none")]
     seat: Option<f64>,
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    openings: Vec<Opening<'c>>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    openings: Option<Vec<Opening<'c>>>,
 }
 
 /// What decides the verdict: width and demand at the level of the least margin.
@@ -591,13 +591,14 @@ impl<'c> Gap<'c> {
                 })
                 .collect(),
             seat: gap.seat,
-            openings: (gap.openings.iter())
-                .map(|o| Opening {
+            openings: gap.seat.map(|_| {
+                let found = gap.openings.iter().map(|o| Opening {
                     level: o.level + 1,
                     record: &check.records[o.record].name,
                     opening: Peak::of(&o.response.peak),
-                })
-                .collect(),
+                });
+                found.collect()
+            }),
             demand: &gap.demand,
             suite: Suite::of(&gap.suite),
             code: gap.code.as_ref().map(Code::of),

@@ -328,6 +328,16 @@ fn columns(check: &GapCheck) -> String {
 fn openings(check: &GapCheck) -> String {
     let mut text = String::new();
     for gap in &check.gaps {
+        let failed =
+            check.records.iter().filter(|r| r.pounding.is_err()).count() + gap.records_collapsed;
+        if gap.seat.is_some() && failed > 0 {
+            text.push_str(&format!(
+                "Gap {}: openings are not known of {} of {}, in which a building collapses or the run fails\n",
+                gap.name,
+                failed,
+                counted(gap.records(), "record")
+            ));
+        }
         for LevelDemand {
             level,
             record,

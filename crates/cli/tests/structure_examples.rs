@@ -203,6 +203,18 @@ fn bridge_with_seats(width: &str) -> (tempfile::TempDir, std::path::PathBuf) {
     (place, case)
 }
 
+/// Exit code, what is printed and what is complained of.
+fn pounding_in(folder: &Path, arguments: &str) -> (Option<i32>, String, String) {
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .current_dir(folder)
+        .args(arguments.split(' '))
+        .output()
+        .unwrap();
+    let told = String::from_utf8(output.stdout).unwrap();
+    let complaint = String::from_utf8(output.stderr).unwrap();
+    (output.status.code(), told, complaint)
+}
+
 /// The headline of the study beside the bridge; its openings are those of the runs, and limits on levels without a seat are
 /// refused.
 #[test]
@@ -215,19 +227,7 @@ fn openings_of_joints_in_studies() {
     let motions = motions.canonicalize().unwrap();
     let text = std::fs::read_to_string(beside).unwrap();
     let text = text.replace("../../ground_motions", &motions.display().to_string());
-    let pounding = |arguments: &str| {
-        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
-            .current_dir(folder)
-            .args(arguments.split(' '))
-            .output()
-            .unwrap();
-        let told = String::from_utf8(output.stdout).unwrap();
-        (
-            output.status.code(),
-            told,
-            String::from_utf8(output.stderr).unwrap(),
-        )
-    };
+    let pounding = |arguments: &str| pounding_in(folder, arguments);
     std::fs::write(folder.join("study.toml"), &text).unwrap();
     let (code, told, complaint) = pounding("ida study.toml -o study.h5 --json --csv rows.csv");
     assert_eq!(code, Some(0), "{complaint}");
@@ -328,16 +328,7 @@ fn links_in_studies() {
     let folder = place.path();
     let motions = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../ground_motions");
     let motions = motions.canonicalize().unwrap();
-    let pounding = |arguments: &str| {
-        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
-            .current_dir(folder)
-            .args(arguments.split(' '))
-            .output()
-            .unwrap();
-        let told = String::from_utf8(output.stdout).unwrap();
-        let complaint = String::from_utf8(output.stderr).unwrap();
-        (output.status.code(), told, complaint)
-    };
+    let pounding = |arguments: &str| pounding_in(folder, arguments);
     let study = |limit: &str| {
         let text = format!(
             "case = \"case.toml\"\n[output]\nchunk = 1\n[[variable]]\nrecords = [\"{0}/el_centro_1940_ns.csv\", \"{0}/kobe_1995_jma_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.1 g\", \"0.8 g\"]\n[ida]\n[[ida.limit]]\nname = \"A\"\ndemand = \"link_force\"\n{limit}",

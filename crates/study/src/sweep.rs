@@ -389,16 +389,18 @@ impl SweepReport {
     /// Counts a run with these values of the variables.
     fn count(&mut self, row: &Row, point: &[Value]) {
         self.runs += 1;
+        let width = |seat: &Seat| match seat {
+            Seat::OfCase(width) => Some(*width),
+            Seat::Varied(variable) => match point.get(*variable) {
+                Some(Value::Number(width)) => Some(*width),
+                _ => None,
+            },
+        };
         let beyond = |(column, seat): &(usize, Seat)| {
-            let seat = match (seat, row.values.get(*column)) {
-                (Seat::OfCase(seat), Some(opening)) => (*seat, opening),
-                (Seat::Varied(variable), Some(opening)) => match point.get(*variable) {
-                    Some(Value::Number(seat)) => (*seat, opening),
-                    _ => return false,
-                },
-                (_, None) => return false,
-            };
-            *seat.1 > seat.0
+            let opening = row.values.get(*column).copied();
+            width(seat)
+                .zip(opening)
+                .is_some_and(|(width, opening)| opening > width)
         };
         self.unseated += usize::from(self.seats.iter().any(beyond));
         let (count, first, reason) = match &row.ending {

@@ -42,6 +42,8 @@ pub(crate) struct Peaks {
     at: [f64; 3],
     /// Storey heights of all buildings (m).
     height: Vec<f64>,
+    /// Elements of a section within a step.
+    parts: Vec<SectionPart>,
     /// Largest accelerations of a step, with their places, of floors and then of sums of them.
     largest: Vec<(f64, f64)>,
     /// Accelerations at the nodes of a fit, of the same.
@@ -54,6 +56,9 @@ pub(crate) struct ElementPeaks {
     pub deformation: Peak,
     pub force: Peak,
 }
+
+/// An element of a section: its number, its weight, and the interpolants of its deformation and of the rate of it.
+type SectionPart = (usize, f64, [Polynomial; 2]);
 
 /// Part of the present peak below which a fitted maximum is not looked at
 /// closer: fits err by less.
@@ -74,6 +79,7 @@ impl Peaks {
             acceleration: std::array::from_fn(|_| vec![0.0; layout.dofs]),
             at: [f64::NAN; 3],
             height: buildings.iter().flat_map(|b| b.height()).copied().collect(),
+            parts: Vec::new(),
             largest: Vec::new(),
             samples: Vec::new(),
         }
@@ -334,15 +340,29 @@ impl Peaks {
     ) {
         let (system, dofs) = (context.dynamics.system, context.dynamics.layout.dofs);
         let start = context.segment.start + tau;
-        let implicit = method.information().implicit;
         let of = |(index, weight): &(usize, f64)| {
             let element = &system.elements()[*index];
             let motion = [0, dofs].map(|at| element.polynomial(|i| *method.polynomial(i), at));
             (*index, *weight, motion)
         };
-        let parts: Vec<_> = section.elements.iter().map(of).collect();
+        let mut parts = std::mem::take(&mut self.parts);
+        parts.clear();
+        parts.extend(section.elements.iter().map(of));
+        self.sum_of_parts(context, method, (section, row, &parts), (start, step));
+        self.parts = parts;
+    }
+
+    /// The same with the elements along the step.
+    fn sum_of_parts(
+        &mut self,
+        context: &mut Context<'_, '_>,
+        method: &dyn Method,
+        (section, row, parts): (&SectionForce, &Polynomial, &[SectionPart]),
+        (start, step): (f64, f64),
+    ) {
+        let implicit = method.information().implicit;
         let mut sum = |theta: f64| {
-            let of = |(index, weight, motion): &(usize, f64, [Polynomial; 2])| {
+            let of = |(index, weight, motion): &SectionPart| {
                 let element = (*index, motion);
                 weight * force_of_element(context, method, element, (theta, step))
             };

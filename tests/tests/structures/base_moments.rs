@@ -187,7 +187,7 @@ fn a_study_has_a_column_for_each() {
         demand: true,
         peaks: true,
     };
-    let layout = Layout::of(&system, isolated);
+    let layout = Layout::of(&system, isolated, false);
     assert_eq!(layout.buildings, ["wall", "frame"]);
     assert_eq!(layout.width(Axis::Building), 2);
     assert!(is_result("peak_base_moment") && is_result("building"));
@@ -267,7 +267,7 @@ fn a_study_has_a_column_for_each() {
     let damping = Damping::Modal { ratios: vec![0.05] };
     let chain = ShearBuilding::new("a".into(), vec![1.0e4], vec![1.0e6], vec![3.0], damping);
     let system = System::new(vec![Arc::new(chain.unwrap())], el_centro());
-    let names = Layout::of(&system, IsolatedQuantities::default()).quantities;
+    let names = Layout::of(&system, IsolatedQuantities::default(), false).quantities;
     assert!(names.iter().all(|q| q.axis != Axis::Building));
 }
 

@@ -519,9 +519,9 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The shape of the results of a system.
+    /// The shape of the results of a system, with openings of joints also where some run alone has a seat.
     #[must_use]
-    pub fn of(system: &System, isolated: IsolatedQuantities) -> Self {
+    pub fn of(system: &System, isolated: IsolatedQuantities, brings_seat: bool) -> Self {
         let storeys = system.buildings().iter().flat_map(|b| {
             (1..=b.storeys()).map(|n| Place {
                 label: format!("{} {n}", b.name()),
@@ -559,7 +559,10 @@ impl Layout {
                 let mut rows = system.buildings().iter().flat_map(|b| b.responses());
                 rows.any(|row| response.is(&row.name))
             },
-            |own| system.level_responses().any(|(_, r)| (own.is)(&r.name)),
+            |own| {
+                let brought = brings_seat && own.peak == OPENING.peak;
+                brought || system.level_responses().any(|(_, r)| (own.is)(&r.name))
+            },
             isolated,
         )
     }
@@ -597,24 +600,6 @@ impl Layout {
             buildings,
             quantities,
         }
-    }
-
-    /// The same with openings of joints, also where the case itself has no seat.
-    #[must_use]
-    pub fn with_openings(mut self) -> Self {
-        if !self.quantities.contains(&OPENING.peak) {
-            let later = |q: &Quantity| {
-                let mut behind = OF_LINKS
-                    .iter()
-                    .chain(&ISOLATED_PEAKS)
-                    .chain([&ISOLATED_DEMAND]);
-                behind.any(|later| later == q)
-            };
-            let place = self.quantities.iter().position(later);
-            let place = place.unwrap_or(self.quantities.len());
-            self.quantities.insert(place, OPENING.peak);
-        }
-        self
     }
 
     /// Keeps the quantities of these names alone, in the order that all have.

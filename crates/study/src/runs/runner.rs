@@ -95,13 +95,10 @@ impl<'s> Runner<'s> {
             demand: study.isolated_demand,
             peaks: study.isolated_peaks,
         };
-        let mut layout = Layout::of(&system, isolated);
-        // A variable may bring the seat.
-        let brings_seat =
+        let of_seat =
             |v: &Variable| matches!(&v.target, Target::Entry { path, .. } if path.of_seat());
-        if study.variables.iter().any(brings_seat) {
-            layout = layout.with_openings();
-        }
+        let brings_seat = study.variables.iter().any(of_seat);
+        let mut layout = Layout::of(&system, isolated, brings_seat);
         let levels = floors_that_meet(&system).map(|(gap, sides)| (gap.to_owned(), sides));
         let levels = levels.collect();
         let joined = joined_storeys(&system);

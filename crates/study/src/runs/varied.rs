@@ -36,11 +36,6 @@ pub(crate) fn leave_out_varied(layout: &mut Layout, study: &Study, system: &Syst
                     }
                 }
             }
-        }
-        if path.of_elevations() {
-            let names = system.buildings().iter().map(|b| b.name());
-            let name = path.second(names);
-            let varies = |building: &str| name.as_deref().is_none_or(|n| n == building);
             for link in system.links() {
                 let sides = link.between.each_ref().map(|side| varies(side));
                 for level in layout.link_levels.iter_mut().filter(|l| l.of == link.name) {

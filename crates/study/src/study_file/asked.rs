@@ -103,13 +103,8 @@ pub(super) fn of_limit(
 ) -> Option<String> {
     let number = six_digits(exceeds);
     match demand {
-        DemandKind::AccelerationAbsolute | DemandKind::AccelerationAcross
-            if is_bare && exceeds < LIMIT_AT_LEAST * STANDARD_GRAVITY =>
-        {
-            Some(format!(
-                "the limit \"{name}\" is {number} m/s2 ({} g), little for a floor; a number without unit is in m/s2: was \"{number} g\" meant? If not, write \"{number} m/s2\"",
-                six_digits(exceeds / STANDARD_GRAVITY)
-            ))
+        DemandKind::AccelerationAbsolute | DemandKind::AccelerationAcross if is_bare => {
+            bare_acceleration(&format!("the limit \"{name}\""), exceeds, LIMIT_AT_LEAST)
         }
         DemandKind::DriftRatio if is_bare && exceeds > NO_DRIFT_LIMIT => Some(format!(
             "the limit \"{name}\" is a drift ratio of {} %, which few buildings reach: was \"{number} %\" meant?",

@@ -118,7 +118,8 @@ pub(super) fn text(path: &Path) -> Result<String, Vec<Refusal>> {
 
 /// Reads points from a file of two columns; lines that start with `#` are comments. A
 /// header names them with their units, in either order; without one the first line is a
-/// point already: intensity in SI, frequency in 1/year. Each point has its line, from 1.
+/// point already: intensity in SI, frequency in 1/year. Each point has its line, from 1. Also says whether there is a header,
+/// which states the unit of intensities.
 ///
 /// # Errors
 /// All that is wrong in the file, each with its line.
@@ -126,34 +127,22 @@ pub(super) fn points(
     path: &Path,
     text: &str,
     measure: &IntensityMeasure,
-) -> Result<Vec<PointOfLine>, Vec<Refusal>> {
+) -> Result<(Vec<PointOfLine>, bool), Vec<Refusal>> {
     let file = path.display().to_string();
     Table { file, measure }.points(text.trim_start_matches('\u{feff}'))
 }
 
-/// Whether the first line is a point already, so that no column states its unit.
-pub(super) fn has_no_header(text: &str) -> bool {
-    let mut lines = text
-        .trim_start_matches('\u{feff}')
-        .lines()
-        .map(str::trim_start);
-    let first = lines.find(|line| !line.is_empty() && !line.starts_with('#'));
-    first.is_some_and(|line| {
-        let mut cells = line.split(['\t', ';', ',', ' ']);
-        cells.any(|cell| looks_numeric(cell.trim().trim_matches('"').trim()))
-    })
-}
-
 impl Table<'_> {
-    fn points(&self, text: &str) -> Result<Vec<PointOfLine>, Vec<Refusal>> {
-        let mut columns = None;
+    fn points(&self, text: &str) -> Result<(Vec<PointOfLine>, bool), Vec<Refusal>> {
+        let (mut columns, mut has_header) = (None, false);
         let (mut points, mut wrong) = (Vec::new(), Vec::new());
         for (line, content) in text.lines().enumerate() {
             if content.trim().is_empty() || content.trim_start().starts_with('#') {
                 continue;
             }
             match self.line(line, content, &mut columns) {
-                Ok(point) => points.extend(point.map(|point| (line + 1, point))),
+                Ok(Some(point)) => points.push((line + 1, point)),
+                Ok(None) => has_header = true,
                 Err(refusal) => wrong.push(refusal),
             }
             // Without its header no line can be read.
@@ -162,7 +151,7 @@ impl Table<'_> {
             }
         }
         if wrong.is_empty() {
-            Ok(points)
+            Ok((points, has_header))
         } else {
             Err(wrong)
         }
@@ -414,7 +403,7 @@ mod tests {
 
     fn of(measure: &IntensityMeasure, text: &str) -> Result<Vec<(f64, f64)>, Vec<Refusal>> {
         let file = "hazard.csv".to_owned();
-        let points = Table { file, measure }.points(text)?;
+        let (points, _) = Table { file, measure }.points(text)?;
         Ok(points.into_iter().map(|(_, point)| point).collect())
     }
 

@@ -804,9 +804,9 @@ fn hazard_curve(
                 }
             };
             let text = hazard_file::text(file?).map_err(refused).ok()?;
-            is_bare = hazard_file::has_no_header(&text);
             let points = hazard_file::points(file?, &text, measure?);
-            let points = points.map_err(refused).ok()?;
+            let (points, has_header) = points.map_err(refused).ok()?;
+            is_bare = !has_header;
             let (lines, points) = points.into_iter().unzip();
             (points, Some((file?, lines)))
         }

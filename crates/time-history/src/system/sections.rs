@@ -75,10 +75,9 @@ pub(super) fn section_forces(
         let rows = building.section_forces().into_iter().flatten();
         for (i, weights) in rows.enumerate() {
             match (laws.get(i), &moment) {
-                // Its element has the shear.
+                // Its element has the shear: a sum of nothing.
                 (Some(Some(_)), _) => {
-                    let nothing = Sum::from(vec![0.0; weights.len()]);
-                    add(SectionPlace::StoreyShear(first + i), nothing);
+                    add(SectionPlace::StoreyShear(first + i), Vec::new().into());
                 }
                 (Some(None), _) => add(SectionPlace::StoreyShear(first + i), weights.into()),
                 (None, Some(moment)) => add(SectionPlace::BaseMoment(b), moment.clone()),

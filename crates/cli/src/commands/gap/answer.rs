@@ -3,11 +3,11 @@
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_separation::Requirement;
 use pounding_study::gap_check::{
-    CodeAnswer, GapCheck, GapReport, LevelAnswer, OwnershipAnswer, SuiteSpectrum,
+    CodeAnswer, GapCheck, GapReport, LevelAnswer, LevelDemand, OwnershipAnswer, SuiteSpectrum,
 };
 
 use super::rules::widest;
-use crate::tables::new_table;
+use crate::tables::{decimal, new_table};
 
 /// Whether the gap is wide enough, by the code that is asked for or by the demand, and what
 /// decides.
@@ -21,18 +21,46 @@ pub fn answer(check: &GapCheck, gap: &GapReport) -> String {
 fn by_demand(check: &GapCheck, gap: &GapReport) -> String {
     let (low, high) = gap.contact_bounds;
     format!(
-        "\nGap {}: {} - {} it, {} allowed (probability of contact {low:.3} to {high:.3} at {} % confidence)\n{}{}{}{}{}",
+        "\nGap {}: {} - {} it, {} allowed (probability of contact {low:.3} to {high:.3} at {} % confidence)\n{}{}{}{}{}{}",
         gap.name,
         verdict(Some(gap.adequate)),
         records_that_close(gap),
         gap.required.allowed_contacts,
         100.0 * check.options.confidence,
+        what_fails(gap),
         driven(gap),
         governing(check, gap),
         required(check, gap),
         provided(gap),
         widest(gap),
     )
+}
+
+/// What fails at the width of a gap whatever the answer is: decks that fall, and columns that are hit beyond their
+/// capacity.
+fn what_fails(gap: &GapReport) -> String {
+    let mut fails = String::new();
+    let most = |of: &[LevelDemand]| {
+        let all = of.iter().map(|found| found.response.peak.value);
+        all.fold(0.0, f64::max)
+    };
+    let opening = most(&gap.openings);
+    if let Some(seat) = gap.seat.filter(|seat| opening > *seat) {
+        fails.push_str(&format!(
+            "  THE DECK FALLS at this width: the joint opens by {:.1} mm, more than its seat of {:.1} mm\n",
+            1e3 * opening,
+            1e3 * seat
+        ));
+    }
+    let ratios = gap.columns.iter().filter_map(|c| c.response.demand_ratio());
+    let ratio = ratios.fold(0.0, f64::max);
+    if ratio > 1.0 {
+        fails.push_str(&format!(
+            "  COLUMNS FAIL at this width: those that floors of the neighbour face bear {} times their shear capacity\n",
+            decimal(ratio, 2)
+        ));
+    }
+    fails
 }
 
 fn verdict(enough: Option<bool>) -> &'static str {
@@ -144,11 +172,12 @@ fn provided(gap: &GapReport) -> String {
 fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
     let code = &answer.code;
     let mut text = format!(
-        "\nGap {} by {} ({}): {}\n{}",
+        "\nGap {} by {} ({}): {}\n{}{}",
         gap.name,
         code.name,
         code.edition,
         verdict(answer.satisfied()),
+        what_fails(gap),
         edition(answer)
     );
     let records = (gap.records(), check.repeated.distinct);

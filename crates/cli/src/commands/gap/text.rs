@@ -4,7 +4,7 @@ use pounding_case::Case;
 use pounding_catalogue::wording::counted;
 use pounding_shear_building::OVERTURNING_RATIO;
 use pounding_study::gap_check::{
-    Amplification, GapCheck, GapReport, GapSweep, LevelDemand, RecordDemand, collapsed_building,
+    Amplification, GapCheck, GapSweep, LevelDemand, RecordDemand, collapsed_building,
 };
 use pounding_time_history::VELOCITY_JUMPS;
 
@@ -33,7 +33,7 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
         ", which no gap is wide enough for; demands, widths by rule and ratios",
     ));
     for gap in &check.gaps {
-        text.push_str(&with_what_fails(&answer(check, gap), gap));
+        text.push_str(&answer(check, gap));
     }
     // The answer of a code stands for itself: what else was computed is folded away.
     let folded = !all && check.gaps.iter().any(|gap| gap.code.is_some());
@@ -58,37 +58,6 @@ pub fn report(case: &Case, check: &GapCheck, all: bool) -> String {
         text.push_str(&swept(check, sweep));
     }
     text
-}
-
-/// The answer of a gap with what fails at its width whatever that answer says: decks that fall, and columns that
-/// are hit beyond their capacity.
-fn with_what_fails(answer: &str, gap: &GapReport) -> String {
-    let mut fails = String::new();
-    let most = |of: &[LevelDemand]| {
-        let all = of.iter().map(|found| found.response.peak.value);
-        all.fold(0.0, f64::max)
-    };
-    let opening = most(&gap.openings);
-    if let Some(seat) = gap.seat.filter(|seat| opening > *seat) {
-        fails.push_str(&format!(
-            "  THE DECK FALLS at this width: the joint opens by {:.1} mm, more than its seat of {:.1} mm\n",
-            1e3 * opening,
-            1e3 * seat
-        ));
-    }
-    let ratios = gap.columns.iter().filter_map(|c| c.response.demand_ratio());
-    let ratio = ratios.fold(0.0, f64::max);
-    if ratio > 1.0 {
-        fails.push_str(&format!(
-            "  COLUMNS FAIL at this width: those that floors of the neighbour face bear {} times their shear capacity\n",
-            decimal(ratio, 2)
-        ));
-    }
-    // Below the first line, which says whether the gap is wide enough.
-    let told = answer.trim_start_matches('\n');
-    let blank = &answer[..answer.len() - told.len()];
-    let (headline, rest) = told.split_once('\n').unwrap_or((told, ""));
-    format!("{blank}{headline}\n{fails}{rest}")
 }
 
 /// What `--all` shows beside the answer of a code.

@@ -20,7 +20,7 @@ use serde::de::{Deserializer, SeqAccess, Visitor};
 use super::annual_frequency::AnnualFrequency;
 use super::context::Context;
 use super::values::{Numbers, Values, Whole, all, not_both};
-use super::{IntensityMeasure, asked, hazard_file};
+use super::{IntensityMeasure, bare_numbers, hazard_file};
 use crate::error::StudyError;
 
 /// A demand whose exceedance is asked for.
@@ -363,7 +363,12 @@ impl IdaTable {
                 let is_bare = is_plain(&limit.exceeds);
                 let limit = limit.read(reader, context);
                 let (name, limit) = (name?, limit?);
-                asked.extend(asked::of_limit(&name, limit.demand, limit.exceeds, is_bare));
+                asked.extend(bare_numbers::of_limit(
+                    &name,
+                    limit.demand,
+                    limit.exceeds,
+                    is_bare,
+                ));
                 Some(Limit { name, ..limit })
             };
             all(limits.into_iter().map(read).collect::<Vec<_>>())
@@ -384,7 +389,7 @@ impl IdaTable {
                 let (curve, is_bare) = read;
                 let known = measure.as_ref().zip(values).filter(|_| is_bare);
                 asked.extend(known.and_then(|(measure, values)| {
-                    asked::of_hazard(measure, &curve.points, values)
+                    bare_numbers::of_hazard(measure, &curve.points, values)
                 }));
                 Some((Some(curve), file))
             }

@@ -1,7 +1,7 @@
 //! The study file: a case, what varies in it, and how it is sampled.
 
 mod annual_frequency;
-mod asked;
+mod bare_numbers;
 mod context;
 mod files;
 mod hazard_file;

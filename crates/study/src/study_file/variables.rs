@@ -15,7 +15,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use serde::de::IgnoredAny;
 
-use super::asked;
+use super::bare_numbers;
 use super::context::{Base, Context};
 use super::intensity::{BelowOne, IntensityKeys, Measure};
 use super::records::{Record, SyntheticTable};
@@ -240,7 +240,7 @@ impl VariableTable {
         let (values, places) = values?;
         let measure = measure?;
         let is_bare = places.iter().all(|written| written.value.is_plain());
-        let asked = asked::of_intensities(&measure, &values).filter(|_| is_bare);
+        let asked = bare_numbers::of_intensities(&measure, &values).filter(|_| is_bare);
         Some(Variable {
             name,
             long_name,

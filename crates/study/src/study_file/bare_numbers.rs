@@ -1,4 +1,4 @@
-//! What is asked about numbers without a unit that would be usual in another one.
+//! What is asked about bare numbers, without a unit, that would be usual in another one.
 
 use pounding_case::{Dimension, bare_acceleration};
 use pounding_catalogue::STANDARD_GRAVITY;

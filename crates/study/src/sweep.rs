@@ -19,7 +19,7 @@ use crate::merge::refuse_name_of_shard;
 use crate::parts::{Parts, Store};
 use crate::runs::{Ending, OPENING, RecordReport, Row, Runner, run_all};
 use crate::shard_name::ShardName;
-use crate::study_file::{Study, Target, Value, Values, Variable};
+use crate::study_file::{Study, Value, Values, Variable, VariedEntry};
 use crate::table::{GrowingTable, RunTable};
 
 /// Part `index` of `count` of a study.
@@ -358,8 +358,8 @@ fn empty_report(runner: &Runner<'_>, description: &Description) -> SweepReport {
 enum Seat {
     /// That of the case (m).
     OfCase(f64),
-    /// The value of a variable, by its number.
-    Varied(usize),
+    /// The value of a variable, by its number, as a multiple of one (m).
+    Varied { variable: usize, unit: f64 },
 }
 
 /// Columns of openings, with the seats of their gaps.
@@ -367,13 +367,16 @@ fn seats(runner: &Runner<'_>) -> Vec<(usize, Seat)> {
     let study = runner.study;
     let names = || study.base.gaps.iter().map(|gap| gap.name.as_str());
     let seat = |of: &str| {
-        let varies = |v: &Variable| match &v.target {
-            Target::Entry { path, .. } => {
-                path.of_seat() && path.second(names()).is_some_and(|gap| gap == of)
-            }
-            _ => false,
+        let of_gap = |varied: &&VariedEntry| {
+            let path = &varied.path;
+            path.of_seat() && path.second(names()).is_some_and(|gap| gap == of)
         };
-        let varied = study.variables.iter().position(varies).map(Seat::Varied);
+        let mut variables = study.variables.iter().enumerate();
+        let varied = variables.find_map(|(variable, v)| {
+            let entry = v.target.entries().iter().find(of_gap)?;
+            let unit = entry.number(1.0);
+            Some(Seat::Varied { variable, unit })
+        });
         let gap = study.base.gaps.iter().find(|gap| gap.name == of)?;
         let of_case = gap.seat.as_ref().map(|seat| Seat::OfCase(seat.value));
         varied.or(of_case)
@@ -391,8 +394,8 @@ impl SweepReport {
         self.runs += 1;
         let width = |seat: &Seat| match seat {
             Seat::OfCase(width) => Some(*width),
-            Seat::Varied(variable) => match point.get(*variable) {
-                Some(Value::Number(width)) => Some(*width),
+            Seat::Varied { variable, unit } => match point.get(*variable) {
+                Some(Value::Number(width)) => Some(*width * unit),
                 _ => None,
             },
         };

@@ -61,7 +61,7 @@ impl Edit {
 pub(crate) type Lost = (String, String);
 
 /// The tree of a case, which is sound.
-fn tree(source: &str) -> Result<DeTable<'_>, Lost> {
+pub(super) fn tree(source: &str) -> Result<DeTable<'_>, Lost> {
     let broken = |_| {
         (
             "the case is not TOML".to_owned(),
@@ -71,8 +71,8 @@ fn tree(source: &str) -> Result<DeTable<'_>, Lost> {
     Ok(DeTable::parse(source).map_err(broken)?.into_inner())
 }
 
-/// Follows a path through a case.
-fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
+/// Follows a path to one entry through a case.
+pub(super) fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
     let Some((Step::Key(first), rest)) = path.0.split_first() else {
         return Err((
             "a path begins with the name of a table".to_owned(),
@@ -142,6 +142,7 @@ fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entry, Lost> {
             (DeValue::Table(table), Step::Index(n) | Step::Number(n)) => {
                 return Err(unknown(&shown, &n.to_string(), &keys(table)));
             }
+            (_, Step::Each) => return Err(no_list(&shown)),
             _ => {
                 return Err((
                     format!("`{shown}` is a single value in the case"),
@@ -165,7 +166,7 @@ const OPTIONAL_TABLES: [&str; 2] = ["analysis", "separation"];
 fn keys_of(steps: &[Step]) -> Option<String> {
     let key = |step: &Step| match step {
         Step::Key(key) => Some(as_key(key)),
-        Step::Index(_) | Step::Number(_) => None,
+        Step::Index(_) | Step::Number(_) | Step::Each => None,
     };
     let keys: Option<Vec<String>> = steps.iter().map(key).collect();
     Some(keys?.join("."))
@@ -201,12 +202,31 @@ fn numbered(items: &[Value<'_>], number: usize, list: &Path, rest: &[Step]) -> R
     ))
 }
 
-/// The place of an entry that a study varies.
+/// A path with a `*` to what is no list.
+pub(super) fn no_list(place: &Path) -> Lost {
+    (
+        format!("`{place}` is no list in the case, for each entry of which `*` stands"),
+        format!("write the path without `*`, such as `{place}`"),
+    )
+}
+
+/// The place of an entry.
 pub(crate) fn entry(source: &str, path: &Path) -> Result<Arc<Entry>, Lost> {
     let tree = tree(source)?;
     let entry = Arc::new(find(source, &tree, path)?);
-    if text_agrees(source, &tree, &[Edit::new(&entry, "0")]) {
-        return Ok(entry);
+    replaceable(source, &tree, path, &entry)?;
+    Ok(entry)
+}
+
+/// Refuses an entry whose text cannot be replaced as it is in the tree.
+pub(super) fn replaceable(
+    source: &str,
+    tree: &DeTable<'_>,
+    path: &Path,
+    entry: &Arc<Entry>,
+) -> Result<(), Lost> {
+    if text_agrees(source, tree, &[Edit::new(entry, "0")]) {
+        return Ok(());
     }
     Err(match entry.before.is_empty() {
         true => (
@@ -228,7 +248,7 @@ fn left_out(key: impl Display) -> Lost {
 
 /// Whether edits make of the text what they make of the tree: they do not where a value takes
 /// the place of a header.
-fn text_agrees(source: &str, tree: &DeTable<'_>, edits: &[Edit]) -> bool {
+pub(super) fn text_agrees(source: &str, tree: &DeTable<'_>, edits: &[Edit]) -> bool {
     let lines = |changed| Lines::of(tree).with(&changed);
     changed(tree, edits).map(lines) == Some(canonical(&apply(source, edits)))
 }
@@ -453,6 +473,22 @@ pub(crate) fn apply(source: &str, edits: &[Edit]) -> String {
     }
     text.push_str(source.get(from..).unwrap_or_default());
     text
+}
+
+/// Where the keys that edits bring with them stand in the text that [`apply`] makes.
+pub(crate) fn places_of_keys(edits: &[Edit]) -> Vec<Range<usize>> {
+    let (mut put, mut taken) = (0, 0);
+    let of_edit = |edit: &Edit| {
+        let Edit { entry, value } = edit;
+        let start = entry.span.start + put - taken;
+        taken += entry.span.len();
+        let Some(value) = value else {
+            return start..start;
+        };
+        put += entry.before.len() + value.len() + entry.after.len();
+        start..start + entry.before.len()
+    };
+    in_order(edits).into_iter().map(of_edit).collect()
 }
 
 /// The values of the root keys that edits change in a tree; `None` where they cannot be made.

@@ -56,6 +56,10 @@ fn entry(place: &str, inner: &Spanned<DeValue<'_>>, lines: &mut Vec<String>) {
 }
 
 fn value(value_here: &DeValue<'_>, path: &str, lines: &mut Vec<String>) {
+    if let Some(x) = number(value_here) {
+        lines.push(format!("{path} = {x:e}"));
+        return;
+    }
     match value_here {
         DeValue::Table(entries) => {
             for (key, inner) in entries {
@@ -67,28 +71,23 @@ fn value(value_here: &DeValue<'_>, path: &str, lines: &mut Vec<String>) {
                 value(item.get_ref(), &format!("{path}.{i}"), lines);
             }
         }
-        DeValue::String(text) => match parse_quantity(text) {
-            Ok(quantity) => lines.push(number(path, quantity.value)),
-            Err(_) => lines.push(format!("{path} = {text:?}")),
-        },
-        DeValue::Integer(i) if i.radix() == 10 => {
-            lines.push(match i.as_str().parse() {
-                Ok(x) => number(path, x),
-                Err(_) => format!("{path} = {}", i.as_str()),
-            });
-        }
+        DeValue::String(text) => lines.push(format!("{path} = {text:?}")),
+        DeValue::Integer(i) if i.radix() == 10 => lines.push(format!("{path} = {}", i.as_str())),
         DeValue::Integer(i) => lines.push(format!("{path} = {}:{}", i.radix(), i.as_str())),
-        DeValue::Float(f) => lines.push(match f.as_str().parse() {
-            Ok(x) => number(path, x),
-            Err(_) => format!("{path} = {}", f.as_str()),
-        }),
+        DeValue::Float(f) => lines.push(format!("{path} = {}", f.as_str())),
         DeValue::Boolean(b) => lines.push(format!("{path} = {b}")),
         DeValue::Datetime(d) => lines.push(format!("{path} = {d}")),
     }
 }
 
-fn number(path: &str, x: f64) -> String {
-    format!("{path} = {x:e}")
+/// The number (SI) of a value, if it is one or a text with a unit.
+pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
+    match value {
+        DeValue::String(text) => parse_quantity(text).ok().map(|quantity| quantity.value),
+        DeValue::Integer(i) if i.radix() == 10 => i.as_str().parse().ok(),
+        DeValue::Float(f) => f.as_str().parse().ok(),
+        _ => None,
+    }
 }
 
 #[cfg(test)]

@@ -7,12 +7,14 @@
 mod edits;
 mod identity;
 mod path;
+mod several;
 mod variant;
 
 pub(crate) use edits::{
-    Edit, Entry, KEPT, Lost, apply, building_names, entry, root_key, with_model, with_motion,
-    without,
+    Edit, Entry, KEPT, Lost, apply, building_names, entry, places_of_keys, root_key, with_model,
+    with_motion, without,
 };
 pub(crate) use identity::{Lines, canonical};
 pub(crate) use path::Path;
+pub(crate) use several::{entries, numbers};
 pub(crate) use variant::Variant;

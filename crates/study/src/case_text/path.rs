@@ -1,4 +1,4 @@
-//! Where an entry stands: `gap.0.width`, `gap["light-heavy"].width`, `building.light.mass`.
+//! Where entries stand: `gap.0.width`, `gap["light-heavy"].width`, `building.light.mass`, `gap.*.width`.
 
 use std::fmt;
 
@@ -11,6 +11,8 @@ pub(crate) enum Step {
     Number(usize),
     /// A place in a list, from zero.
     Index(usize),
+    /// Every place in a list, `*`.
+    Each,
 }
 
 /// A number as it is counted: names may have leading zeros or a sign.
@@ -36,9 +38,12 @@ impl Path {
                 let quoted = name.len() >= 2 && name.starts_with('"') && name.ends_with('"');
                 steps.push(match index(name) {
                     Some(index) => Step::Index(index),
+                    None if name == "*" => Step::Each,
                     None if quoted => Step::Key(name[1..name.len() - 1].to_owned()),
                     None => {
-                        return Err(format!("[{name}] is neither a number nor a name in quotes"));
+                        return Err(format!(
+                            "[{name}] is neither a number, nor a name in quotes, nor *"
+                        ));
                     }
                 });
                 rest = after;
@@ -48,7 +53,11 @@ impl Path {
                 if word.is_empty() {
                     return Err("a name is empty".to_owned());
                 }
-                steps.push(index(word).map_or_else(|| Step::Key(word.to_owned()), Step::Number));
+                steps.push(match index(word) {
+                    Some(index) => Step::Number(index),
+                    None if word == "*" => Step::Each,
+                    None => Step::Key(word.to_owned()),
+                });
                 rest = &rest[end..];
             }
             if rest.is_empty() {
@@ -145,6 +154,7 @@ impl Path {
             Step::Index(index) => return names.get(*index).map(|name| (*name).to_owned()),
             Step::Number(index) => (&index.to_string(), Some(*index)),
             Step::Key(key) => (key, None),
+            Step::Each => return None,
         };
         let named = names.iter().find(|n| *n == name);
         let name = named.or_else(|| names.get(index?));
@@ -176,6 +186,8 @@ impl fmt::Display for Path {
                 Step::Number(n) if i == 0 => write!(f, "{n}")?,
                 Step::Number(n) => write!(f, ".{n}")?,
                 Step::Index(n) => write!(f, "[{n}]")?,
+                Step::Each if i == 0 => f.write_str("*")?,
+                Step::Each => f.write_str(".*")?,
                 Step::Key(key) => {
                     let plain = key.chars().all(|c| c.is_ascii_alphanumeric() || c == '_')
                         && index(key).is_none();
@@ -219,6 +231,16 @@ mod tests {
                 "building.light.mass.2",
                 vec![key("building"), key("light"), key("mass"), Step::Number(2)],
                 "building.light.mass.2",
+            ),
+            (
+                "gap[*].width",
+                vec![key("gap"), Step::Each, key("width")],
+                "gap.*.width",
+            ),
+            (
+                "building[\"*\"].mass",
+                vec![key("building"), key("*"), key("mass")],
+                "building[\"*\"].mass",
             ),
             (
                 "building[\"1\"].mass",

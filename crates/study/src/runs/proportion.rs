@@ -35,9 +35,9 @@ pub(crate) fn intensity_of_case(study: &Study) -> Result<Option<f64>, StudyError
     let (Some(measure), true) = (measure, targets().any(|t| matches!(t, Target::Record))) else {
         return Ok(None);
     };
-    let gives_ground = |target: &Target| match target {
-        Target::Entry { path, .. } => path.table() == "building" && path.leads_through("ground"),
-        _ => false,
+    let gives_ground = |target: &Target| {
+        let mut paths = target.paths();
+        paths.any(|path| path.table() == "building" && path.leads_through("ground"))
     };
     let base = &study.base;
     let own = |b: &Building| b.ground.as_ref().is_some_and(|g| g.value.motion.is_some());

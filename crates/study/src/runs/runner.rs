@@ -89,14 +89,13 @@ impl<'s> Runner<'s> {
         let assembly = assemble_with_record(&base, &rest)?;
         let averaged = assembly.warnings_of_buildings();
         let system = assembly.system;
-        let entries = |v: &Variable| matches!(v.target, Target::Entry { .. });
+        let entries = |v: &Variable| matches!(v.target, Target::Entries { .. });
         let as_given = !study.variables.iter().any(entries);
         let isolated = IsolatedQuantities {
             demand: study.isolated_demand,
             peaks: study.isolated_peaks,
         };
-        let of_seat =
-            |v: &Variable| matches!(&v.target, Target::Entry { path, .. } if path.of_seat());
+        let of_seat = |v: &Variable| v.target.paths().any(case_text::Path::of_seat);
         let brings_seat = study.variables.iter().any(of_seat);
         let mut layout = Layout::of(&system, isolated, brings_seat);
         let levels = floors_that_meet(&system).map(|(gap, sides)| (gap.to_owned(), sides));
@@ -439,13 +438,10 @@ impl<'s> Runner<'s> {
 
 /// The warning of a variable that has a model or law under two of its names.
 fn model_named_twice(variable: &Variable) -> Option<String> {
-    let (Values::Choices(names), Target::Entry { path, .. }) = (&variable.values, &variable.target)
-    else {
+    let Values::Choices(names) = &variable.values else {
         return None;
     };
-    if !path.of_model() {
-        return None;
-    }
+    let path = variable.target.paths().find(|path| path.of_model())?;
     let known = |name: &String| match pounding_gap_element::registry::find(name) {
         Ok(model) if path.of_gap() => model.name,
         _ => pounding_hysteresis::find(name).map_or("", |law| law.name),
@@ -463,12 +459,15 @@ fn model_named_twice(variable: &Variable) -> Option<String> {
 
 /// What to say of a key of `[analysis]` that varies and that no method of the study takes.
 fn of_no_method(study: &Study, variable: &Variable) -> Option<String> {
-    let Target::Entry { path, .. } = &variable.target else {
-        return None;
-    };
-    let key = path.of_method_key()?;
+    let keys = variable.target.paths();
+    let (path, key) = keys
+        .into_iter()
+        .find_map(|path| Some((path, path.of_method_key()?)))?;
     let takers = methods_that_take(key);
-    let of_methods = |v: &&Variable| matches!(&v.target, Target::Entry { path, .. } if path.of_method_key() == Some("method"));
+    let of_methods = |v: &&Variable| {
+        let mut keys = v.target.paths().filter_map(|path| path.of_method_key());
+        keys.any(|key| key == "method")
+    };
     let methods = study.variables.iter().find(of_methods).map(|v| &v.values);
     let used: Vec<&str> = match methods {
         Some(Values::Choices(names)) => names.iter().map(|n| n.trim_matches(['"', '\''])).collect(),
@@ -491,13 +490,14 @@ fn of_no_method(study: &Study, variable: &Variable) -> Option<String> {
 
 /// What to say of a variable that changes, or may change, which floors a link joins.
 fn of_other_levels(variable: &Variable) -> Option<String> {
-    let Target::Entry { path, .. } = &variable.target else {
-        return None;
+    let keys = ["levels", "elevation_tolerance"];
+    let of_link = |path: &case_text::Path| {
+        path.table() == "link" && keys.iter().any(|key| path.leads_through(key))
     };
-    let mut keys = ["levels", "elevation_tolerance"].into_iter();
-    let changes = path.table() == "link" && keys.any(|key| path.leads_through(key));
+    let changes = variable.target.paths().any(of_link);
     let may = if changes { "changes" } else { "may change" };
-    (changes || path.of_elevations()).then(|| {
+    let of_elevations = || variable.target.paths().any(case_text::Path::of_elevations);
+    (changes || of_elevations()).then(|| {
         format!(
             "variable \"{}\" {may} which floors a link joins: peaks of links are of the levels that they have in the case, and missing in runs without these",
             variable.name
@@ -507,16 +507,14 @@ fn of_other_levels(variable: &Variable) -> Option<String> {
 
 /// What to say of a variable of which no result of a study tells.
 fn without_result(variable: &Variable) -> Option<String> {
-    let Target::Entry { path, .. } = &variable.target else {
-        return None;
-    };
-    if path.of_seat() {
+    let mut paths = variable.target.paths();
+    if let Some(path) = paths.clone().find(|path| path.of_seat()) {
         return Some(format!(
             "variable \"{}\": `{path}` moves nothing: runs that differ in it alone are equal; `peak_opening` is to be held against it, as the count of decks that fall is, and `pounding gap` says more",
             variable.name
         ));
     }
-    path.without_result().then(|| {
+    paths.find(|path| path.without_result()).map(|path| {
         format!(
             "variable \"{}\": no result of a study tells of `{path}`: runs that differ in it alone are equal; `pounding gap` asks for it",
             variable.name
@@ -549,7 +547,10 @@ fn may_be_rigid(
         Some(has_rigid_impacts(&assembly.system))
     };
     let chosen = study.variables.iter().filter_map(|variable| {
-        let entry = matches!(variable.target, Target::Entry { .. } | Target::Model { .. });
+        let entry = matches!(
+            variable.target,
+            Target::Entries { .. } | Target::Model { .. }
+        );
         match &variable.values {
             Values::Choices(names) if entry => Some((variable, names.len())),
             _ => None,
@@ -575,10 +576,8 @@ fn duration_of_case(study: &Study) -> Option<f64> {
 /// Whether a study varies the entry of its case at a path.
 fn varies(study: &Study, at: &str) -> bool {
     let at = case_text::Path::parse(at);
-    study.variables.iter().any(|v| match &v.target {
-        Target::Entry { path, .. } => at.as_ref().is_ok_and(|at| at == path),
-        _ => false,
-    })
+    let mut paths = study.variables.iter().flat_map(|v| v.target.paths());
+    paths.any(|path| at.as_ref().is_ok_and(|at| at == path))
 }
 
 /// Hashes of the files that a study names beside its records, each file once.
@@ -732,8 +731,8 @@ fn key(study: &Study, point: &[Value]) -> Key {
         let bits = value.bits();
         match &variable.target {
             Target::Model { .. } => {}
-            Target::Entry { path, .. } if path.of_gap() => {}
-            Target::Entry { .. } => key.buildings.push(bits),
+            target @ Target::Entries { .. } if target.paths().all(case_text::Path::of_gap) => {}
+            Target::Entries { .. } => key.buildings.push(bits),
             Target::Record | Target::Intensity(_) => {
                 // The motions of buildings across the row go with them.
                 if matches!(variable.target, Target::Record) && across {

@@ -3,16 +3,13 @@
 use pounding_time_history::System;
 
 use super::{Layout, Place};
-use crate::study_file::{Study, Target};
+use crate::study_file::Study;
 
 /// Leaves out the elevations and widths that a variable of the study changes. Returns
 /// the names of the gaps beside buildings whose storey heights vary.
 pub(crate) fn leave_out_varied(layout: &mut Layout, study: &Study, system: &System) -> Vec<String> {
     let mut beside = Vec::new();
-    for variable in &study.variables {
-        let Target::Entry { path, .. } = &variable.target else {
-            continue;
-        };
+    for path in study.variables.iter().flat_map(|v| v.target.paths()) {
         if path.of_elevations() {
             let names = system.buildings().iter().map(|b| b.name());
             let name = path.second(names);

@@ -4,8 +4,8 @@ use std::path::PathBuf;
 
 use pounding_case::CaseTree;
 
-use super::{RecordKind, Study, Target};
-use crate::case_text::{Edit, Variant};
+use super::{RecordKind, Study, Target, Value};
+use crate::case_text::Variant;
 
 impl Study {
     /// Every file that the study reads: what each is, and its path.
@@ -24,9 +24,9 @@ impl Study {
         let tree = CaseTree::parse(&self.base.source, &self.base.file).ok();
         for variable in &self.variables {
             // Such as target spectra by name.
-            if let Target::Entry { entry, texts, .. } = &variable.target {
-                let cases = texts.iter().filter_map(|text| {
-                    let edits = [Edit::new(entry, text)];
+            if let Target::Entries { texts, .. } = &variable.target {
+                let cases = (0..texts.len()).filter_map(|choice| {
+                    let edits = variable.target.edits(&Value::Choice(choice));
                     Variant::new(tree.as_ref()?, &edits).case().ok()
                 });
                 files.extend(cases.flat_map(|case| case.files()));

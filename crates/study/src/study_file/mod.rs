@@ -11,11 +11,12 @@ mod read;
 mod readings;
 mod records;
 mod rows;
+mod trial;
 mod values;
 mod variables;
+mod varied_entry;
 
 use std::path::{Path as FilePath, PathBuf};
-use std::sync::Arc;
 
 pub use hazard_file::hazard_schema;
 pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
@@ -26,14 +27,15 @@ pub use read::study_schema;
 pub(crate) use readings::Readings;
 pub(crate) use records::beside_that_across;
 pub use values::{Spacing, Values};
+pub(crate) use varied_entry::VariedEntry;
+use varied_entry::{set_all, set_numbers};
 
 use pounding_case::{Case, CaseError};
 use pounding_ground_motion::Accelerogram;
 
-use crate::case_text::{Edit, Entry, Path};
+use crate::case_text::{Edit, Path};
 use crate::design::Design;
 use crate::error::StudyError;
-use crate::runs::written;
 
 /// A study: one case, and what varies in it.
 #[derive(Debug, Clone)]
@@ -87,14 +89,13 @@ pub struct Variable {
 /// What a variable changes.
 #[derive(Debug, Clone)]
 pub(crate) enum Target {
-    /// An entry of the case.
-    Entry {
-        entry: Arc<Entry>,
-        path: Path,
+    /// Entries of the case, which all have the same value, or the same multiple of their own.
+    Entries {
+        entries: Vec<VariedEntry>,
         /// For choices: the texts as they stand in the study.
         texts: Vec<String>,
     },
-    /// The model of a gap with all its options: edits for each choice.
+    /// The model of gaps with all its options: edits for each choice.
     Model { edits: Vec<Vec<Edit>> },
     /// The motion.
     Record,
@@ -106,13 +107,24 @@ impl Target {
     /// What a value changes in the text of the case, but for that of records.
     pub(crate) fn edits(&self, value: &Value) -> Vec<Edit> {
         match (self, value) {
-            (Self::Entry { entry, .. }, Value::Number(x)) => vec![Edit::new(entry, written(*x))],
-            (Self::Entry { entry, texts, .. }, Value::Choice(i)) => {
-                vec![Edit::new(entry, &texts[*i])]
-            }
+            (Self::Entries { entries, .. }, Value::Number(x)) => set_numbers(entries, *x),
+            (Self::Entries { entries, texts }, Value::Choice(i)) => set_all(entries, &texts[*i]),
             (Self::Model { edits }, Value::Choice(i)) => edits[*i].clone(),
             _ => Vec::new(),
         }
+    }
+
+    /// The entries of the case that it changes by numbers or texts.
+    pub(crate) fn entries(&self) -> &[VariedEntry] {
+        match self {
+            Self::Entries { entries, .. } => entries,
+            _ => &[],
+        }
+    }
+
+    /// The paths to these entries.
+    pub(crate) fn paths(&self) -> impl Iterator<Item = &Path> + Clone {
+        self.entries().iter().map(|varied| &varied.path)
     }
 }
 

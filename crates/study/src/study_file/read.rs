@@ -16,7 +16,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::de::DeTable;
 
-use crate::case_text::root_key;
+use crate::case_text::{Path as CasePath, root_key};
 use crate::faults::{parse_case, with_all};
 
 use super::context::{Base, Context};
@@ -493,7 +493,10 @@ fn variables(
 /// motion.
 fn collide(a: &Variable, b: &Variable) -> bool {
     let entries = |v: &Variable| match &v.target {
-        Target::Entry { entry, .. } => vec![Arc::clone(entry)],
+        Target::Entries { entries, .. } => {
+            let entries = entries.iter().map(|varied| Arc::clone(&varied.entry));
+            entries.collect()
+        }
         // A model puts new lines where another absent key might go: no collision.
         Target::Model { edits } => {
             let old = edits.iter().take(1).flatten().filter(|e| e.value.is_none());
@@ -504,12 +507,14 @@ fn collide(a: &Variable, b: &Variable) -> bool {
     match (&a.target, &b.target) {
         (Target::Intensity(_), Target::Intensity(_)) => true,
         // An intensity sets the scale, and a record all other keys of the motion.
-        (Target::Entry { path, .. }, Target::Intensity(_))
-        | (Target::Intensity(_), Target::Entry { path, .. }) => path.of_scale(),
-        (Target::Entry { path, .. }, Target::Record)
-        | (Target::Record, Target::Entry { path, .. }) => {
-            path.table() == "ground_motion" && !path.of_scale()
+        (of_case @ Target::Entries { .. }, Target::Intensity(_))
+        | (Target::Intensity(_), of_case @ Target::Entries { .. }) => {
+            of_case.paths().any(CasePath::of_scale)
         }
+        (of_case @ Target::Entries { .. }, Target::Record)
+        | (Target::Record, of_case @ Target::Entries { .. }) => of_case
+            .paths()
+            .any(|path| path.table() == "ground_motion" && !path.of_scale()),
         _ => entries(a)
             .iter()
             .any(|a| entries(b).iter().any(|b| a.overlaps(b))),

@@ -9,7 +9,7 @@ use pounding_case::{Case, CaseTree};
 
 use super::records::stem;
 use super::{RecordKind, RecordSource, Study, Target, Value, Variable};
-use crate::case_text::Variant;
+use crate::case_text::{Path, Variant};
 use crate::design::Design;
 
 /// Most ways in which a study reads the record of the case: each is kept as long as it runs.
@@ -22,7 +22,7 @@ pub(crate) type Readings = BTreeMap<Vec<u64>, usize>;
 impl Variable {
     /// Whether it says how the record of the case is read.
     pub(super) fn of_reading(&self) -> bool {
-        matches!(&self.target, Target::Entry { path, .. } if path.of_reading())
+        self.target.paths().any(Path::of_reading)
     }
 }
 
@@ -30,7 +30,7 @@ impl Study {
     /// Whether its motions differ by their files alone.
     pub(crate) fn reads_one_way(&self) -> bool {
         let mut reading = self.variables.iter().filter(|v| v.of_reading());
-        reading.all(|v| matches!(&v.target, Target::Entry { path, .. } if path.of_motion_file()))
+        reading.all(|v| v.target.paths().all(Path::of_motion_file))
     }
 
     /// Which motion a run of these values has.

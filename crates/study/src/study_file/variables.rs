@@ -1,15 +1,12 @@
 //! Variables: what varies, and every value tried in the case.
 
-use std::cell::RefCell;
 use std::ops::Range;
-use std::sync::Arc;
 
-use pounding_assembly::parameter_dimension;
 use pounding_case::document::{
     Amount, Entry, Field, FreeKeys, List, Number, OneOrEach, Optional, Positive, Reader, Scalar,
     TableOr, Time, Written,
 };
-use pounding_case::{Case, CaseTree, Dimension, Located};
+use pounding_case::{CaseTree, Dimension, Located};
 use pounding_catalogue::wording::one_line;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -19,11 +16,11 @@ use super::bare_numbers;
 use super::context::{Base, Context};
 use super::intensity::{BelowOne, IntensityKeys, Measure};
 use super::records::{Record, SyntheticTable};
-use super::rows::{self, Refused};
+use super::trial::{Trial, unit_of_numbers};
 use super::values::{Numbers, Spacing, Values, Whole, all, table_with_range, unit_of};
+use super::varied_entry::{VariedEntry, kept, varied_entries};
 use super::{IntensityMeasure, RecordSource, Target, Variable, records};
-use crate::case_text::{Edit, Entry as CaseEntry, Lost, Path, entry, with_model};
-use crate::runs::written;
+use crate::case_text::{Path, with_model};
 use crate::table::DIAGNOSIS;
 
 table_with_range! {
@@ -33,8 +30,12 @@ table_with_range! {
     VariableTable {
         /// Name of the coordinate in the results
         name: Optional<String>,
-        /// Entry of the case that varies, such as gap.0.width
-        path: Optional<String>,
+        /// Entry of the case that varies, such as gap.0.width; several have the same value in every run: gap.*.width
+        /// for each of a list, or a list of paths
+        path: Optional<OneOrEach<Located<String>>>,
+        /// Whether values are multiples of the numbers that the case has there, by default false: 0.8 to 1.2 of
+        /// building.light.stiffness, also of a list with one for each storey
+        relative: Optional<bool>,
         /// Values: numbers, texts, or models with all their options
         values: Optional<Listed>,
         /// Motions from files, relative to the folder of the study
@@ -148,12 +149,13 @@ impl VariableTable {
             ("period", self.period.span()),
             ("damping", self.damping.span()),
         ];
+        let relative = [("relative", self.relative.span(), "`path`")];
         let numbers = numbers.map(|(key, place)| (key, place, "`path` or `intensity`"));
         let spectrum = spectrum.map(|(key, place)| (key, place, "`intensity`"));
         let others = match kind {
-            "records" => [&numbers[..], &spectrum].concat(),
+            "records" => [&numbers[..], &spectrum, &relative].concat(),
             "path" => spectrum.to_vec(),
-            _ => Vec::new(),
+            _ => relative.to_vec(),
         };
         for (key, place, owner) in others {
             place.and_then(|place| {
@@ -285,32 +287,32 @@ impl VariableTable {
         context: &Context,
     ) -> Option<Variable> {
         let place = self.path.span().unwrap_or_else(|| span.clone());
-        let path = self
-            .path
-            .clone()
-            .located()
-            .and_then(|text| path(reader, &text));
-        let names = match (&path, &self.name) {
+        let relative = self.relative.clone().value_or(false)?;
+        let paths = self.path.clone().value().and_then(|paths| {
+            let read = |text: Located<String>| Some((path(reader, &text)?, text.span));
+            all(paths.into_list().into_iter().map(read))
+        });
+        let names = match (&paths, &self.name) {
             // What it would be called is not known, which is no fault of its name.
             (None, None) => None,
             _ => {
-                let default = path.as_ref().map_or_else(String::new, default_name);
-                let title = path.as_ref().map_or_else(String::new, Path::to_string);
-                self.names(reader, span, &default, &title)
+                let paths = paths.as_deref().unwrap_or_default();
+                let default = default_name(paths, reader, &place, &self.name);
+                default.and_then(|name| self.names(reader, span, &name, &title(paths, relative)))
             }
         };
-        let entry = path.as_ref().and_then(|path| {
-            let entry = entry(context.text.as_deref()?, path);
-            kept(reader, &place, entry)
+        let entries = paths.as_ref().and_then(|paths| {
+            let case = context.text.as_deref()?;
+            varied_entries(reader, case, paths, relative)
         });
-        let tried = context.base.as_ref().zip(path.as_ref().zip(entry));
-        let tried = tried.and_then(|(Base { case: base, .. }, (path, entry))| {
+        let tried = context.base.as_ref().zip(paths.as_ref().zip(entries));
+        let tried = tried.and_then(|(Base { case: base, .. }, (paths, entries))| {
             Some(Trial {
                 reader: *reader,
                 tree: CaseTree::parse(&base.source, &base.file).ok()?,
                 base,
-                path,
-                entry,
+                entries,
+                paths: listed(paths),
                 place: place.clone(),
                 refused_alone: context.in_rows.then_some(&context.refused_alone),
             })
@@ -328,28 +330,31 @@ impl VariableTable {
         };
         let mut unit = String::new();
         let (values, target) = match (first, self.values) {
-            (Some(TableOr::Table(_)), Some(Field::Given(list))) => {
-                models(reader, list, path.as_ref(), tried.as_ref())?
+            (Some(TableOr::Table(_)), Some(Field::Given(list))) if !relative => {
+                models(reader, list, paths.as_deref(), tried)?
             }
-            (_, Some(Field::Given(list))) if is_named => {
-                named(reader, list.value.0, tried.as_ref())?
+            (_, Some(Field::Given(list))) if is_named && !relative => {
+                named(reader, list.value.0, tried)?
             }
             (_, values) => {
                 let numbers = Self { values, ..self }.numbers(reader);
-                let any = |written: Written| written.any().map(|quantity| quantity.value);
+                let number = |written: Written| match relative {
+                    true => written.of(Dimension::NUMBER),
+                    false => written.any().map(|quantity| quantity.value),
+                };
                 let sound = sound(&numbers);
-                let Some((values, places)) = numbers.read(reader, (TABLE, span.clone()), &any)
+                let Some((values, places)) = numbers.read(reader, (TABLE, span.clone()), &number)
                 else {
                     // Beside wrong ones the case may refuse others.
-                    tried.as_ref().and_then(|tried| accepted(sound, tried));
+                    tried.as_ref().and_then(|tried| tried.numbers(sound));
                     return None;
                 };
-                let tried = tried.as_ref()?;
-                unit = unit_of_numbers(&places, tried);
-                counted(values, places, tried)?
+                let tried = tried?;
+                unit = unit_of_numbers(&places, &tried);
+                tried.numbers(places)?;
+                (values, tried.target(Vec::new()))
             }
         };
-        tried?;
         let (name, long_name) = names?;
         Some(Variable {
             name,
@@ -364,14 +369,6 @@ impl VariableTable {
 
 /// The name of the table in messages.
 const TABLE: &str = "[[variable]]";
-
-/// The value, or what is wrong with it at this place.
-fn kept<T>(reader: &Reader<'_>, place: &Range<usize>, value: Result<T, Lost>) -> Option<T> {
-    match value {
-        Ok(value) => Some(value),
-        Err((message, help)) => reader.refuse(place.clone(), message, help),
-    }
-}
 
 fn path(reader: &Reader<'_>, text: &Located<String>) -> Option<Path> {
     let wrong = |reason| {
@@ -397,19 +394,41 @@ fn path(reader: &Reader<'_>, text: &Located<String>) -> Option<Path> {
     Some(path)
 }
 
-/// The name of a variable that states none.
-fn default_name(path: &Path) -> String {
-    let text = path.to_string();
-    let parts = text.split(['.', '[', ']', '"', '-', ' ']);
+/// The name of a variable of these paths that states none.
+fn default_name(
+    paths: &[(Path, Range<usize>)],
+    reader: &Reader<'_>,
+    place: &Range<usize>,
+    stated: &Optional<String>,
+) -> Option<String> {
+    if paths.len() > 1 && stated.is_none() {
+        let message = "a variable of several paths has no name by itself";
+        return reader.refuse(place.clone(), message, "add `name = \"...\"`");
+    }
+    let text = paths.first().map(|(path, _)| path.to_string())?;
+    let parts = text.split(['.', '[', ']', '"', '-', ' ', '*']);
     let parts: Vec<&str> = parts.filter(|p| !p.is_empty()).collect();
-    parts.join("_")
+    Some(parts.join("_"))
+}
+
+/// What people call a variable of these paths.
+fn title(paths: &[(Path, Range<usize>)], relative: bool) -> String {
+    let paths: Vec<String> = paths.iter().map(|(path, _)| path.to_string()).collect();
+    let of = if relative { "multiple of " } else { "" };
+    format!("{of}{}", paths.join(", "))
+}
+
+/// Paths in messages.
+fn listed(paths: &[(Path, Range<usize>)]) -> String {
+    let paths: Vec<String> = paths.iter().map(|(path, _)| format!("`{path}`")).collect();
+    paths.join(", ")
 }
 
 /// Values that are texts of the case, such as methods.
 fn named(
     reader: &Reader<'_>,
     list: List<TableOr<ModelTable, Scalar>>,
-    tried: Option<&Trial<'_>>,
+    tried: Option<Trial<'_>>,
 ) -> Option<(Values, Target)> {
     let choices = all(list.0.into_iter().map(|item| {
         let Located { value, span } = item.located()?;
@@ -429,33 +448,13 @@ fn named(
     let tried = tried?;
     let texts = choices
         .iter()
-        .map(|(_, text, span)| (span.clone(), vec![text.clone()]));
-    tried.values(texts)?;
+        .map(|(_, text, span)| (span.clone(), text.as_str()));
+    tried.texts(texts)?;
     let (labels, texts) = choices
         .into_iter()
         .map(|(label, text, _)| (label, text))
         .unzip();
     Some((Values::Choices(labels), tried.target(texts)))
-}
-
-/// Values that are numbers.
-fn counted(
-    values: Values,
-    places: Vec<Located<Written>>,
-    tried: &Trial<'_>,
-) -> Option<(Values, Target)> {
-    accepted(places, tried)?;
-    Some((values, tried.target(Vec::new())))
-}
-
-/// Whether the case takes all of these numbers.
-fn accepted(places: Vec<Located<Written>>, tried: &Trial<'_>) -> Option<()> {
-    tried.values(places.into_iter().map(|Located { value, span }| {
-        // As it is written, so that its unit is checked, and as runs will have it.
-        let number = value.any().map(|quantity| written(quantity.value));
-        let given = tried.reader.source[span.clone()].to_owned();
-        (span, std::iter::once(given).chain(number).collect())
-    }))
 }
 
 /// Those of listed values that are numbers.
@@ -474,14 +473,14 @@ fn sound(numbers: &Numbers) -> Vec<Located<Written>> {
 fn models(
     reader: &Reader<'_>,
     list: Located<Listed>,
-    path: Option<&Path>,
-    tried: Option<&Trial<'_>>,
+    paths: Option<&[(Path, Range<usize>)]>,
+    tried: Option<Trial<'_>>,
 ) -> Option<(Values, Target)> {
     let of_gap = |path: &Path| path.table() == "gap" && path.to_string().ends_with(".model");
-    if path.is_some_and(|path| !of_gap(path)) {
+    if paths.is_some_and(|paths| paths.iter().any(|(path, _)| !of_gap(path))) {
         return reader.refuse(
             list.span,
-            "tables are values of the model of a gap only",
+            "tables are values of the models of gaps only",
             "write path = \"gap.0.model\", or give numbers",
         );
     }
@@ -501,10 +500,13 @@ fn models(
         Some((span, options))
     }))?;
     let tried = tried?;
-    let gap = Path(tried.path.0[..tried.path.0.len() - 1].to_vec());
     let edits = all(models.into_iter().map(|(span, options)| {
-        let edits = with_model(&tried.base.source, &gap, options);
-        let edits = kept(reader, &list.span, edits)?;
+        let of_gap = |varied: &VariedEntry| {
+            let (_, gap) = varied.path.0.split_last()?;
+            let edits = with_model(&tried.base.source, &Path(gap.to_vec()), options.clone());
+            kept(reader, &list.span, edits)
+        };
+        let edits = all(tried.entries.iter().map(of_gap))?.concat();
         match tried.refusal(&edits) {
             Ok(()) => Some(edits),
             Err(refusal) => tried.wrong(refusal, span),
@@ -524,151 +526,4 @@ impl ModelTable {
         let label = self.label.value_or(self.model.value()?)?;
         Some((label, options))
     }
-}
-
-/// Tries values in the case.
-struct Trial<'r> {
-    reader: Reader<'r>,
-    base: &'r Case,
-    tree: CaseTree<'r>,
-    path: &'r Path,
-    entry: Arc<CaseEntry>,
-    /// Where the study names the path.
-    place: Range<usize>,
-    /// Takes values that the case refuses alone, where they go together with others.
-    refused_alone: Option<&'r RefCell<Vec<Range<usize>>>>,
-}
-
-impl Trial<'_> {
-    /// What a variable of these values changes.
-    fn target(&self, texts: Vec<String>) -> Target {
-        Target::Entry {
-            entry: Arc::clone(&self.entry),
-            path: self.path.clone(),
-            texts,
-        }
-    }
-
-    /// Tries values, each with its texts. What is wrong with the entry itself is said once,
-    /// where the study names it.
-    fn values(&self, values: impl IntoIterator<Item = (Range<usize>, Vec<String>)>) -> Option<()> {
-        let mut sound = true;
-        for (place, texts) in values {
-            let refused = |text: &String| self.refusal(&[Edit::new(&self.entry, text)]).err();
-            match texts.iter().find_map(refused) {
-                None => {}
-                Some(refusal) if refusal.of_key => return self.wrong(refusal, self.place.clone()),
-                Some(refusal) => match self.refused_alone {
-                    Some(refused) => refused.borrow_mut().push(place),
-                    None => {
-                        sound = false;
-                        self.wrong::<()>(refusal, place);
-                    }
-                },
-            }
-        }
-        sound.then_some(())
-    }
-
-    fn wrong<T>(&self, refusal: Refusal, place: Range<usize>) -> Option<T> {
-        let Refusal { message, help, .. } = refusal;
-        let message = format!("the case refuses this for `{}`: {message}", self.path);
-        self.reader.refuse(place, message, help.unwrap_or_default())
-    }
-
-    /// Reads and assembles the case with these edits.
-    fn refusal(&self, edits: &[Edit]) -> Result<(), Refusal> {
-        // An entry that the case leaves out brings its key with it.
-        let key = self.entry.span.start..self.entry.span.start + self.entry.before.len();
-        rows::tried(&self.tree, edits).map_err(|refused| {
-            let of_key = matches!(&refused, Refused::Text(e) if key.contains(&e.span.start));
-            let (message, help) = refused.said();
-            Refusal {
-                message,
-                help,
-                of_key,
-            }
-        })
-    }
-}
-
-/// Why the case is wrong with a value.
-struct Refusal {
-    message: String,
-    help: Option<String>,
-    /// Whether the key of the entry is what is wrong.
-    of_key: bool,
-}
-
-/// Unit of the numbers of a variable: that of its texts, or that of the entry in the
-/// case; empty if neither states one.
-fn unit_of_numbers(places: &[Located<Written>], tried: &Trial<'_>) -> String {
-    let mut stated = places
-        .iter()
-        .filter_map(|p| p.value.clone().any().ok()?.dimension);
-    let dimension = stated.next().or_else(|| known_dimension(tried));
-    dimension.map_or_else(String::new, unit_of)
-}
-
-/// Dimension of a key of a foundation, by the words of its path.
-fn dimension_in_foundation(words: &[&str]) -> Dimension {
-    let rocking = words.contains(&"rocking");
-    match words.last().copied().unwrap_or_default() {
-        "mass" => Dimension::MASS,
-        "rotational_inertia" => Dimension::ROTATIONAL_INERTIA,
-        "shear_wave_speed" => Dimension::VELOCITY,
-        "density" => Dimension::DENSITY,
-        "length" | "width" => Dimension::LENGTH,
-        "stiffness" if rocking => Dimension::ROTATIONAL_STIFFNESS,
-        "stiffness" => Dimension::STIFFNESS,
-        "dashpot" if rocking => Dimension::ROTATIONAL_DASHPOT,
-        "dashpot" => Dimension::DASHPOT,
-        _ => Dimension::NUMBER,
-    }
-}
-
-/// Dimension of an entry by its key, for the entries that studies vary most.
-fn known_dimension(tried: &Trial<'_>) -> Option<Dimension> {
-    let text = tried.path.to_string();
-    let words: Vec<&str> = text
-        .split(['.', '[', ']'])
-        .filter(|w| !w.is_empty() && w.parse::<usize>().is_err())
-        .collect();
-    let key = *words.last()?;
-    if tried.path.table() == "gap"
-        && !matches!(key, "width" | "elevation_tolerance" | "seat" | "points")
-    {
-        let mut gaps = tried.base.gaps.iter();
-        let name = tried.path.second(gaps.clone().map(|g| g.name.as_str()))?;
-        let gap = gaps.find(|g| g.name.as_str() == name)?;
-        let model = pounding_gap_element::registry::find(&gap.model.value).ok()?;
-        let known = model.parameters.iter().find(|p| p.name == key)?;
-        let exponent = gap.parameters.iter().find(|p| p.key.value == "exponent");
-        return Some(parameter_dimension(
-            model,
-            known,
-            exponent.map(|p| p.value.value.value),
-        ));
-    }
-    if tried.path.table() == "building" && words.contains(&"foundation") {
-        return Some(dimension_in_foundation(&words));
-    }
-    Some(match key {
-        "mass" => Dimension::MASS,
-        "stiffness" => Dimension::STIFFNESS,
-        "width"
-        | "height"
-        | "initial_displacement"
-        | "elevation_tolerance"
-        | "seat"
-        | "points"
-        | "distance"
-        | "length"
-        | "mass_centre"
-        | "at" => Dimension::LENGTH,
-        "initial_velocity" | "wave_speed" => Dimension::VELOCITY,
-        "pga" => Dimension::ACCELERATION,
-        "duration" | "step" | "output_step" | "time_step" | "delay" => Dimension::TIME,
-        _ => Dimension::NUMBER,
-    })
 }

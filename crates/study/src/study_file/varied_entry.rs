@@ -1,0 +1,89 @@
+//! Entries of the case that a variable changes.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use pounding_case::document::Reader;
+
+use crate::case_text::{Edit, Entry, Lost, Path, entries, numbers};
+use crate::runs::written;
+
+/// An entry of the case that a variable changes.
+#[derive(Debug, Clone)]
+pub(crate) struct VariedEntry {
+    pub path: Path,
+    pub entry: Arc<Entry>,
+    /// Its number (SI) in the case, if the values of the variable are multiples of it.
+    pub of_case: Option<f64>,
+}
+
+impl VariedEntry {
+    /// The number (SI) that it has with a value of the variable.
+    pub(crate) fn number(&self, value: f64) -> f64 {
+        self.of_case.map_or(value, |of_case| value * of_case)
+    }
+}
+
+/// Edits that give all entries their number with a value of the variable.
+pub(super) fn set_numbers(entries: &[VariedEntry], value: f64) -> Vec<Edit> {
+    let edit = |varied: &VariedEntry| Edit::new(&varied.entry, written(varied.number(value)));
+    entries.iter().map(edit).collect()
+}
+
+/// Edits that give all entries this value, as TOML.
+pub(super) fn set_all(entries: &[VariedEntry], value: &str) -> Vec<Edit> {
+    let edits = entries.iter().map(|varied| Edit::new(&varied.entry, value));
+    edits.collect()
+}
+
+/// The entries that paths lead to, each of which stands at its place in the study; none of them
+/// twice. Multiples are of numbers.
+pub(super) fn varied_entries(
+    reader: &Reader<'_>,
+    case: &str,
+    paths: &[(Path, Range<usize>)],
+    relative: bool,
+) -> Option<Vec<VariedEntry>> {
+    let mut all: Vec<VariedEntry> = Vec::new();
+    for (path, place) in paths {
+        let found = kept(reader, place, of_path(case, path, relative))?;
+        for varied in found {
+            if all.iter().any(|other| other.entry.overlaps(&varied.entry)) {
+                let message = format!("`path` leads to `{}` more than once", varied.path);
+                return reader.refuse(place.clone(), message, "name each entry once");
+            }
+            all.push(varied);
+        }
+    }
+    Some(all)
+}
+
+fn of_path(case: &str, path: &Path, relative: bool) -> Result<Vec<VariedEntry>, Lost> {
+    let varied = |(path, entry), of_case| VariedEntry {
+        path,
+        entry,
+        of_case,
+    };
+    Ok(match relative {
+        true => {
+            let numbers = numbers(case, path)?.into_iter();
+            numbers.map(|(found, x)| varied(found, Some(x))).collect()
+        }
+        false => {
+            let entries = entries(case, path)?.into_iter();
+            entries.map(|found| varied(found, None)).collect()
+        }
+    })
+}
+
+/// The value, or what is wrong with it at this place.
+pub(super) fn kept<T>(
+    reader: &Reader<'_>,
+    place: &Range<usize>,
+    value: Result<T, Lost>,
+) -> Option<T> {
+    match value {
+        Ok(value) => Some(value),
+        Err((message, help)) => reader.refuse(place.clone(), message, help),
+    }
+}

@@ -4,4 +4,5 @@ mod comparison;
 mod gap_check;
 mod interruption;
 mod records;
+mod several_entries;
 mod studies;

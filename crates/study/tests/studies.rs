@@ -14,7 +14,7 @@ use pounding_study::{
 };
 use pounding_time_history::{LinkLevelOutcome, isolated_demand, run};
 
-fn root() -> PathBuf {
+pub(super) fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../..")
         .canonicalize()
@@ -22,7 +22,7 @@ fn root() -> PathBuf {
 }
 
 /// A study of the three-storey pair for six seconds, in a folder of its own.
-fn study(folder: &Path, text: &str) -> Result<Study, StudyError> {
+pub(super) fn study(folder: &Path, text: &str) -> Result<Study, StudyError> {
     let motions = root().join("ground_motions");
     let motions = motions.to_str().unwrap();
     let case =
@@ -66,7 +66,7 @@ fn shards_that_cannot_be_are_refused() {
     }
 }
 
-fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
+pub(super) fn rows(study: &Study, folder: &Path) -> Vec<(Row, Vec<Value>)> {
     let options = options(folder);
     let output = options.output.clone();
     sweep(
@@ -891,7 +891,7 @@ fn records_of_buildings_keep_their_proportion_to_the_case() {
 }
 
 /// The case of an example, changed, in a folder of its own, and a study of it.
-fn study_of_example(
+pub(super) fn study_of_example(
     folder: &Path,
     example: &str,
     change: impl Fn(String) -> String,

@@ -76,6 +76,58 @@ fn sweep_of_the_three_storey_pair() {
     );
 }
 
+/// The headline of the study of one gap for a whole row. Its run of the widest gap that is hit hardest is
+/// that of another method, by itself.
+#[test]
+fn common_gap_of_the_row() {
+    let bench = Bench::new("");
+    let study = root().join("examples/row_of_five/common_gap.toml");
+    let study = study.display();
+    bench.text(&format!("sweep {study} -o out.h5 --csv out.csv"));
+    let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 30);
+    let of = |gap: f64, stiffness: f64| {
+        let column = |name: &str| header.iter().position(|h| h == name).unwrap();
+        let is = |row: &&csv::StringRecord| {
+            let [w, k] = ["gap [m]", "stiffness"].map(|name| row[column(name)].parse::<f64>());
+            (w.unwrap(), k.unwrap()) == (gap, stiffness)
+        };
+        rows.iter().find(is).unwrap()
+    };
+    let values = |row: &csv::StringRecord, quantity: &str| -> Vec<f64> {
+        let of_quantity = header.iter().enumerate();
+        let of_quantity = of_quantity.filter(|(_, h)| h.starts_with(&format!("{quantity}: ")));
+        let values: Vec<f64> = of_quantity.map(|(i, _)| row[i].parse().unwrap()).collect();
+        assert_eq!(values.len(), 24);
+        values
+    };
+    let most = |row, quantity| values(row, quantity).into_iter().fold(0.0, f64::max);
+    let close = |x: f64, y: f64| assert!((x / y - 1.0).abs() < 5e-3, "{x} {y}");
+    let (narrow, wide) = (of(0.02, 1.0), of(0.1, 1.0));
+    let impacts = |row| values(row, "impacts").iter().sum::<f64>();
+    assert_eq!((impacts(narrow), impacts(wide)), (206.0, 28.0));
+    close(most(narrow, "peak_force"), 15.38e6);
+    close(most(wide, "peak_force"), 17.73e6);
+    close(most(wide, "isolated_demand"), 0.1946);
+    close(most(of(0.1, 0.8), "isolated_demand"), 0.2377);
+    let number = rows.iter().position(|row| row == wide).unwrap();
+    let shown = bench.text(&format!("sweep {study} --show {number}"));
+    assert_eq!(shown.matches("width = 1e-1").count(), 4, "{shown}");
+    let motions = root().join("ground_motions");
+    let shown = shown.replace("../../ground_motions", &motions.display().to_string());
+    let other = shown.replace("[analysis]", "[analysis]\nmethod = \"adaptive\"");
+    std::fs::write(bench.path("alone.toml"), other).unwrap();
+    let alone = bench.text("run alone.toml --no-output --json");
+    let alone: Value = serde_json::from_str(&alone).unwrap();
+    let gaps = alone["gaps"].as_array().unwrap().iter();
+    let levels = gaps.flat_map(|gap| gap["levels"].as_array().unwrap());
+    let force = |level: &Value| level["peak_force"]["peak"].as_f64().unwrap();
+    let hardest = levels.map(force).fold(0.0, f64::max);
+    assert!((hardest / most(wide, "peak_force") - 1.0).abs() < 1e-5);
+}
+
 /// Runs the example, with other widths of the gap if there are some, in a folder.
 fn fragility(folder: &std::path::Path, gaps: Option<String>) -> Value {
     let mut study = example("fragility_three_storey_pair");

@@ -1,0 +1,242 @@
+//! Variables of several entries, and of multiples of what the case has.
+
+use pounding_assembly::assemble;
+use pounding_case::Case;
+use pounding_study::{Row, Study, Value, case_of_run};
+use pounding_time_history::run;
+
+use super::studies::{rows, study, study_of_example};
+
+/// Two gaps of a row, and buildings with a stiffness for each storey.
+fn row_of_five(folder: &std::path::Path, text: &str) -> Study {
+    let short = |case: String| case.replace("duration = \"30 s\"", "duration = \"8 s\"");
+    study_of_example(folder, "row_of_five", short, text)
+}
+
+/// The peaks of displacement and the contact forces of a run by itself.
+fn alone(folder: &std::path::Path, text: &str) -> Vec<Vec<f64>> {
+    let case = Case::parse(text, &folder.join("case.toml")).unwrap();
+    let assembly = assemble(&case).unwrap();
+    let outcome = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
+    let storeys = outcome.buildings.iter().flat_map(|b| &b.storeys);
+    let levels = outcome.gaps.iter().flat_map(|gap| &gap.levels);
+    vec![
+        storeys.map(|s| s.displacement.value).collect(),
+        levels.map(|level| level.peak_force.value).collect(),
+    ]
+}
+
+/// The same of the rows of a study.
+fn of_study(study: &Study, folder: &std::path::Path) -> Vec<(Vec<Vec<f64>>, Row)> {
+    use pounding_files::checksum::WithoutChecksum;
+    let rows = rows(study, folder);
+    let result = folder.join("out.h5");
+    let reader = pounding_study::ResultReader::open(&result, WithoutChecksum::Refuse).unwrap();
+    let layout = &reader.description.layout;
+    let names = ["peak_displacement", "peak_force"];
+    let values = |row: &Row| names.map(|name| row.values[layout.range(name)].to_vec());
+    rows.into_iter()
+        .map(|(row, _)| (values(&row).to_vec(), row))
+        .collect()
+}
+
+/// A run whose gaps, and the stiffness of every storey of two buildings, vary together is that of the
+/// case in which a person writes all of them; that of the multiple 1 is the case itself.
+#[test]
+fn one_variable_changes_several_entries() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let study = row_of_five(
+        folder,
+        "[[variable]]\npath = \"gap.*.width\"\nvalues = [\"20 mm\", 0.04]\n[[variable]]\nname = \"factor\"\npath = [\"building.R3.stiffness\", \"building.0.stiffness.*\"]\nrelative = true\nvalues = [1, \"80 %\"]\n",
+    );
+    assert_eq!(study.variables[0].name, "gap_width");
+    assert_eq!(study.variables[0].unit, "m");
+    assert_eq!(study.variables[1].unit, "1");
+    assert_eq!(
+        study.variables[1].long_name,
+        "multiple of building.R3.stiffness, building.0.stiffness.*"
+    );
+    let base = std::fs::read_to_string(folder.join("case.toml")).unwrap();
+    let softer = |case: &str| {
+        let mut case = case.to_owned();
+        for mega in [
+            500.0, 455.0, 410.0, 365.0, 320.0, 275.0, 420.0, 382.2, 344.4, 306.6, 268.8, 231.0,
+        ] {
+            // As 80 % of the number in N/m.
+            let number = 0.8 * format!("{mega}e6").parse::<f64>().unwrap();
+            let of = format!("\"{mega} MN/m\"");
+            assert_eq!(case.matches(&of).count(), 1, "{of}");
+            case = case.replace(&of, &number.to_string());
+        }
+        case
+    };
+    let wider = |case: &str| case.replace("width = \"20 mm\"", "width = \"40 mm\"");
+    let expected = [
+        base.clone(),
+        softer(&base),
+        wider(&base),
+        wider(&softer(&base)),
+    ];
+    let found = of_study(&study, folder);
+    for ((values, row), text) in found.iter().zip(&expected) {
+        assert_eq!(*values, alone(folder, text), "run {}", row.run);
+        let shown = case_of_run(&study, row.run).unwrap();
+        assert_eq!(*values, alone(folder, &shown), "run {}", row.run);
+    }
+    let layout = found.iter().map(|(values, _)| &values[1]);
+    assert!(layout.clone().all(|forces| forces.len() == 24));
+    // All differ, and all touch.
+    assert!(layout.clone().all(|f| f.iter().any(|force| *force > 0.0)));
+    assert_ne!(found[0].0, found[2].0);
+    assert_ne!(found[0].0, found[1].0);
+    // The identity is that of the content.
+    let same = row_of_five(
+        folder,
+        "[[variable]]\nname = \"gap\"\npath = [\"gap.0.width\", \"gap.R2-R3.width\", \"gap.2.width\", \"gap[3].width\"]\nvalues = [\"20 mm\", \"4 cm\"]\n",
+    );
+    let again = of_study(&same, folder);
+    assert_eq!(again[0].1.id, found[0].1.id);
+    assert_eq!(again[1].1.id, found[2].1.id);
+    assert_eq!(again[1].0, found[2].0);
+}
+
+/// Models with all their options, and texts, take the place of those of all gaps.
+#[test]
+fn models_of_all_gaps_vary_together() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let study = row_of_five(
+        folder,
+        "[[variable]]\nname = \"model\"\npath = \"gap.*.model\"\nvalues = [{ model = \"jankowski_2005\", stiffness = \"2.75e9 N/m^1.5\", restitution = 0.6 }, { model = \"hertz_1882\", stiffness = 2.75e9 }]\n[[variable]]\nname = \"p_delta\"\npath = \"building.*.p_delta\"\nvalues = [false, true]\n",
+    );
+    for (values, row) in of_study(&study, folder) {
+        let shown = case_of_run(&study, row.run).unwrap();
+        assert_eq!(shown.matches("anagnostopoulos_2004").count(), 0);
+        assert_eq!(shown.matches("stiffness = ").count(), 5 + 4);
+        let name = ["jankowski_2005", "hertz_1882"][row.run / 2];
+        assert_eq!(shown.matches(name).count(), 4, "{shown}");
+        let p_delta = format!("p_delta = {}", row.run % 2 == 1);
+        assert_eq!(shown.matches(&p_delta).count(), 5, "{shown}");
+        assert_eq!(values, alone(folder, &shown), "run {}", row.run);
+    }
+}
+
+/// Samples of a multiple are these times the number of the case, in every entry to the last bit.
+#[test]
+fn samples_are_multiples() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let study = study(
+        folder,
+        "[[variable]]\nname = \"factor\"\npath = \"building.*.mass\"\nrelative = true\nfrom = 0.9\nto = 1.1\n[design]\nkind = \"latin_hypercube\"\nruns = 5\n",
+    )
+    .unwrap();
+    let case = |text: &str| Case::parse(text, &folder.join("case.toml")).unwrap();
+    let base = case(&std::fs::read_to_string(folder.join("case.toml")).unwrap());
+    for run in 0..5 {
+        let shown = case(&case_of_run(&study, run).unwrap());
+        let [Value::Number(factor)] = study.point(run)[..] else {
+            panic!("one number");
+        };
+        assert!((0.9..1.1).contains(&factor));
+        for (changed, before) in shown.buildings.iter().zip(&base.buildings) {
+            let expected: Vec<f64> = before.mass.iter().map(|m| factor * m).collect();
+            assert_eq!(changed.mass, expected);
+        }
+    }
+}
+
+/// What is wrong with such variables is said where the study names the entry, and once.
+#[test]
+fn wrong_paths_to_several_entries() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    for (text, place, said) in [
+        (
+            "path = [\"gap.0.width\", \"building.light.height\"]\nvalues = [3]",
+            "study.toml:3:8",
+            "a variable of several paths has no name by itself",
+        ),
+        (
+            "name = \"x\"\npath = [\"gap.0.width\", \"gap.*.width\"]\nvalues = [0.01]",
+            "study.toml:4:24",
+            "`path` leads to `gap[0].width` more than once",
+        ),
+        (
+            "path = \"building.*.heigth\"\nvalues = [3]",
+            "study.toml:3:8",
+            "unknown key `heigth`",
+        ),
+        (
+            "path = \"gap.0.width.*\"\nvalues = [3]",
+            "study.toml:3:8",
+            "`gap.0.width` is no list in the case",
+        ),
+        (
+            "path = \"gap.*.width\"\nvalues = [0.01, \"-3 mm\"]",
+            "study.toml:4:17",
+            "the case refuses this for `gap.*.width`: `width`",
+        ),
+        (
+            "path = \"gap.*.width\"\nrelative = true\nvalues = [\"20 mm\"]",
+            "study.toml:5:11",
+            "`values` must be a pure number, but \"20 mm\" is a length",
+        ),
+        (
+            "path = \"gap.*.width\"\nrelative = true\nvalues = [true]",
+            "study.toml:5:11",
+            "`values` must be numbers",
+        ),
+        (
+            "path = \"gap.*.width\"\nrelative = true\nvalues = [-1]",
+            "study.toml:5:11",
+            "must be zero or more",
+        ),
+        (
+            "path = \"gap.0.model\"\nrelative = true\nvalues = [{ model = \"hertz_1882\", stiffness = 1e9 }]",
+            "study.toml:3:8",
+            "`gap.0.model` is no number in the case",
+        ),
+        (
+            "path = \"building.light.mass\"\nvalues = [{ model = \"hertz_1882\", stiffness = 1e9 }]",
+            "study.toml:4:10",
+            "tables are values of the models of gaps only",
+        ),
+        (
+            "path = \"analysis.step\"\nrelative = true\nvalues = [0.5]",
+            "study.toml:3:8",
+            "the case leaves `analysis.step` out",
+        ),
+        (
+            "records = [\"MOTIONS/el_centro_1940_ns.csv\"]\nrelative = true",
+            "study.toml:4:12",
+            "`relative` has no meaning for a variable of records",
+        ),
+        (
+            "intensity = \"peak_ground_acceleration\"\nrelative = true\nvalues = [1]",
+            "study.toml:4:12",
+            "`relative` has no meaning for a variable of intensity",
+        ),
+        ("path = []\nvalues = [1]", "study.toml:3:8", "empty list"),
+        (
+            "path = \"gap.0.width\"\nrelative = \"yes\"\nvalues = [1]",
+            "study.toml:4:12",
+            "relative",
+        ),
+    ] {
+        let wrong = study(folder, &format!("[[variable]]\n{text}\n")).unwrap_err();
+        let told = wrong.to_string();
+        assert!(
+            told.contains(said) && told.contains(place),
+            "{text}: {told}"
+        );
+        assert!(!told.contains("\n\n"), "{told}");
+    }
+    let both = "[[variable]]\nname = \"all\"\npath = \"gap.*.width\"\nvalues = [0.01]\n[[variable]]\nname = \"one\"\npath = \"gap.light-heavy.width\"\nvalues = [0.02]\n";
+    let told = study(folder, both).unwrap_err().to_string();
+    assert!(
+        told.contains("\"all\" and \"one\" vary the same entry"),
+        "{told}"
+    );
+}

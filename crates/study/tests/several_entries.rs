@@ -2,7 +2,8 @@
 
 use pounding_assembly::assemble;
 use pounding_case::Case;
-use pounding_study::{Row, Study, Value, case_of_run};
+use pounding_files::checksum::WithoutChecksum;
+use pounding_study::{ResultReader, Row, Study, Value, case_of_run};
 use pounding_time_history::run;
 
 use super::studies::{rows, study, study_of_example};
@@ -28,10 +29,9 @@ fn alone(folder: &std::path::Path, text: &str) -> Vec<Vec<f64>> {
 
 /// The same of the rows of a study.
 fn of_study(study: &Study, folder: &std::path::Path) -> Vec<(Vec<Vec<f64>>, Row)> {
-    use pounding_files::checksum::WithoutChecksum;
     let rows = rows(study, folder);
     let result = folder.join("out.h5");
-    let reader = pounding_study::ResultReader::open(&result, WithoutChecksum::Refuse).unwrap();
+    let reader = ResultReader::open(&result, WithoutChecksum::Refuse).unwrap();
     let layout = &reader.description.layout;
     let names = ["peak_displacement", "peak_force"];
     let values = |row: &Row| names.map(|name| row.values[layout.range(name)].to_vec());
@@ -238,5 +238,67 @@ fn wrong_paths_to_several_entries() {
     assert!(
         told.contains("\"all\" and \"one\" vary the same entry"),
         "{told}"
+    );
+}
+
+/// What is probably mistyped is said of the values that bring it about, and of the case where a run has it.
+#[test]
+fn unusual_structures_are_said_of_their_values() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let told = |text: &str| {
+        let study = study(folder, text).unwrap();
+        rows(&study, folder);
+        let reader = ResultReader::open(&folder.join("out.h5"), WithoutChecksum::Refuse).unwrap();
+        reader.description.warnings.clone()
+    };
+    let of = |warnings: &[String], begins: &str| {
+        let mut found = warnings.iter().filter(|w| w.starts_with(begins));
+        found.next().is_some() && found.next().is_none()
+    };
+    let gap = "[[variable]]\nname = \"gap\"\npath = \"gap.0.width\"\n";
+    assert_eq!(
+        told(&format!("{gap}values = [0.01, 0.06]\n")),
+        Vec::<String>::new()
+    );
+    let wide = told(&format!("{gap}values = [0.01, 20, 60]\n"));
+    assert!(
+        of(&wide, "with gap = 60 m: gap light-heavy: a width of 60 m"),
+        "{wide:?}"
+    );
+    assert_eq!(wide.len(), 1, "{wide:?}");
+    let model = "[[variable]]\nname = \"model\"\npath = \"gap.0.model\"\nvalues = [{ label = \"soft\", model = \"linear_elastic\", stiffness = 2e3 }, { model = \"linear_elastic\", stiffness = 1e8 }]\n";
+    let soft = told(model);
+    assert!(
+        of(
+            &soft,
+            "with model = soft: gap light-heavy: the contact is softer"
+        ),
+        "{soft:?}"
+    );
+    // Of the case, as long as a run has it.
+    study(folder, "").unwrap_err();
+    let light = std::fs::read_to_string(folder.join("case.toml")).unwrap();
+    let light = light.replace("mass = \"25 t\"", "mass = 25");
+    std::fs::write(folder.join("light.toml"), light).unwrap();
+    let told = |text: &str| {
+        let text = format!("case = \"light.toml\"\n{text}");
+        let study = Study::parse(&text, &folder.join("study.toml")).unwrap();
+        rows(&study, folder);
+        let reader = ResultReader::open(&folder.join("out.h5"), WithoutChecksum::Refuse).unwrap();
+        reader.description.warnings.clone()
+    };
+    let both = told(&format!("{gap}values = [0.01, 0.02]\n"));
+    assert!(
+        of(&both, "light: no storey has a mass of more than 25 kg"),
+        "{both:?}"
+    );
+    let mass = "[[variable]]\nname = \"mass\"\npath = \"building.light.mass\"\n";
+    let none = told(&format!("{mass}values = [25e3, 30e3]\n"));
+    assert_eq!(none, Vec::<String>::new());
+    let one = told(&format!("{mass}values = [25e3, 25]\n"));
+    assert!(
+        of(&one, "light: no storey has a mass of more than 25 kg"),
+        "{one:?}"
     );
 }

@@ -6,6 +6,7 @@ mod motions;
 mod proportion;
 mod runner;
 mod shared_records;
+mod structures;
 mod varied;
 
 pub(crate) use engine::run_all;

@@ -19,6 +19,7 @@ use sha2::{Digest, Sha256};
 use super::cache::Cache;
 use super::motions::{Motion, Motions};
 use super::proportion::{factors_of_further, intensity_of_case};
+use super::structures::warnings_of_structures;
 use super::varied::leave_out_varied;
 use super::{Ending, ID, IsolatedQuantities, IsolatedRun, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
@@ -89,8 +90,6 @@ impl<'s> Runner<'s> {
         let assembly = assemble_with_record(&base, &rest)?;
         let averaged = assembly.warnings_of_buildings();
         let system = assembly.system;
-        let entries = |v: &Variable| matches!(v.target, Target::Entries { .. });
-        let as_given = !study.variables.iter().any(entries);
         let isolated = IsolatedQuantities {
             demand: study.isolated_demand,
             peaks: study.isolated_peaks,
@@ -108,16 +107,10 @@ impl<'s> Runner<'s> {
             layout.keep(names);
         }
         let varied = leave_out_varied(&mut layout, study, &system);
-        // What varies may be anything in the case.
-        let of_case = match as_given {
-            true => Warning::of_structure(&system),
-            false => system.unequal_floor_warnings(),
-        };
-        let mut warnings: Vec<String> = of_case
-            .iter()
-            .map(ToString::to_string)
-            .chain(averaged)
-            .collect();
+        let base =
+            CaseTree::parse(&study.base.source, &study.base.file).map_err(AssemblyError::Case)?;
+        let mut warnings = warnings_of_structures(study, &base, &system, &rest);
+        warnings.extend(averaged);
         let meant = study.base.gaps.iter().filter(|g| g.floor_to_floor);
         warnings.extend(meant.filter(|g| varied.contains(&g.name)).map(|gap| {
             format!(
@@ -169,8 +162,6 @@ impl<'s> Runner<'s> {
         let same = |a: usize, b: usize| once && known(a).is_some() && known(a) == known(b);
         let names: Vec<&str> = study.records.iter().map(|r| r.name.as_str()).collect();
         warnings.extend(Repeated::by(motions.all.len(), same).warnings(&names));
-        let base =
-            CaseTree::parse(&study.base.source, &study.base.file).map_err(AssemblyError::Case)?;
         let stores = |name: &str| layout.quantities.iter().any(|q| q.name == name);
         let rigid_of_case = has_rigid_impacts(&system);
         if stores("peak_acceleration_absolute") && may_be_rigid(study, &base, rigid_of_case, &rest)
@@ -546,16 +537,15 @@ fn may_be_rigid(
         let assembly = variant.make(&case, assembled).ok()?;
         Some(has_rigid_impacts(&assembly.system))
     };
-    let chosen = study.variables.iter().filter_map(|variable| {
-        let entry = matches!(
-            variable.target,
-            Target::Entries { .. } | Target::Model { .. }
-        );
-        match &variable.values {
-            Values::Choices(names) if entry => Some((variable, names.len())),
+    let chosen = study
+        .variables
+        .iter()
+        .filter_map(|variable| match &variable.values {
+            Values::Choices(names) if variable.target.changes_case() => {
+                Some((variable, names.len()))
+            }
             _ => None,
-        }
-    });
+        });
     let mut found = chosen.map(|(variable, count)| {
         let mut of_values = (0..count).filter_map(|choice| of_value(variable, choice));
         of_values.any(|rigid| rigid)

@@ -21,6 +21,12 @@ const STRONGEST_HAZARD: f64 = 1.5;
 const LIMIT_AT_LEAST: f64 = 0.25;
 /// Drift ratio from which on no limit lies.
 const NO_DRIFT_LIMIT: f64 = 0.2;
+/// Displacement (m) from which on no limit lies, and width (m) of no gap between buildings.
+const NO_LENGTH: f64 = 5.0;
+/// Force (N) up to which no limit lies.
+const NO_FORCE: f64 = 1000.0;
+/// Peak ground velocity (m/s) that no record has.
+const NO_GROUND_VELOCITY: f64 = 5.0;
 
 /// The greatest number among values.
 fn greatest(values: &Values) -> Option<f64> {
@@ -32,8 +38,16 @@ fn greatest(values: &Values) -> Option<f64> {
 }
 
 /// What is said of intensities without a unit, where the greatest is as small as in no study of records that are
-/// scaled.
+/// scaled, or a velocity that no ground has.
 pub(super) fn of_intensities(measure: &IntensityMeasure, values: &Values) -> Option<String> {
+    if *measure == IntensityMeasure::PeakGroundVelocity {
+        let most = greatest(values).filter(|most| *most > NO_GROUND_VELOCITY)?;
+        let number = six_digits(most);
+        return Some(format!(
+            "the greatest `intensity`, {}, is {number} m/s, which no ground reaches: was \"{number} cm/s\" meant?",
+            measure.title()
+        ));
+    }
     if measure.dimension() != Dimension::ACCELERATION {
         return None;
     }
@@ -94,7 +108,17 @@ pub(super) fn of_hazard(
     ))
 }
 
-/// What is said of a limit without a unit on accelerations of floors, or of one on drift ratios that no building has.
+/// What is said of widths of gaps without a unit, of which the greatest is this (m).
+pub(super) fn of_widths(greatest: f64) -> Option<String> {
+    let number = six_digits(greatest);
+    (greatest > NO_LENGTH).then(|| {
+        format!(
+            "`gaps` go up to {number} m, further than buildings sway: was \"{number} mm\" meant?"
+        )
+    })
+}
+
+/// What is said of a limit without a unit that hardly any demand has in SI units.
 pub(super) fn of_limit(
     name: &str,
     demand: DemandKind,
@@ -110,6 +134,15 @@ pub(super) fn of_limit(
             "the limit \"{name}\" is a drift ratio of {} %, which few buildings reach: was \"{number} %\" meant?",
             six_digits(100.0 * exceeds)
         )),
+        _ if !is_bare => None,
+        _ if demand.dimension() == Dimension::LENGTH && exceeds > NO_LENGTH => Some(format!(
+            "the limit \"{name}\" is {number} m, which buildings do not reach: was \"{number} mm\" meant?"
+        )),
+        _ if demand.dimension() == Dimension::FORCE && exceeds > 0.0 && exceeds < NO_FORCE => {
+            Some(format!(
+                "the limit \"{name}\" is {number} N, next to nothing: was \"{number} kN\" meant?"
+            ))
+        }
         _ => None,
     }
 }
@@ -139,6 +172,26 @@ mod tests {
         assert!((of_design(&POINTS).unwrap().0 - 0.1417).abs() < 1e-4);
         assert_eq!(of_design(&POINTS[..2]), Some((0.05, 0.02)));
         assert_eq!(of_design(&POINTS[3..]), Some((1.0, 2e-5)));
+    }
+
+    /// Lengths in mm, forces in kN and velocities in cm/s without a unit are asked about, with one they are not; and usual
+    /// ones neither.
+    #[test]
+    fn usual_numbers_of_other_units_are_asked_about() {
+        let limit = |demand, x, is_bare| of_limit("a", demand, x, is_bare);
+        let said = |demand, x| limit(demand, x, true).unwrap();
+        assert!(said(DemandKind::Opening, 350.0).contains("\"350 mm\""));
+        assert!(said(DemandKind::ContactForce, 500.0).contains("\"500 kN\""));
+        assert_eq!(limit(DemandKind::Opening, 350.0, false), None);
+        assert_eq!(limit(DemandKind::Opening, 0.35, true), None);
+        assert_eq!(limit(DemandKind::ContactForce, 0.0, true), None);
+        assert_eq!(limit(DemandKind::ContactForce, 5e5, true), None);
+        assert!(of_widths(40.0).unwrap().contains("\"40 mm\""));
+        assert_eq!(of_widths(0.4), None);
+        let velocity = IntensityMeasure::PeakGroundVelocity;
+        let greatest = |x: f64| of_intensities(&velocity, &Values::Numbers(vec![0.1, x]));
+        assert!(greatest(80.0).unwrap().contains("\"80 cm/s\""));
+        assert_eq!(greatest(1.5), None);
     }
 
     #[test]

@@ -257,7 +257,7 @@ impl Within for BelowOne {
 #[serde(rename = "[ida]")]
 pub(super) struct IdaTable {
     /// Gap widths (m) for which the probability of pounding is wanted: a list or a range
-    gaps: Optional<TableOr<Numbers, List<Written>>>,
+    gaps: Optional<Widths>,
     /// States beside pounding itself
     limit: Optional<List<LimitTable>>,
     /// Hazard at the site: points, or the name of a CSV file
@@ -347,7 +347,13 @@ impl IdaTable {
         let mut asked = Vec::new();
         let gaps = self.gaps.stated().and_then(|gaps| match gaps {
             None => Some(Vec::new()),
-            Some(gaps) => widths(reader, gaps),
+            Some(gaps) => {
+                let is_bare = are_bare(&gaps.value);
+                let widths = widths(reader, gaps)?;
+                let greatest = widths.iter().copied().fold(0.0, f64::max);
+                asked.extend(bare_numbers::of_widths(greatest).filter(|_| is_bare));
+                Some(widths)
+            }
         });
         let limits = self.limit.stated().and_then(|limits| {
             let limits = limits.map_or_else(Vec::new, |limits| limits.value.0);
@@ -430,11 +436,29 @@ fn is_plain(written: &Field<Written>) -> bool {
     matches!(written, Field::Given(given) if given.value.is_plain())
 }
 
+/// Widths of gaps: a list, or a range.
+type Widths = TableOr<Numbers, List<Written>>;
+
+/// Whether all of them have no unit.
+fn are_bare(widths: &Widths) -> bool {
+    match widths {
+        TableOr::Table(keys) => {
+            let ends = [&keys.from, &keys.to];
+            let listed = keys.values.iter().all(|list| match list {
+                Field::Given(list) => list.value.0.iter().all(is_plain),
+                Field::Wrong => false,
+            });
+            listed && ends.into_iter().flatten().all(is_plain)
+        }
+        TableOr::Value(List(list)) => list.iter().all(is_plain),
+    }
+}
+
 /// Most widths of a range: every one has a fragility and a bootstrap of its own.
 const MOST_WIDTHS: usize = 1000;
 
 /// A list of widths, or a table with a range and a count.
-fn widths(reader: &Reader<'_>, gaps: Located<TableOr<Numbers, List<Written>>>) -> Option<Vec<f64>> {
+fn widths(reader: &Reader<'_>, gaps: Located<Widths>) -> Option<Vec<f64>> {
     let Located { value, span } = gaps;
     let keys = match value {
         TableOr::Table(keys) => keys,

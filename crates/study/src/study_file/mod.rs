@@ -114,6 +114,11 @@ impl Target {
         }
     }
 
+    /// Whether it changes what the case says, but for its motion.
+    pub(crate) fn changes_case(&self) -> bool {
+        matches!(self, Self::Entries { .. } | Self::Model { .. })
+    }
+
     /// The entries of the case that it changes by numbers or texts.
     pub(crate) fn entries(&self) -> &[VariedEntry] {
         match self {
@@ -163,6 +168,14 @@ impl Variable {
             }
             (_, Value::Choice(i)) => format!("{} = {i}", self.name),
             (_, Value::Number(x)) => format!("{} = {x}", self.name),
+        }
+    }
+
+    /// A value of it with its unit, for people.
+    pub(crate) fn in_words(&self, value: &Value) -> String {
+        match self.unit.as_str() {
+            "" | "1" => self.said(value),
+            unit => format!("{} {unit}", self.said(value)),
         }
     }
 

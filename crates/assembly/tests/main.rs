@@ -5,6 +5,7 @@ mod excitation;
 mod forces;
 mod given_files;
 mod lateral;
+mod level_parameters;
 mod plan;
 mod spring;
 mod warnings;

@@ -63,11 +63,14 @@ fn the_example_means_what_it_says() {
     );
     let stiffness = &gap.parameters[0];
     assert_eq!(
-        (stiffness.key.value.as_str(), stiffness.value.value.value),
+        (
+            stiffness.key.value.as_str(),
+            stiffness.values[0].value.value
+        ),
         ("stiffness", 2.75e9)
     );
     assert_eq!(
-        stiffness.value.value.dimension,
+        stiffness.values[0].value.dimension,
         Some(Dimension::stiffness_with_exponent(1.5))
     );
     let scale = case.ground_motion.scale.as_ref().map(|scale| &scale.value);

@@ -177,8 +177,12 @@ fn of_parameter(
 ) -> Control {
     let mut given = gap.parameters.iter();
     let given = given.find(|p| p.key.value == parameter.name);
-    let given = given.map(|p| p.value.value.value);
-    let value = given.or(parameter.default);
+    let own = given.and_then(|p| Some(p.at(0)?.value.value));
+    let value = own.or(parameter.default);
+    // One slider is of one value.
+    let of_levels = given.filter(|p| !p.is_one());
+    let of_levels: Option<Vec<f64>> =
+        of_levels.map(|p| p.values.iter().map(|given| given.value.value).collect());
     let [low, high] = [parameter.minimum.0, parameter.maximum.0];
     // A range that is there to catch mistakes is too wide for a slider.
     let bounded = high - low <= WIDEST;
@@ -209,12 +213,16 @@ fn of_parameter(
         group: group.to_owned(),
         label: parameter.name.to_owned(),
         path: format!("{path}.{}", parameter.name),
-        kind: "number",
+        kind: if of_levels.is_some() {
+            "fixed"
+        } else {
+            "number"
+        },
         // With a free exponent the unit depends on another value: plain numbers are SI.
         unit: String::new(),
         factor: 1.0,
-        value: json!(value),
-        slider,
+        value: of_levels.as_ref().map_or(json!(value), |all| json!(all)),
+        slider: slider.filter(|_| of_levels.is_none()),
         logarithmic: !bounded,
         optional: !parameter.required,
         default: parameter.default,

@@ -301,14 +301,14 @@ fn floors(case: &Case) -> Vec<CaseError> {
             value: "stiffness".to_owned(),
             span: 0..0,
         },
-        value: Located {
+        values: vec![Located {
             value: Quantity {
                 value: 1.0e8,
                 dimension: None,
                 text: String::new(),
             },
             span: 0..0,
-        },
+        }],
     };
     let mut errors = Vec::new();
     for mut gap in gaps {

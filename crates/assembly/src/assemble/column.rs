@@ -119,10 +119,14 @@ impl<'c> Hits<'c> {
     }
 
     /// Refuses laws of gaps that a column without mass cannot stand behind.
-    pub(super) fn check_models(&self, models: &[Arc<dyn ImpactModel>]) -> Result<(), CaseError> {
+    pub(super) fn check_models(
+        &self,
+        models: &[Vec<Arc<dyn ImpactModel>>],
+    ) -> Result<(), CaseError> {
         let errors = Errors::default();
         let levels = self.lines.iter().flat_map(|l| &l.hits);
-        let checked = errors.all(levels.map(|hit| self.model(hit, &models[hit.gap.0])));
+        let checked =
+            errors.all(levels.map(|hit| self.model(hit, &models[hit.gap.0][hit.level.0])));
         errors.finish(checked.map(|_| ()))
     }
 

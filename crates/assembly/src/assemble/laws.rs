@@ -3,8 +3,7 @@
 use std::sync::Arc;
 
 use pounding_case::{
-    Building, Case, CaseError, Dimension, Errors, FoundationMotion, LawParameter, Link, Located,
-    Side,
+    Building, Case, CaseError, Dimension, Errors, FoundationMotion, Link, Located, Parameter, Side,
 };
 use pounding_catalogue::DefinitionError;
 use pounding_hysteresis::{
@@ -148,7 +147,7 @@ fn built(
 fn parameters(
     case: &Case,
     descriptor: &'static LawDescriptor,
-    given: &[LawParameter],
+    given: &[Parameter],
     place: usize,
     turned: impl Fn(Dimension) -> Dimension,
 ) -> Result<LawParameters, CaseError> {
@@ -157,7 +156,7 @@ fn parameters(
         .find(|p| p.key.value == "exponent")
         .map(|p| p.values[place].value.value);
     let errors = Errors::default();
-    let read = errors.all(given.iter().map(|LawParameter { key, values }| {
+    let read = errors.all(given.iter().map(|Parameter { key, values }| {
         let given = (key, &values[place]);
         let help = |e: DefinitionError| Some(e.help());
         let value = parameter_value_as(case, descriptor, given, exponent, &turned, help)?;

@@ -16,7 +16,7 @@ pub use motions::nothing_to_move_across;
 
 use std::sync::Arc;
 
-use pounding_case::{Building, Case, CaseError, Errors, Facing, Gap, Located, Side};
+use pounding_case::{Building, Case, CaseError, Errors, Facing, Gap, Located, Parameter, Side};
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_gap_element::{
     GapElementError, ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
@@ -143,7 +143,8 @@ fn unused(case: &Case) -> Vec<String> {
     told
 }
 
-type Models = Vec<Arc<dyn ImpactModel>>;
+/// The impact model of every contact level of every gap.
+type Models = Vec<Vec<Arc<dyn ImpactModel>>>;
 
 /// What a case says of buildings, models and options.
 struct Parts {
@@ -196,7 +197,7 @@ impl Parts {
         let buildings = case.buildings.iter().enumerate();
         let buildings =
             errors.all(buildings.map(|(i, b)| building(case, b, &points(i)).map(Arc::new)));
-        let models = errors.all(case.gaps.iter().map(|gap| model(case, gap)));
+        let models = errors.all(case.gaps.iter().map(|gap| models_of(case, gap)));
         if let (Ok(models), Some(hits), false) = (&models, &hits, case.gaps.is_empty()) {
             errors.or_default(hits.check_models(models));
         }
@@ -249,20 +250,38 @@ fn columns_of_rigid_floors(case: &Case) -> Vec<CaseError> {
     found
 }
 
-/// The impact model of each gap.
+/// The impact models of all gaps.
 fn models(case: &Case) -> Result<Models, CaseError> {
-    case.gaps.iter().map(|gap| model(case, gap)).collect()
+    case.gaps.iter().map(|gap| models_of(case, gap)).collect()
+}
+
+/// The impact model of each contact level of a gap. Levels with the parameters of the first share its
+/// model; there is one for a gap whose levels are not known.
+fn models_of(case: &Case, gap: &Gap) -> Result<Vec<Arc<dyn ImpactModel>>, CaseError> {
+    let first = model(case, gap, 0)?;
+    let is_first = |place: usize| {
+        let value = |p: &Parameter, place| p.at(place).map(|given| given.value.value);
+        let mut parameters = gap.parameters.iter();
+        parameters.all(|p| value(p, place) == value(p, 0))
+    };
+    let errors = Errors::default();
+    let further = errors.all((1..gap.levels.len()).map(|place| match is_first(place) {
+        true => Ok(Arc::clone(&first)),
+        false => model(case, gap, place),
+    }));
+    let further = errors.finish(further)?;
+    Ok(std::iter::once(first).chain(further).collect())
 }
 
 /// Puts the gaps of a case between buildings that have none, and lets them go from
 /// where the case says.
 fn with_gaps(
     case: &Case,
-    models: &[Arc<dyn ImpactModel>],
+    models: &[Vec<Arc<dyn ImpactModel>>],
     mut system: System,
 ) -> Result<System, AssemblyError> {
     let hits = Hits::of(case)?;
-    for (number, (gap, model)) in case.gaps.iter().zip(models).enumerate() {
+    for (number, (gap, models)) in case.gaps.iter().zip(models).enumerate() {
         let floor = |side: Side, facing: Facing| match (side, facing) {
             (Side::Building(b), Facing::Floor(s)) => Floor::Storey(b, s),
             _ if gap.fixed_wall => Floor::FixedWall,
@@ -271,7 +290,7 @@ fn with_gaps(
         let points = plan::points(case, gap)?;
         let (mut pairs, mut responses) = (Vec::new(), Vec::new());
         let first = system.levels().len();
-        for (place, l) in gap.levels.iter().enumerate() {
+        for (place, (l, model)) in gap.levels.iter().zip(models).enumerate() {
             let mut sides = [
                 floor(gap.between[0], l.left),
                 floor(gap.between[1], l.right),
@@ -434,22 +453,24 @@ const WITH_UNIT: &str =
 const OVERTURNED: &str =
     "correct stiffness, masses and heights, with their units; `p_delta = false` leaves gravity out";
 
-fn model(case: &Case, gap: &Gap) -> Result<Arc<dyn ImpactModel>, CaseError> {
+/// The impact model of a contact level, from zero.
+fn model(case: &Case, gap: &Gap, level: usize) -> Result<Arc<dyn ImpactModel>, CaseError> {
     let at_model = |e: GapElementError| case.error(gap.model.span.clone(), e.to_string(), e.help());
     let descriptor = registry::find(&gap.model.value).map_err(at_model)?;
     let exponent = gap
         .parameters
         .iter()
         .find(|p| p.key.value == "exponent")
-        .map(|p| p.value.value.value);
+        .and_then(|p| Some(p.at(level)?.value.value));
     let mut parameters = ModelParameters::default();
     let errors = Errors::default();
-    let read = errors.all(gap.parameters.iter().map(|parameter| {
-        let given = (&parameter.key, &parameter.value);
+    let given = gap.parameters.iter();
+    let given = given.filter_map(|p| Some((&p.key, p.at(level)?)));
+    let read = errors.all(given.map(|given| {
         let value = parameter_value(case, descriptor, given, exponent, |e| {
             GapElementError::from(e).help()
         })?;
-        Ok((parameter.key.value.clone(), value))
+        Ok((given.0.value.clone(), value))
     }));
     if let Some(separation) = &gap.separation {
         parameters.separation = errors.keep(separation_rule(case, descriptor, separation));

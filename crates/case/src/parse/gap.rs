@@ -8,15 +8,13 @@ use serde::Deserialize;
 
 use super::column::ColumnTables;
 use super::levels::{Between, Faces, Levels};
+use super::parameters::{Values, arrange, not_whole, parameters};
 use super::{Row, name, spread};
 use crate::document::{
     Entry, Field, Force, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader,
     Signed,
 };
-use crate::types::{
-    ContactLevel, Facing, Gap, HitColumns, Located, Parameter, Side, UnreadParameter,
-};
-use crate::units::Quantity;
+use crate::types::{ContactLevel, Facing, Gap, HitColumns, Located, Side};
 
 /// A gap between neighbours, or to a rigid wall
 #[derive(Clone, Deserialize, JsonSchema)]
@@ -60,9 +58,10 @@ pub(super) struct GapTable {
     /// them: [["0.5 mm", "10 kN"], ["1 mm", "50 kN"], ...], both increasing; in the place of
     /// `stiffness` and `exponent`, where the model holds for any spring
     spring: Optional<Vec<SpringPoint>>,
-    /// Parameters of the model: stiffness (N/m^n), restitution, exponent, ...
+    /// Parameters of the model: stiffness (N/m^n), restitution, exponent, ..., one for all levels or a
+    /// list in the order of `width`
     #[serde(rename = "*")]
-    parameters: FreeKeys<Quantity>,
+    parameters: FreeKeys<Values>,
 }
 
 /// A penetration and a force.
@@ -125,23 +124,20 @@ impl GapTable {
                 .collect(),
             span: points.span,
         });
+        let count = placed.as_ref().map(|(_, placed)| placed.levels.len());
+        let read = parameters(reader, self.parameters, (count, "contact level"));
+        let (mut parameters, unread) = read;
         let model = self.model.located()?;
-        let mut parameters = Vec::new();
-        for (key, value) in self.parameters.0 {
-            match value.located() {
-                Some(value) => parameters.push(Parameter { key, value }),
-                None => reader.errors.unread(UnreadParameter {
-                    key,
-                    model: model.clone(),
-                    of_gap: true,
-                }),
-            }
-        }
+        not_whole(reader, (&model, true), unread);
         let (place, placed) = placed.unzip();
+        if let Some(placed) = &placed {
+            arrange(&mut parameters, &placed.order);
+        }
         let placed = placed.unwrap_or(Placed {
             between: [Side::Wall; 2],
             names: Default::default(),
             levels: Vec::new(),
+            order: Vec::new(),
             tolerance: ELEVATION_TOLERANCE,
             floor_to_floor: false,
             columns: [None, None],
@@ -169,7 +165,10 @@ impl GapTable {
 struct Placed {
     between: [Side; 2],
     names: [String; 2],
+    /// From the bottom.
     levels: Vec<ContactLevel>,
+    /// The places of these levels among the named ones.
+    order: Vec<usize>,
     tolerance: f64,
     floor_to_floor: bool,
     columns: [Option<Located<HitColumns>>; 2],
@@ -202,28 +201,29 @@ fn placed(
     };
     let widths: Vec<f64> = spread(reader, width.located()?, faced.pairs.len(), "contact level")?;
     let pairs = faced.pairs.into_iter().zip(widths);
-    let mut levels: Vec<ContactLevel> = pairs
-        .map(|(([left, right], place), width)| ContactLevel {
-            left,
-            right,
-            width,
-            place,
-        })
-        .collect();
+    let levels = pairs.map(|(([left, right], place), width)| ContactLevel {
+        left,
+        right,
+        width,
+        place,
+    });
+    let mut levels: Vec<(usize, ContactLevel)> = levels.enumerate().collect();
     let elevations = faced.between.map(|side| match side {
         Side::Building(building) => row.elevations[building].as_slice(),
         Side::Wall => &[],
     });
-    levels.sort_by(|one, other| {
+    levels.sort_by(|(_, one), (_, other)| {
         let [one, other] = [one, other].map(|l| elevations_of([l.left, l.right], elevations));
         one[0]
             .total_cmp(&other[0])
             .then(one[1].total_cmp(&other[1]))
     });
+    let (order, levels) = levels.into_iter().unzip();
     let placed = Placed {
         between: faced.between,
         names: faced.names,
         levels,
+        order,
         tolerance: faced.tolerance,
         floor_to_floor,
         columns: faced.columns,

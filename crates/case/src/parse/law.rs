@@ -7,14 +7,12 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::levels::{Between, Faced, Faces, Levels, sides, useless_tolerance};
-use super::{Row, name, spread};
+use super::parameters::{Values, arrange, not_whole, parameters};
+use super::{Row, name};
 use crate::document::{
     Count, Entry, Field, FreeKeys, Length, OneOrEach, Optional, Positive, Reader,
 };
-use crate::types::{
-    Facing, FoundationMotion, LawParameter, Link, Located, Side, StoreyLaw, UnreadParameter,
-};
-use crate::units::Quantity;
+use crate::types::{Facing, FoundationMotion, Link, Located, Side, StoreyLaw};
 
 /// Law of some storeys
 #[derive(Clone, Deserialize, JsonSchema)]
@@ -34,8 +32,6 @@ pub(super) struct LawTable {
 #[serde(expecting = "a list of storeys, from 1")]
 #[schemars(extend("minItems" = 1))]
 struct Storeys(Vec<Located<Count<1>>>);
-
-type Values = OneOrEach<Located<Quantity>, 0>;
 
 /// A link between floors
 #[derive(Clone, Deserialize, JsonSchema)]
@@ -109,9 +105,9 @@ impl LawTable {
                 .and_then(|listed| listed_storeys(reader, listed, (storeys, isolated))),
         };
         let count = listed.as_ref().map(Vec::len);
-        let (parameters, unread) = parameters(reader, self.parameters, count);
+        let (parameters, unread) = parameters(reader, self.parameters, (count, "place"));
         let model = self.model.located()?;
-        not_whole(reader, &model, unread);
+        not_whole(reader, (&model, false), unread);
         Some(StoreyLaw {
             parameters,
             // Without its storeys a law can be judged by its name.
@@ -191,9 +187,9 @@ impl LinkTable {
             }
         };
         let levels = placed.as_ref().map(|p| p.pairs.len());
-        let (mut parameters, unread) = parameters(reader, self.parameters, levels);
+        let (mut parameters, unread) = parameters(reader, self.parameters, (levels, "place"));
         let model = self.model.located()?;
-        not_whole(reader, &model, unread);
+        not_whole(reader, (&model, false), unread);
         let place = placed.as_ref().map(|p| p.place.clone());
         let (between, names, levels) = match placed {
             Some(faced) => {
@@ -205,12 +201,7 @@ impl LinkTable {
                 let mut order: Vec<usize> = (0..levels.len()).collect();
                 order.sort_by_key(|place| levels[*place]);
                 levels.sort_unstable();
-                for parameter in &mut parameters {
-                    if parameter.values.len() == order.len() {
-                        let values = &parameter.values;
-                        parameter.values = order.iter().map(|p| values[*p].clone()).collect();
-                    }
-                }
+                arrange(&mut parameters, &order);
                 (faced.between, faced.names, levels)
             }
             None => ([Side::Wall; 2], Default::default(), vec![(None, None)]),
@@ -300,38 +291,4 @@ fn placed(reader: &Reader<'_>, faces: Faces<false>, row: &Row) -> Option<Faced> 
         Some(span) if faced.listed => useless_tolerance(reader, span, "listed `levels` of a link"),
         _ => Some(faced),
     }
-}
-
-/// Says which parameters of a law could not be read.
-fn not_whole(reader: &Reader<'_>, model: &Located<String>, unread: Vec<Located<String>>) {
-    for key in unread {
-        reader.errors.unread(UnreadParameter {
-            key,
-            model: model.clone(),
-            of_gap: false,
-        });
-    }
-}
-
-/// The parameters of a law, and the keys of those that could not be read: one value for each of
-/// `count` places, or for one where their number is not known.
-fn parameters(
-    reader: &Reader<'_>,
-    keys: FreeKeys<Values>,
-    count: Option<usize>,
-) -> (Vec<LawParameter>, Vec<Located<String>>) {
-    let mut unread = Vec::new();
-    let mut parameters = Vec::new();
-    for (key, values) in keys.0 {
-        let values = values.located().and_then(|values| match count {
-            Some(count) => spread(reader, values, count, "place"),
-            None => Some(values.value.into_list()),
-        });
-        let values: Option<Vec<_>> = values.filter(|values| !values.is_empty());
-        match values {
-            Some(values) => parameters.push(LawParameter { key, values }),
-            None => unread.push(key),
-        }
-    }
-    (parameters, unread)
 }

@@ -29,6 +29,7 @@ mod isolator;
 mod lateral;
 mod law;
 mod levels;
+mod parameters;
 mod plan;
 mod process;
 mod rule;
@@ -311,7 +312,7 @@ fn spread<T: Into<U>, U: Clone, const LEAST: usize>(
             ),
             match place {
                 "place" => "give one value per storey or level of this law, or a single value without brackets for all".to_owned(),
-                "contact level" => "give one value per contact level, which is a pair of floors that meet, from the bottom, or a single value for all; all points of a level along an edge, where floors turn in plan, share its width".to_owned(),
+                "contact level" => "give one value per contact level, which is a pair of floors that meet, from the bottom, or a single value for all; all points of a level along an edge, where floors turn in plan, share it".to_owned(),
                 _ => format!("give one value per {place}, or a single value for all"),
             },
         ),

@@ -11,16 +11,31 @@ pub struct StoreyLaw {
     /// Storeys, from zero.
     pub storeys: Vec<usize>,
     /// All other keys, for the law to judge; one value per storey of this law.
-    pub parameters: Vec<LawParameter>,
+    pub parameters: Vec<Parameter>,
 }
 
-/// A parameter of a law with memory.
+/// A parameter of an impact model or of a law with memory.
 #[derive(Debug, Clone, PartialEq)]
-pub struct LawParameter {
+pub struct Parameter {
     /// Key.
     pub key: Located<String>,
-    /// Values, one per storey or level of the law.
+    /// Values, one per storey or level; a single one is for all.
     pub values: Vec<Located<Quantity>>,
+}
+
+impl Parameter {
+    /// The value at a storey or level, from zero.
+    #[must_use]
+    pub fn at(&self, place: usize) -> Option<&Located<Quantity>> {
+        self.values.get(place).or(self.values.first())
+    }
+
+    /// Whether all places have one value.
+    #[must_use]
+    pub fn is_one(&self) -> bool {
+        let mut pairs = self.values.windows(2);
+        pairs.all(|pair| pair[0].value.value == pair[1].value.value)
+    }
 }
 
 /// A link: a law with memory that joins floors of neighbours, or a floor and a wall.
@@ -39,7 +54,7 @@ pub struct Link {
     /// Law.
     pub model: Located<String>,
     /// All other keys, for the law to judge; one value per level.
-    pub parameters: Vec<LawParameter>,
+    pub parameters: Vec<Parameter>,
 }
 
 /// A motion of a foundation.

@@ -15,9 +15,8 @@ use pounding_ground_motion::spectra::design::CodeSpectrum;
 
 use crate::error::CaseError;
 use crate::files::GivenFiles;
-use crate::units::Quantity;
 
-pub use laws::{FoundationMotion, LawParameter, Link, StoreyLaw};
+pub use laws::{FoundationMotion, Link, Parameter, StoreyLaw};
 pub use pounding_shear_building::{
     ColumnEnds, Damping, Isolator, IsolatorKind, PostYield, Soil, SpringDashpot, Strength,
 };
@@ -429,17 +428,8 @@ pub struct Gap {
     pub separation: Option<Located<String>>,
     /// Penetrations (m) and forces (N) of a spring that is given as a table.
     pub spring: Option<Located<Vec<(f64, f64)>>>,
-    /// All other keys, for the model to judge.
+    /// All other keys, for the model to judge; one value per contact level.
     pub parameters: Vec<Parameter>,
-}
-
-/// A parameter of an impact model.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Parameter {
-    /// Key.
-    pub key: Located<String>,
-    /// Value.
-    pub value: Located<Quantity>,
 }
 
 /// The ground motion.

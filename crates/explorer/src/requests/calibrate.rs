@@ -33,8 +33,7 @@ pub(crate) fn answer(prepared: Prepared, gap: usize, model: &str) -> Result<Answ
             let restitution = case.gaps[gap].parameters.iter();
             let restitution = restitution
                 .filter(|p| p.key.value == "restitution")
-                .map(|p| p.value.value.value)
-                .next();
+                .find_map(|p| Some(p.at(0)?.value.value));
             let example = descriptor.example_parameters(restitution.unwrap_or(EXAMPLE_RESTITUTION));
             let note = format!("parameters of the model's example, as {reason}");
             (example.values.clone(), vec![note])

@@ -102,7 +102,11 @@ pub fn references(
             });
         }
         let place = &system.levels()[gap.first_level + level];
-        let (stiffness, exponent) = own_law(case, index)?;
+        let of_case = &case.gaps[index];
+        // Floors that turn in plan have several points at each level of the case.
+        let points = gap.levels / of_case.levels.len().max(1);
+        let level = level / points.max(1);
+        let (stiffness, exponent) = own_law(of_case, level)?;
         let mut reference = ReferenceCollision {
             approach_velocity: velocity,
             of_other_gaps,
@@ -111,15 +115,15 @@ pub fn references(
             exponent,
             restitution: f64::NAN,
             // The case has been assembled, and what it says is known.
-            separation: case.gaps[index]
+            separation: of_case
                 .separation
                 .as_ref()
                 .and_then(|rule| SeparationRule::from_name(&rule.value)),
-            own: own_parameters(case, index, restitution.is_none()),
+            own: own_parameters(of_case, level, restitution.is_none()),
         };
         reference.restitution = match restitution {
             Some(e) => e,
-            None => own_restitution(case, index, place.model.as_ref(), &reference)?,
+            None => own_restitution(of_case, level, place.model.as_ref(), &reference)?,
         };
         references.push(reference);
     }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pounding_case::Case;
+use pounding_case::Gap;
 use pounding_catalogue::Parameters;
 use pounding_catalogue::numbers::{all_digits, six_digits};
 use pounding_gap_element::{
@@ -154,12 +154,11 @@ fn exponent(descriptor: &ModelDescriptor, given: Option<f64>) -> Option<f64> {
     Some(free.map_or(1.5, |p| given.or(p.default).unwrap_or(1.5)))
 }
 
-/// Stiffness and exponent of the gap's own law.
-pub(super) fn own_law(case: &Case, gap: usize) -> Result<(f64, f64), CheckError> {
-    let gap = &case.gaps[gap];
+/// Stiffness and exponent of the gap's own law at a level of the case.
+pub(super) fn own_law(gap: &Gap, level: usize) -> Result<(f64, f64), CheckError> {
     let value = |key: &str| {
         let found = gap.parameters.iter().find(|p| p.key.value == key);
-        found.map(|p| p.value.value.value)
+        found.and_then(|p| Some(p.at(level)?.value.value))
     };
     let law = registry::find(&gap.model.value)
         .ok()
@@ -178,12 +177,11 @@ pub(super) fn own_law(case: &Case, gap: usize) -> Result<(f64, f64), CheckError>
     })
 }
 
-/// The gap's own law with all that the case says of it.
-pub(super) fn own_parameters(case: &Case, gap: usize, gives_restitution: bool) -> Option<OwnLaw> {
-    let gap = &case.gaps[gap];
+/// The gap's own law with all that the case says of it at a level.
+pub(super) fn own_parameters(gap: &Gap, level: usize, gives_restitution: bool) -> Option<OwnLaw> {
     let descriptor = registry::find(&gap.model.value).ok()?;
     let values = gap.parameters.iter();
-    let values = values.map(|p| (p.key.value.clone(), p.value.value.value));
+    let values = values.filter_map(|p| Some((p.key.value.clone(), p.at(level)?.value.value)));
     let rule = gap.separation.as_ref();
     let parameters = ModelParameters {
         parameters: Parameters {
@@ -202,15 +200,15 @@ pub(super) fn own_parameters(case: &Case, gap: usize, gives_restitution: bool) -
 /// Restitution of the gap's own law: the one asked for in the case, or what the law
 /// returns in the reference collision.
 pub(super) fn own_restitution(
-    case: &Case,
-    gap: usize,
+    gap: &Gap,
+    level: usize,
     model: &dyn ImpactModel,
     reference: &ReferenceCollision,
 ) -> Result<f64, CheckError> {
-    let parameters = &case.gaps[gap].parameters;
-    let given = parameters.iter().find(|p| p.key.value == "restitution");
-    if let Some(given) = given {
-        return Ok(given.value.value.value);
+    let mut parameters = gap.parameters.iter();
+    let given = parameters.find(|p| p.key.value == "restitution");
+    if let Some(given) = given.and_then(|p| p.at(level)) {
+        return Ok(given.value.value);
     }
     achieved(model, reference).map_err(|e| CheckError::Calibration {
         reason: e.to_string(),

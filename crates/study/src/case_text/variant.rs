@@ -103,6 +103,7 @@ mod tests {
             "model = \"jankowski_2005\"\nstiffness = \"2.75e9 N/m^1.5\"\nrestitution = 0.65",
             "name = \"the joint\"\nmodel = 'linear_elastic'\nstiffness = 93.5e6",
             "levels = [[1, 1],\n  [2, 2]]\nmodel = \"hertz_1882\" # no damping\nstiffness = 1e9",
+            "levels = [[2, 2], [1, 1]]\nmodel = \"hertz_1882\"\nstiffness = [\"1e9 N/m^1.5\", 2e9]",
             "levels = \"matching\"\nelevation_tolerance = 0.02\nmodel = \"anagnostopoulos_2004\"\nstiffness = \"2000 MN/m\"\nrestitution = 0.65\nseparation = \"no_tension\"",
         ]);
         let motion = select(vec![

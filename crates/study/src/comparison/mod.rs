@@ -254,6 +254,7 @@ pub fn compare_dealt(
     let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
     let copies = Repeated::among(records).warnings(&names);
     let mut warnings = warnings(case, records);
+    warnings.extend(unequal_levels(case));
     warnings.extend(undamped(system, &references));
     warnings.extend(untouched(system, &references));
     warnings.extend(slow(system, &references, &models));
@@ -279,6 +280,19 @@ pub fn compare_dealt(
     };
     comparison.sum_up();
     Ok(comparison)
+}
+
+/// Gaps whose own law has other parameters at other levels.
+fn unequal_levels(case: &Case) -> Vec<String> {
+    let gaps = case.gaps.iter();
+    let unequal = gaps.filter(|gap| gap.parameters.iter().any(|p| !p.is_one()));
+    let told = unequal.map(|gap| {
+        format!(
+            "gap {}: its levels have different parameters; every compared model has at all levels those that follow from the level that is hit fastest, also {} itself",
+            gap.name, gap.model.value
+        )
+    });
+    told.collect()
 }
 
 /// Gaps whose columns without mass take elastic laws alone, at a restitution of one, where models

@@ -175,7 +175,7 @@ fn known_dimension(tried: &Trial<'_>, varied: &VariedEntry) -> Option<Dimension>
         return Some(parameter_dimension(
             model,
             known,
-            exponent.map(|p| p.value.value.value),
+            exponent.and_then(|p| Some(p.at(0)?.value.value)),
         ));
     }
     if path.table() == "building" && words.contains(&"foundation") {

@@ -19,4 +19,4 @@ pub use error::{CaseError, Errors};
 pub use files::GivenFiles;
 pub use parse::{CaseTree, ProcessSteps, ground_motion_schema, process_steps, schema};
 pub use types::*;
-pub use units::{Dimension, Quantity, UnitError, parse_quantity, unit_in};
+pub use units::{Dimension, Quantity, UnitError, parse_degrees, parse_quantity, unit_in};

@@ -421,6 +421,16 @@ pub fn unit_in(name: &str) -> Option<&str> {
     name.rsplit_once('_').map(|(_, unit)| unit.trim())
 }
 
+/// The number of degrees of a text such as `30 deg`; a plain number, which is of degrees too where these are
+/// wanted, is none.
+#[must_use]
+pub fn parse_degrees(text: &str) -> Option<f64> {
+    let text = text.trim();
+    let mut units = ["degrees", "deg", "\u{b0}"].iter();
+    let degrees = units.find_map(|unit| text.strip_suffix(unit)?.trim().parse::<f64>().ok());
+    degrees.filter(|degrees| degrees.is_finite())
+}
+
 /// Parses `"25 t"`, `"2.75e9 N/m^1.5"`, `"0.35 g"`, `"kN s/m"` style units: factors
 /// separated by blank, `*`, `·` or `⋅`, one divisor after each `/`, powers after `^`, as final
 /// digits or raised, as in `m·s⁻²`. `g` is standard gravity, never gram. A text that is only a

@@ -302,3 +302,107 @@ fn unusual_structures_are_said_of_their_values() {
         "{one:?}"
     );
 }
+
+/// A model with all its options takes the place of a model alone: what else belongs to the gap stays, whatever
+/// key it is.
+#[test]
+fn models_leave_the_rest_of_their_gap() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let model = "anagnostopoulos_2004\"\nstiffness = \"93.5 MN/m\"\nrestitution = 0.65\nseparation = \"no_tension";
+    let with_seat = |case: String| {
+        case.replace("31 s", "4 s")
+            .replace("jankowski_2005\"", &format!("{model}\"\nseat = \"20 mm\""))
+            .replace("stiffness = \"2.75e9 N/m^1.5\"\n", "")
+            .replace("damping_ratio = 0.35", "")
+    };
+    let tables = "[[variable]]\nname = \"model\"\npath = \"gap.*.model\"\nvalues = [{ model = \"anagnostopoulos_2004\", stiffness = \"93.5 MN/m\", restitution = 0.65, separation = \"no_tension\" }]\n";
+    let neutral = "[[variable]]\nname = \"x\"\npath = \"ground_motion.scale\"\nvalues = [1]\n";
+    // A wall that stands still in space, points of contact of floors that turn, a seat.
+    let examples: [(&str, &dyn Fn(String) -> String); 3] = [
+        ("rigid_wall", &|case| {
+            case.replace("[[gap]]", "[[gap]]\nwall = \"fixed\"")
+                .replace("30 s", "4 s")
+        }),
+        ("pair_that_turns", &|case| {
+            case.replace("[[gap]]", "[[gap]]\npoints = [\"1 m\", \"0 m\"]")
+        }),
+        ("three_storey_pair", &with_seat),
+    ];
+    for (example, change) in examples {
+        let base = std::cell::RefCell::new(String::new());
+        let kept = |case: String| {
+            *base.borrow_mut() = change(case);
+            base.borrow().clone()
+        };
+        let plain = rows(&study_of_example(folder, example, kept, neutral), folder);
+        let source = base.borrow().clone();
+        let gap = Case::parse(&source, &folder.join("case.toml"))
+            .unwrap()
+            .gaps
+            .remove(0);
+        let parameters = gap
+            .parameters
+            .iter()
+            .map(|p| format!(", {} = {:e}", p.key.value, p.values[0].value.value));
+        let rule = gap
+            .separation
+            .iter()
+            .map(|rule| format!(", separation = \"{}\"", rule.value));
+        let own: String = parameters.chain(rule).collect();
+        let own = format!(
+            "[[variable]]\nname = \"model\"\npath = \"gap.*.model\"\nvalues = [{{ model = \"{}\"{own} }}]\n",
+            gap.model.value
+        );
+        let same = rows(&study_of_example(folder, example, change, &own), folder);
+        assert_eq!(plain[0].0.values.len(), same[0].0.values.len());
+        let bits = |row: &Row| -> Vec<u64> { row.values.iter().map(|x| x.to_bits()).collect() };
+        assert_eq!(bits(&plain[0].0), bits(&same[0].0), "{example}");
+        assert!(plain[0].0.values.iter().any(|x| *x > 0.0));
+    }
+    let seat = rows(
+        &study_of_example(folder, "three_storey_pair", with_seat, tables),
+        folder,
+    );
+    let reader = ResultReader::open(&folder.join("out.h5"), WithoutChecksum::Refuse).unwrap();
+    let opening = &seat[0].0.values[reader.description.layout.range("peak_opening")];
+    assert!(opening.iter().all(|x| *x > 0.0), "{opening:?}");
+}
+
+/// Ranges over whole numbers are tried within, and refused where the study gives them.
+#[test]
+fn ranges_over_whole_numbers_are_refused() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    study(folder, "").unwrap_err();
+    let case = std::fs::read_to_string(folder.join("case.toml")).unwrap();
+    let process = "process = [{ filter = { high_pass = \"0.1 Hz\", order = 4 } }]\n\n[analysis]";
+    std::fs::write(
+        folder.join("case.toml"),
+        case.replace("[analysis]", process),
+    )
+    .unwrap();
+    let of = |variable: &str| {
+        let text = format!(
+            "case = \"case.toml\"\n[[variable]]\npath = \"ground_motion.process.0.filter.order\"\n{variable}\n"
+        );
+        Study::parse(&text, &folder.join("study.toml"))
+    };
+    for variable in [
+        "relative = true\nfrom = 0.5\nto = 1\ncount = 4",
+        "from = 2\nto = 4\ncount = 4",
+        "from = 2\nto = 4\n[design]\nkind = \"latin_hypercube\"\nruns = 5",
+    ] {
+        let told = of(variable).unwrap_err().to_string();
+        assert!(
+            told.contains("of this range for `ground_motion.process.0"),
+            "{told}"
+        );
+        assert!(
+            told.contains("whole number") && told.contains("study.toml:"),
+            "{told}"
+        );
+    }
+    assert!(of("from = 2\nto = 4\ncount = 3").is_ok());
+    assert!(of("relative = true\nfrom = 0.5\nto = 1\ncount = 2").is_ok());
+}

@@ -16,7 +16,7 @@ use crate::document::{
     Reader, TableOr, Time, Velocity, Written,
 };
 use crate::types::{BuildingGround, GroundMotion, Located, Rotation};
-use crate::units::{Dimension, Quantity};
+use crate::units::{Dimension, Quantity, parse_degrees};
 
 /// The recorded motion
 #[derive(Clone, Default, Deserialize, JsonSchema)]
@@ -208,10 +208,7 @@ impl TryFrom<Written> for Degrees {
     type Error = Fault;
     fn try_from(written: Written) -> Result<Self, Fault> {
         let is_plain = written.is_plain();
-        let text = written.as_written().trim();
-        let mut units = ["degrees", "deg", "\u{b0}"].iter();
-        let degrees = units.find_map(|unit| text.strip_suffix(unit)?.trim().parse::<f64>().ok());
-        if let Some(degrees) = degrees.filter(|degrees| degrees.is_finite()) {
+        if let Some(degrees) = parse_degrees(written.as_written()) {
             return Ok(Self(degrees));
         }
         match written.any() {

@@ -195,7 +195,8 @@ pub(super) fn places(
             scale,
         )?;
         let values: Vec<f64> = levels.iter().map(|p| or_nan(p.width)).collect();
-        let long_name = "width of the gap at rest; NaN where a variable changes it";
+        let long_name =
+            "width of the gap at rest; NaN where a variable changes that of a level of the gap";
         numbers(file, ("level_width", "m", long_name), &values, scale)?;
     }
     let levels = &d.layout.link_levels;

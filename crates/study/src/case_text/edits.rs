@@ -7,6 +7,7 @@ use std::sync::Arc;
 
 use pounding_catalogue::suggestion;
 use pounding_catalogue::wording::agreeing;
+use pounding_gap_element::{ModelDescriptor, registry};
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
@@ -122,11 +123,7 @@ pub(super) fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entr
                 way[i + 1] = Step::Index(index);
                 items.get(index).ok_or_else(|| {
                     (
-                        format!(
-                            "`{shown}` has {} {}, counted from 0",
-                            items.len(),
-                            agreeing(&items.len(), "entry", "entries")
-                        ),
+                        format!("`{shown}` has {}", counted_entries(items.len())),
                         "correct the number".to_owned(),
                     )
                 })?
@@ -134,15 +131,24 @@ pub(super) fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entr
             (DeValue::Array(items), Step::Key(name)) => {
                 let mut named = items.iter().enumerate();
                 let named = named.find(|(_, i)| name_of(i).as_deref() == Some(name));
-                let names: Vec<String> = items.iter().filter_map(name_of).collect();
-                let (index, named) = named.ok_or_else(|| unknown(&shown, name, &names))?;
+                let (index, named) = named.ok_or_else(|| {
+                    let names: Vec<String> = items.iter().filter_map(name_of).collect();
+                    match names.is_empty() {
+                        false => unknown(&shown, name, &names),
+                        true => (
+                            format!("`{shown}` of the case has no `{name}`"),
+                            format!("it has {}", counted_entries(items.len())),
+                        ),
+                    }
+                })?;
                 way[i + 1] = Step::Index(index);
                 named
             }
             (DeValue::Table(table), Step::Index(n) | Step::Number(n)) => {
                 return Err(unknown(&shown, &n.to_string(), &keys(table)));
             }
-            (_, Step::Each) => return Err(no_list(&shown)),
+            (DeValue::Table(table), Step::Each) => return Err(no_list(&shown, Some(table))),
+            (_, Step::Each) => return Err(no_list(&shown, None)),
             _ => {
                 return Err((
                     format!("`{shown}` is a single value in the case"),
@@ -157,6 +163,12 @@ pub(super) fn find(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Entr
         before: String::new(),
         after: "",
     })
+}
+
+/// How many entries a list has, in words.
+fn counted_entries(count: usize) -> String {
+    let entries = agreeing(&count, "entry", "entries");
+    format!("{count} {entries}, counted from 0")
 }
 
 /// Tables that a case may leave out.
@@ -202,12 +214,25 @@ fn numbered(items: &[Value<'_>], number: usize, list: &Path, rest: &[Step]) -> R
     ))
 }
 
-/// A path with a `*` to what is no list.
-pub(super) fn no_list(place: &Path) -> Lost {
-    (
-        format!("`{place}` is no list in the case, for each entry of which `*` stands"),
-        format!("write the path without `*`, such as `{place}`"),
-    )
+/// A path with a `*` to what is no list, maybe a table.
+pub(super) fn no_list(place: &Path, table: Option<&DeTable<'_>>) -> Lost {
+    match table {
+        None => (
+            format!("`{place}` is no list in the case, for each entry of which `*` stands"),
+            format!("write the path without `*`, such as `{place}`"),
+        ),
+        Some(table) => (
+            format!("`{place}` is a table in the case, and `*` stands for each entry of a list"),
+            format!("name one of its entries, such as {}", within(place, table)),
+        ),
+    }
+}
+
+/// The paths to the entries of a table.
+pub(super) fn within(place: &Path, table: &DeTable<'_>) -> String {
+    let to = |key: String| Path(place.0.iter().cloned().chain([Step::Key(key)]).collect());
+    let paths = keys(table).into_iter().map(|key| to(key).to_string());
+    paths.collect::<Vec<_>>().join(", ")
 }
 
 /// The place of an entry.
@@ -253,17 +278,12 @@ pub(super) fn text_agrees(source: &str, tree: &DeTable<'_>, edits: &[Edit]) -> b
     changed(tree, edits).map(lines) == Some(canonical(&apply(source, edits)))
 }
 
-/// Keys that every gap understands, whatever its model.
-const OF_ANY_GAP: [&str; 8] = [
-    "name",
-    "between",
-    "width",
-    "levels",
-    "elevation_tolerance",
-    "floor_to_floor",
-    "column",
-    "model",
-];
+/// Whether a key of a gap belongs to its impact model: it names the model, or is a parameter of one.
+pub(crate) fn of_impact_model(key: &str) -> bool {
+    let has = |model: &ModelDescriptor| model.parameters.iter().any(|p| p.name == key);
+    ["model", "separation", "spring"].contains(&key)
+        || registry::descriptors().iter().any(|model| has(model))
+}
 
 /// A gap without all that belongs to its model, and with these keys, as TOML, instead.
 pub(crate) fn with_model(
@@ -271,8 +291,7 @@ pub(crate) fn with_model(
     gap: &Path,
     options: Vec<(String, String)>,
 ) -> Result<Vec<Edit>, Lost> {
-    let mine = |key: &str| key == "model" || !OF_ANY_GAP.contains(&key);
-    rewritten(source, gap, mine, options)
+    rewritten(source, gap, of_impact_model, options)
 }
 
 /// Names of the buildings of a case that is TOML, in the order of the file.
@@ -425,8 +444,18 @@ fn name_of(value: &Value<'_>) -> Option<String> {
 }
 
 fn unknown(place: &Path, key: &str, known: &[String]) -> Lost {
+    // Names that a path would read otherwise stand in brackets behind what they belong to.
+    let spelt = |name: &String| {
+        let read = Path::parse(name).map(|path| path.0);
+        match read.as_deref() {
+            Ok([Step::Key(_) | Step::Number(_)]) => name.clone(),
+            _ => format!("{place}[\"{name}\"]"),
+        }
+    };
     let nearest = suggestion::misspelt(key, known);
+    let nearest = nearest.map(|name| spelt(&name.to_owned()));
     let guess = nearest.map_or_else(String::new, |k| format!("did you mean `{k}`? "));
+    let known: Vec<String> = known.iter().map(spelt).collect();
     (
         format!("`{place}` of the case has no `{key}`"),
         format!("{guess}it has {}", known.join(", ")),

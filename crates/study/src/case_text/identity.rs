@@ -72,7 +72,6 @@ fn value(value_here: &DeValue<'_>, path: &str, lines: &mut Vec<String>) {
             }
         }
         DeValue::String(text) => lines.push(format!("{path} = {text:?}")),
-        DeValue::Integer(i) if i.radix() == 10 => lines.push(format!("{path} = {}", i.as_str())),
         DeValue::Integer(i) => lines.push(format!("{path} = {}:{}", i.radix(), i.as_str())),
         DeValue::Float(f) => lines.push(format!("{path} = {}", f.as_str())),
         DeValue::Boolean(b) => lines.push(format!("{path} = {b}")),
@@ -85,6 +84,10 @@ pub(super) fn number(value: &DeValue<'_>) -> Option<f64> {
     match value {
         DeValue::String(text) => parse_quantity(text).ok().map(|quantity| quantity.value),
         DeValue::Integer(i) if i.radix() == 10 => i.as_str().parse().ok(),
+        DeValue::Integer(i) => {
+            let whole = i64::from_str_radix(i.as_str(), i.radix());
+            whole.ok().map(|whole| whole as f64)
+        }
         DeValue::Float(f) => f.as_str().parse().ok(),
         _ => None,
     }

@@ -11,10 +11,10 @@ mod several;
 mod variant;
 
 pub(crate) use edits::{
-    Edit, Entry, KEPT, Lost, apply, building_names, entry, places_of_keys, root_key, with_model,
-    with_motion, without,
+    Edit, Entry, KEPT, Lost, apply, building_names, entry, of_impact_model, places_of_keys,
+    root_key, with_model, with_motion, without,
 };
 pub(crate) use identity::{Lines, canonical};
 pub(crate) use path::Path;
-pub(crate) use several::{entries, numbers};
+pub(crate) use several::{Found, LostAmong, entries, numbers};
 pub(crate) use variant::Variant;

@@ -2,30 +2,45 @@
 
 use std::sync::Arc;
 
+use pounding_case::parse_degrees;
 use toml::de::{DeTable, DeValue};
 
-use super::edits::{Edit, Entry, Lost, find, no_list, replaceable, text_agrees, tree};
+use super::edits::{Edit, Entry, Lost, find, no_list, replaceable, text_agrees, tree, within};
 use super::identity::number;
 use super::path::{Path, Step};
 
 /// An entry of a case, with the path to it.
 pub(crate) type Found = (Path, Arc<Entry>);
 
-/// The entries that a path leads to: one, or with `*` one for each of a list.
-pub(crate) fn entries(source: &str, path: &Path) -> Result<Vec<Found>, Lost> {
-    let tree = tree(source)?;
-    sound(source, &tree, each(source, &tree, path)?)
+/// A path that leads nowhere, by its place among others: why, and what to do.
+pub(crate) type LostAmong = (usize, Lost);
+
+/// The entries that each of these paths leads to: one, or with `*` one for each of a list.
+pub(crate) fn entries(source: &str, paths: &[Path]) -> Result<Vec<Vec<Found>>, LostAmong> {
+    let tree = tree(source).map_err(|lost| (0, lost))?;
+    let among = |(i, path)| each(source, &tree, path).map_err(|lost| (i, lost));
+    let found = paths.iter().enumerate().map(among);
+    let found: Vec<Vec<Found>> = found.collect::<Result<_, _>>()?;
+    sound(source, &tree, &found)?;
+    Ok(found)
 }
 
-/// The numbers that a path leads to, also within lists, each with its value (SI).
-pub(crate) fn numbers(source: &str, path: &Path) -> Result<Vec<(Found, f64)>, Lost> {
-    let tree = tree(source)?;
-    let mut numbers = Vec::new();
-    for (path, entry) in each(source, &tree, path)? {
-        numbers_within(source, &tree, path, entry, &mut numbers)?;
-    }
-    let entries = numbers.iter().map(|(found, _)| found.clone());
-    sound(source, &tree, entries.collect())?;
+/// The numbers that each of these paths leads to, also within lists, and their values (SI, or degrees).
+pub(crate) fn numbers(source: &str, paths: &[Path]) -> Result<Vec<Vec<(Found, f64)>>, LostAmong> {
+    let tree = tree(source).map_err(|lost| (0, lost))?;
+    let numbers_of = |path: &Path| {
+        let mut numbers = Vec::new();
+        for (path, entry) in each(source, &tree, path)? {
+            numbers_within(source, &tree, path, entry, &mut numbers)?;
+        }
+        Ok(numbers)
+    };
+    let among = |(i, path)| numbers_of(path).map_err(|lost| (i, lost));
+    let numbers = paths.iter().enumerate().map(among);
+    let numbers: Vec<Vec<(Found, f64)>> = numbers.collect::<Result<_, _>>()?;
+    let entries = |of: &Vec<(Found, f64)>| of.iter().map(|(found, _)| found.clone()).collect();
+    let found: Vec<Vec<Found>> = numbers.iter().map(entries).collect();
+    sound(source, &tree, &found)?;
     Ok(numbers)
 }
 
@@ -37,11 +52,20 @@ fn each(source: &str, tree: &DeTable<'_>, path: &Path) -> Result<Vec<Found>, Los
     };
     let list = Path(path.0[..star].to_vec());
     if list.0.is_empty() {
-        return Err(no_list(path));
+        // A path begins with the name of a table.
+        return find(source, tree, path).map(|_| Vec::new());
     }
     let way = find(source, tree, &list)?.path;
-    let Some(DeValue::Array(items)) = value(tree, &way) else {
-        return Err(no_list(&list));
+    let items = match value(tree, &way) {
+        Some(DeValue::Array(items)) => items,
+        Some(DeValue::Table(table)) => return Err(no_list(&list, Some(table))),
+        Some(_) => return Err(no_list(&list, None)),
+        None => {
+            return Err((
+                format!("the case leaves `{list}` out, of which `*` would be each entry"),
+                "write it in the case".to_owned(),
+            ));
+        }
     };
     let rest = &path.0[star + 1..];
     let of_item = |place: usize| {
@@ -102,31 +126,37 @@ fn numbers_within(
         }
         return Ok(());
     }
-    match number(value) {
-        Some(x) if x.is_finite() => {
-            numbers.push(((path, entry), x));
-            Ok(())
-        }
-        _ => Err((
-            format!("`{path}` is no number in the case, of which there are no multiples"),
-            "name numbers of the case, such as building.light.stiffness".to_owned(),
-        )),
+    // A plain number of an angle is of degrees.
+    let degrees = || value.as_str().and_then(parse_degrees);
+    if let Some(x) = number(value).or_else(degrees).filter(|x| x.is_finite()) {
+        numbers.push(((path, entry), x));
+        return Ok(());
     }
+    Err((
+        format!("`{path}` is no number in the case, of which there are no multiples"),
+        match value {
+            DeValue::Table(table) => format!("name its numbers, such as {}", within(&path, table)),
+            _ => "name numbers of the case, such as building.light.stiffness".to_owned(),
+        },
+    ))
 }
 
-/// The entries, if the text of each can be replaced.
-fn sound(source: &str, tree: &DeTable<'_>, found: Vec<Found>) -> Result<Vec<Found>, Lost> {
-    let edits: Vec<Edit> = found
-        .iter()
-        .map(|(_, entry)| Edit::new(entry, "0"))
-        .collect();
-    // All at once: of long lists each by itself would take its time.
+/// Refuses entries of which the text cannot be replaced.
+fn sound(source: &str, tree: &DeTable<'_>, found: &[Vec<Found>]) -> Result<(), LostAmong> {
+    let all = || {
+        let found = found.iter().enumerate();
+        found.flat_map(|(i, found)| found.iter().map(move |found| (i, found)))
+    };
+    let edits = all().map(|(_, (_, entry))| Edit::new(entry, "0"));
+    let edits: Vec<Edit> = edits.collect();
+    // All at once: of long lists each by itself would take its time. Where they lie within one
+    // another they cannot be made together.
     if !text_agrees(source, tree, &edits) {
-        for (path, entry) in &found {
-            replaceable(source, tree, path, entry)?;
+        for (i, (path, entry)) in all() {
+            replaceable(source, tree, path, entry).map_err(|lost| (i, lost))?;
         }
     }
-    Ok(found)
+    Ok(())
 }
 
 #[cfg(test)]
@@ -138,8 +168,8 @@ mod tests {
     const CASE: &str = "[[building]]\nname = \"a\"\nmass = [1, \"2 t\"]\n[[building]]\nname = \"*\"\nmass = 3\nlaw = [{ model = \"bilinear\", yield_force = [4, 5] }]\n\n[[gap]]\nbetween = [\"a\", \"*\"]\nwidth = \"20 mm\"\n[[gap]]\nname = \"0\"\nwidth = 1e-2\n";
 
     fn edited(path: &str) -> String {
-        let found = entries(CASE, &Path::parse(path).unwrap()).unwrap();
-        let edits: Vec<Edit> = found.iter().map(|(_, e)| Edit::new(e, "7")).collect();
+        let found = entries(CASE, &[Path::parse(path).unwrap()]).unwrap();
+        let edits: Vec<Edit> = found[0].iter().map(|(_, e)| Edit::new(e, "7")).collect();
         apply(CASE, &edits)
     }
 
@@ -169,41 +199,87 @@ mod tests {
 
     #[test]
     fn stars_without_a_list_are_refused() {
-        let lost = |path: &str| entries(CASE, &Path::parse(path).unwrap()).unwrap_err().0;
-        assert!(lost("building.*.mass.*").contains("`building[1].mass` is no list"));
-        assert!(lost("*.width").contains("is no list"));
-        assert!(lost("gap[0].*").contains("`gap[0]` is no list"));
-        assert!(lost("link.*.stiffness").contains("no `link`"));
-        assert!(lost("gap.*.width.*").contains("is no list"));
+        let lost = |path: &str| {
+            let path = Path::parse(path).unwrap();
+            let refused = entries(CASE, &[Path::parse("gap[0].width").unwrap(), path]);
+            let (place, lost) = refused.unwrap_err();
+            assert_eq!(place, 1);
+            lost
+        };
+        for (path, why, help) in [
+            (
+                "building.*.mass.*",
+                "`building[1].mass` is no list",
+                "`building[1].mass`",
+            ),
+            (
+                "*.width",
+                "begins with the name of a table",
+                "paths begin with building, gap",
+            ),
+            (
+                "gap[0].*",
+                "`gap[0]` is a table",
+                "gap[0].between, gap[0].width",
+            ),
+            (
+                "building.a.law.*.x",
+                "leaves `building.a.law` out",
+                "write it",
+            ),
+            ("link.*.stiffness", "no `link`", "building, gap"),
+            ("gap.*.width.*", "is no list", "`gap[0].width`"),
+            (
+                "building.a.mass.-1",
+                "`building.a.mass` of the case has no `-1`",
+                "2 entries",
+            ),
+            ("building.b.mass", "no `b`", "it has a, building[\"*\"]"),
+        ] {
+            let (found, remedy) = lost(path);
+            assert!(
+                found.contains(why) && remedy.contains(help),
+                "{path}: {found}: {remedy}"
+            );
+        }
     }
 
     #[test]
     fn numbers_have_their_values() {
-        let numbers = |path: &str| numbers(CASE, &Path::parse(path).unwrap());
-        let values = |path: &str| -> Vec<f64> {
-            let numbers = numbers(path).unwrap();
-            numbers.into_iter().map(|(_, value)| value).collect()
+        let of = |case: &str, path: &str| {
+            let found = numbers(case, &[Path::parse(path).unwrap()]);
+            found.map(|mut all| {
+                all.remove(0)
+                    .into_iter()
+                    .map(|(_, x)| x)
+                    .collect::<Vec<f64>>()
+            })
         };
+        let values = |path: &str| of(CASE, path).unwrap();
         assert_eq!(values("building.*.mass"), [1.0, 2000.0, 3.0]);
         assert_eq!(values("gap.*.width"), [0.02, 0.01]);
         assert_eq!(values("building.1.law.0.yield_force"), [4.0, 5.0]);
-        assert!(
-            numbers("building.*.height")
-                .unwrap_err()
-                .0
-                .contains("leaves")
-        );
-        assert!(
-            numbers("building.*.name")
-                .unwrap_err()
-                .0
-                .contains("no number")
-        );
-        assert!(
-            numbers("building.1.law")
-                .unwrap_err()
-                .0
-                .contains("no number")
-        );
+        let other = CASE.replace("mass = 3", "mass = 0x10\nphase = \"90 deg\"");
+        assert_eq!(of(&other, "building.1.mass").unwrap(), [16.0]);
+        assert_eq!(of(&other, "building.1.phase").unwrap(), [90.0]);
+        for (path, why, help) in [
+            (
+                "building.*.height",
+                "leaves `building[0].height` out",
+                "write it",
+            ),
+            ("building.*.name", "no number", "such as"),
+            (
+                "building.1.law",
+                "no number",
+                "law[0].model, building.1.law[0].yield_force",
+            ),
+        ] {
+            let (found, remedy) = of(CASE, path).unwrap_err().1;
+            assert!(
+                found.contains(why) && remedy.contains(help),
+                "{path}: {found}: {remedy}"
+            );
+        }
     }
 }

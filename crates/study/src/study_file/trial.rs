@@ -7,10 +7,10 @@ use pounding_assembly::parameter_dimension;
 use pounding_case::document::{Reader, Written};
 use pounding_case::{Case, CaseTree, Dimension, Located};
 
-use super::Target;
 use super::rows::{self, Refused};
 use super::values::unit_of;
 use super::varied_entry::{VariedEntry, set_all, set_numbers};
+use super::{Target, Value, Values};
 use crate::case_text::{Edit, places_of_keys};
 
 /// Tries values in the case.
@@ -48,6 +48,33 @@ impl Trial<'_> {
                 .map(|quantity| set_numbers(&self.entries, quantity.value));
             (span, given.into_iter().chain(number).collect())
         }))
+    }
+
+    /// Whether the case takes a number within a range, which begins at this place, as it does its ends: it does
+    /// not where numbers are to be whole.
+    pub(super) fn inner(&self, values: &Values, place: Range<usize>) -> Option<()> {
+        let number = match values {
+            Values::Range { count: Some(2), .. } => return Some(()),
+            Values::Range { count: Some(_), .. } => values.at(1),
+            Values::Range { count: None, .. } => values.sample(0.4),
+            _ => return Some(()),
+        };
+        let Value::Number(x) = number else {
+            return Some(());
+        };
+        let Err(refusal) = self.refusal(&set_numbers(&self.entries, x)) else {
+            return Some(());
+        };
+        if let Some(refused) = self.refused_alone {
+            refused.borrow_mut().push(place);
+            return Some(());
+        }
+        let Refusal { message, help, .. } = refusal;
+        let message = format!(
+            "the case refuses {x} of this range for {}: {message}",
+            self.paths
+        );
+        self.reader.refuse(place, message, help.unwrap_or_default())
     }
 
     /// Whether the case takes all of these texts.

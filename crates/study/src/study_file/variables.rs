@@ -20,7 +20,7 @@ use super::trial::{Trial, unit_of_numbers};
 use super::values::{Numbers, Spacing, Values, Whole, all, table_with_range, unit_of};
 use super::varied_entry::{VariedEntry, kept, varied_entries};
 use super::{IntensityMeasure, RecordSource, Target, Variable, records};
-use crate::case_text::{Path, with_model};
+use crate::case_text::{Path, of_impact_model, with_model};
 use crate::table::DIAGNOSIS;
 
 table_with_range! {
@@ -312,7 +312,7 @@ impl VariableTable {
                 tree: CaseTree::parse(&base.source, &base.file).ok()?,
                 base,
                 entries,
-                paths: listed(paths),
+                paths: listed(paths, |path| format!("`{path}`")),
                 place: place.clone(),
                 refused_alone: context.in_rows.then_some(&context.refused_alone),
             })
@@ -351,7 +351,9 @@ impl VariableTable {
                 };
                 let tried = tried?;
                 unit = unit_of_numbers(&places, &tried);
+                let first = places.first().map(|place| place.span.clone());
                 tried.numbers(places)?;
+                tried.inner(&values, first.unwrap_or(place))?;
                 (values, tried.target(Vec::new()))
             }
         };
@@ -413,15 +415,24 @@ fn default_name(
 
 /// What people call a variable of these paths.
 fn title(paths: &[(Path, Range<usize>)], relative: bool) -> String {
-    let paths: Vec<String> = paths.iter().map(|(path, _)| path.to_string()).collect();
     let of = if relative { "multiple of " } else { "" };
-    format!("{of}{}", paths.join(", "))
+    format!("{of}{}", listed(paths, |path| path.to_string()))
 }
 
-/// Paths in messages.
-fn listed(paths: &[(Path, Range<usize>)]) -> String {
-    let paths: Vec<String> = paths.iter().map(|(path, _)| format!("`{path}`")).collect();
-    paths.join(", ")
+/// Most paths that are listed.
+const MOST_LISTED: usize = 4;
+
+/// Paths, shown in this way, or the first of many.
+fn listed(paths: &[(Path, Range<usize>)], shown: impl Fn(&Path) -> String) -> String {
+    let some = match paths.len() {
+        0..=MOST_LISTED => paths,
+        _ => &paths[..MOST_LISTED - 1],
+    };
+    let mut listed: Vec<String> = some.iter().map(|(path, _)| shown(path)).collect();
+    if some.len() < paths.len() {
+        listed.push(format!("{} more", paths.len() - some.len()));
+    }
+    listed.join(", ")
 }
 
 /// Values that are texts of the case, such as methods.
@@ -481,7 +492,7 @@ fn models(
         return reader.refuse(
             list.span,
             "tables are values of the models of gaps only",
-            "write path = \"gap.0.model\", or give numbers",
+            "write path = \"gap.0.model\" or \"gap.*.model\" alone; other entries take numbers or texts, by variables of their own",
         );
     }
     let mut labels: Vec<String> = Vec::new();
@@ -515,12 +526,24 @@ fn models(
     Some((Values::Choices(labels), Target::Model { edits }))
 }
 
+/// Whether a gap of a case has this key, whatever its model.
+fn is_gap_key(key: &str) -> bool {
+    let schema = pounding_case::schema();
+    let gap = &schema["properties"]["gap"]["items"]["properties"];
+    gap.get(key).is_some()
+}
+
 impl ModelTable {
     /// The label of a model, and its keys in a case, which knows those of its gaps.
     fn read(self, reader: &Reader<'_>) -> Option<(String, Vec<(String, String)>)> {
         let text = |place: Range<usize>| reader.source[place].to_owned();
         let mut options = vec![("model".to_owned(), text(self.model.span()?))];
         for (key, value) in self.parameters.0 {
+            if !of_impact_model(&key.value) && is_gap_key(&key.value) {
+                let message = format!("`{}` is of the gap, and not of its model", key.value);
+                let help = "leave it out: the gap keeps its own; a variable of its own changes it";
+                return reader.refuse(key.span, message, help);
+            }
             options.push((key.value, text(value.span()?)));
         }
         let label = self.label.value_or(self.model.value()?)?;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use pounding_case::document::Reader;
 
-use crate::case_text::{Edit, Entry, Lost, Path, entries, numbers};
+use crate::case_text::{Edit, Entry, Found, Lost, LostAmong, Path, entries, numbers};
 use crate::runs::written;
 
 /// An entry of the case that a variable changes.
@@ -44,9 +44,18 @@ pub(super) fn varied_entries(
     paths: &[(Path, Range<usize>)],
     relative: bool,
 ) -> Option<Vec<VariedEntry>> {
+    let (only, places): (Vec<Path>, Vec<&Range<usize>>) = paths
+        .iter()
+        .map(|(path, place)| (path.clone(), place))
+        .unzip();
+    let found = match found(case, &only, relative) {
+        Ok(found) => found,
+        Err((path, (message, help))) => {
+            return reader.refuse(places[path].clone(), message, help);
+        }
+    };
     let mut all: Vec<VariedEntry> = Vec::new();
-    for (path, place) in paths {
-        let found = kept(reader, place, of_path(case, path, relative))?;
+    for (found, place) in found.into_iter().zip(places) {
         for varied in found {
             if all.iter().any(|other| other.entry.overlaps(&varied.entry)) {
                 let message = format!("`path` leads to `{}` more than once", varied.path);
@@ -58,7 +67,8 @@ pub(super) fn varied_entries(
     Some(all)
 }
 
-fn of_path(case: &str, path: &Path, relative: bool) -> Result<Vec<VariedEntry>, Lost> {
+/// The entries that each path leads to.
+fn found(case: &str, paths: &[Path], relative: bool) -> Result<Vec<Vec<VariedEntry>>, LostAmong> {
     let varied = |(path, entry), of_case| VariedEntry {
         path,
         entry,
@@ -66,12 +76,18 @@ fn of_path(case: &str, path: &Path, relative: bool) -> Result<Vec<VariedEntry>, 
     };
     Ok(match relative {
         true => {
-            let numbers = numbers(case, path)?.into_iter();
-            numbers.map(|(found, x)| varied(found, Some(x))).collect()
+            let multiples = |of: Vec<(Found, f64)>| {
+                let numbers = of.into_iter();
+                numbers.map(|(found, x)| varied(found, Some(x))).collect()
+            };
+            numbers(case, paths)?.into_iter().map(multiples).collect()
         }
         false => {
-            let entries = entries(case, path)?.into_iter();
-            entries.map(|found| varied(found, None)).collect()
+            let plain = |of: Vec<Found>| {
+                let entries = of.into_iter();
+                entries.map(|found| varied(found, None)).collect()
+            };
+            entries(case, paths)?.into_iter().map(plain).collect()
         }
     })
 }

@@ -130,6 +130,29 @@ fn periods_and_dampings_are_as_is_said() {
     );
 }
 
+/// Steps divide the samples of the ground evenly: what is said is of those that are taken, whichever are asked for.
+#[test]
+fn what_is_said_is_of_the_steps_that_are_taken() {
+    // Of samples of 0.08 s the half is taken for all of these.
+    let system = swing(0.08);
+    let newmark = |step| MethodChoice::Newmark {
+        step,
+        beta: 0.3025,
+        gamma: 0.6,
+    };
+    let half = newmark(0.04);
+    let said = warned(&system, half.clone());
+    assert!(said.0 > 0.0 && said.1 > 0.0);
+    for step in [0.041, 0.06, 0.079] {
+        assert_eq!(warned(&system, newmark(step)), said, "{step}");
+        assert_eq!(
+            measured(&system, newmark(step)),
+            measured(&system, half.clone())
+        );
+    }
+    assert!(warned(&system, newmark(0.08)).0 > 2.0 * said.0);
+}
+
 /// Central differences are stable up to two over the circular frequency, linear accelerations up to 3.464.
 #[test]
 fn steps_of_newmark_that_are_unstable() {

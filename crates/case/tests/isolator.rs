@@ -92,6 +92,11 @@ fn what_cannot_be_is_refused_once_at_its_place() {
     for (text, place, says) in [
         (above("strength = 0.06"), table, "has no `model`"),
         (
+            format!("mass = [8e5]\ndamping = {{ dashpots = 5e4 }}\n{table}\n{PENDULUM}"),
+            "{ dashpots = 5e4 }",
+            "a slab alone on its isolators has no storeys",
+        ),
+        (
             above("model = \"lead_ruber\""),
             "\"lead_ruber\"",
             "unknown isolator \"lead_ruber\"",

@@ -12,7 +12,8 @@ use std::sync::Arc;
 use crate::descriptor::ModelDescriptor;
 use crate::error::GapElementError;
 use crate::model::{
-    ClosedForm, Collision, Force, ImpactModel, Memory, Phase, PowerLaw, SeparationRule, Transition,
+    ClosedForm, Collision, Force, ImpactModel, Memory, Phase, PowerLaw, SeparationRule, Target,
+    Transition,
 };
 
 /// An elastic law `k delta^n` in series with a spring (N/m).
@@ -43,7 +44,7 @@ pub fn in_series(
         });
     }
     let law = match model.rigid_restitution() {
-        None => model.power_law(&model.begin(1.0, 1.0), Phase::Approach),
+        None => one_law(model.as_ref()),
         Some(_) => None,
     };
     match law {
@@ -59,6 +60,29 @@ pub fn in_series(
             reason: "it is not elastic, and a point without mass between contact and spring would have a motion of its own".to_owned(),
         }),
     }
+}
+
+/// The law in powers that a model has in all phases in which floors act on one another; dry friction,
+/// and branches that unload otherwise than they load, are other laws.
+fn one_law(model: &dyn ImpactModel) -> Option<PowerLaw> {
+    let collision = model.begin(1.0, 1.0);
+    let law = model.power_law(&collision, Phase::Approach)?;
+    let mut phases = vec![Phase::Approach, Phase::Restitution];
+    let mut seen = 0;
+    while let Some(phase) = phases.get(seen).copied() {
+        seen += 1;
+        if model.power_law(&collision, phase) != Some(law) {
+            return None;
+        }
+        for transition in model.transitions(phase) {
+            match transition.target {
+                Target::Phase(Phase::Released | Phase::Stuck) => {}
+                Target::Phase(next) if !phases.contains(&next) => phases.push(next),
+                _ => {}
+            }
+        }
+    }
+    Some(law)
 }
 
 impl InSeries {
@@ -297,6 +321,32 @@ mod tests {
             let refused = in_series(model(name, &given), 1e9).unwrap_err();
             assert!(refused.to_string().contains("not elastic"), "{refused}");
             assert!(refused.help().unwrap().contains("linear_elastic"));
+        }
+        // Dry friction alone, in powers or linear.
+        for (name, exponent) in [
+            ("borovin_2014", 1.0),
+            ("borovin_2014", 1.5),
+            ("lapshin_yurin_2016", 1.5),
+        ] {
+            let given = [
+                ("stiffness", 3e8),
+                ("exponent", exponent),
+                ("restitution", 0.6),
+            ];
+            let known = registry::find(name).unwrap().parameters;
+            let given: Vec<_> = given
+                .into_iter()
+                .filter(|(key, _)| known.iter().any(|p| p.name == *key))
+                .collect();
+            let law = model(name, &given);
+            assert_eq!(
+                law.power_law(&law.begin(1.0, 1.0), Phase::Approach)
+                    .unwrap()
+                    .dashpot,
+                0.0
+            );
+            let refused = in_series(law, 1e9).unwrap_err();
+            assert!(refused.to_string().contains("not elastic"), "{refused}");
         }
         let rigid = model("stereomechanical", &[("restitution", 1.0)]);
         assert!(in_series(rigid, 1e9).is_err());

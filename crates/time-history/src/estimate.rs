@@ -198,6 +198,17 @@ fn shortest<'s>(
     }
 }
 
+/// The fixed step (s) that is taken where this one is asked for: steps divide the samples of all ground
+/// motions evenly.
+pub(crate) fn step_taken(system: &System, step: f64) -> f64 {
+    let further = system.ground_motions().iter();
+    let samples = further.map(|m| m.acceleration.time_step);
+    let samples = samples.chain([system.ground().time_step]);
+    samples.fold(step, |step, sample| {
+        sample / (sample / step - 1.0e-9).ceil().max(1.0)
+    })
+}
+
 /// Refuses steps that are unstable. With the classical method of order 4 those of laws: where their force is
 /// bounded they keep their motion bounded, and forces beyond what they can carry pass for an answer; elastic
 /// motion grows beyond all bounds, and the run ends with an error by itself. With Newmark's, where its parameters
@@ -218,13 +229,7 @@ pub(crate) fn is_stable(system: &System, method: &MethodChoice) -> Result<(), Ti
         ),
         _ => return Ok(()),
     };
-    let further = system.ground_motions().iter();
-    let samples = further.map(|m| m.acceleration.time_step);
-    let samples = samples.chain([system.ground().time_step]);
-    // Steps divide the samples of all ground motions evenly.
-    let step = samples.fold(step, |step, sample| {
-        sample / (sample / step - 1.0e-9).ceil().max(1.0)
-    });
+    let step = step_taken(system, step);
     let asked = |b: &&Arc<ShearBuilding>| !laws_alone || b.laws().iter().any(Option::is_some);
     let buildings = system.buildings().iter().filter(asked);
     let (longest, limit) = shortest(system, buildings, limit);

@@ -10,7 +10,7 @@ use pounding_gap_element::{Bodies, ImpactModel, collide};
 use pounding_hysteresis::laboratory;
 use pounding_shear_building::{Damping, DampingMatrix, Modes, OVERTURNING_RATIO, ShearBuilding};
 
-use crate::estimate::{StepEstimate, StepLimit, short};
+use crate::estimate::{StepEstimate, StepLimit, short, step_taken};
 use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome, Peak};
 use crate::soft_contact::{deep_penetrations, soft_contacts, stiffness_text};
@@ -839,7 +839,7 @@ fn of_fundamental_modes(system: &System, method: &MethodChoice) -> Vec<Warning> 
     else {
         return Vec::new();
     };
-    let step = step.min(system.ground().time_step);
+    let step = step_taken(system, step);
     let periods = system
         .buildings()
         .iter()
@@ -1064,7 +1064,7 @@ fn coarse_step(
     let step = match *method {
         MethodChoice::Newmark { step, .. }
         | MethodChoice::HhtAlpha { step, .. }
-        | MethodChoice::RungeKutta4 { step } => step.min(system.ground().time_step),
+        | MethodChoice::RungeKutta4 { step } => step_taken(system, step),
         // The others follow contacts with steps of their own, or have none to follow.
         _ => return None,
     };

@@ -189,7 +189,14 @@ impl BuildingTable {
             true => self.isolators(reader, (storeys, &given), &place),
             false => None,
         };
-        let undamped = bare && above == 0 && self.damping.is_none();
+        let undamped = bare && above == 0;
+        if let Some(span) = self.damping.span().filter(|_| undamped) {
+            reader.refuse::<()>(
+                span,
+                "a slab alone on its isolators has no storeys that `damping` could damp",
+                "remove it; dashpots beside the isolators are `damping` in [building.isolator]",
+            );
+        }
         if !undamped && self.damping.is_none() {
             reader.refuse::<()>(
                 place.clone(),

@@ -297,7 +297,7 @@ mod tests {
 
     /// Which codes multiply the displacement of an elastic analysis, by what, and where
     /// that stands. All others take displacements as they are, or none: see below.
-    const MULTIPLIED: [(&str, &str, &str); 35] = [
+    const MULTIPLIED: [(&str, &str, &str); 38] = [
         (
             "asce_7_10_boundary",
             "Cd / Ie",
@@ -353,10 +353,13 @@ mod tests {
             "4.9.3.4: reduced displacements",
         ),
         ("nec_se_ds_between", "0.75 R", "recalled"),
+        ("ntc_2018_between", "mu_d", "7.3.3.3: dE = mu_d dEe"),
+        ("nzs_1170_5_boundary", "mu", "7.2.1.1"),
+        ("nzs_1170_5_between", "mu", "7.2.1.1"),
     ];
 
     /// Rules of displacements that multiply none, and what they ask for instead.
-    const AS_ANALYSED: [(&str, &str); 14] = [
+    const AS_ANALYSED: [(&str, &str); 11] = [
         (
             "asce_41_boundary",
             "displacement of the analysis, of any kind",
@@ -365,19 +368,7 @@ mod tests {
             "asce_41_between",
             "displacement of the analysis, of any kind",
         ),
-        (
-            "ntc_2018_between",
-            "maximum displacement of the limit state",
-        ),
         ("eak_2000_between", "displacement of the design earthquake"),
-        (
-            "nzs_1170_5_boundary",
-            "deflection of the ultimate limit state",
-        ),
-        (
-            "nzs_1170_5_between",
-            "deflection of the ultimate limit state",
-        ),
         ("iran_2800_boundary_by_analysis", "nonlinear displacement"),
         (
             "iran_2800_between",

@@ -41,13 +41,16 @@ pub(crate) static SUM: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Displacement,
     height: HeightDatum::NotUsed,
     ground: Ground::NotAsked,
-    elastic_displacement_factor: None,
+    elastic_displacement_factor: Some("mu_d"),
     formula: "u1 + u2",
     inputs: &[Input::Displacement],
     status: Status::Unverified(
         "that 7.2.1 keeps the sum, which was seen in an excerpt of NTC 2008, 7.2.2",
     ),
-    remarks: &["For displacements of the limit state of life safety (SLV)."],
+    remarks: &[
+        "For displacements of the limit state of life safety (SLV).",
+        "7.3.3.3 multiplies those of a linear analysis by mu_d (recalled, unverified); u is the unreduced one.",
+    ],
     worked: "80 + 60",
     rule: Rule::Between(sum),
 };
@@ -82,6 +85,7 @@ pub(crate) static WITHOUT_CALCULATION: ProvisionDescriptor = ProvisionDescriptor
     ],
     worked: "21000 / 100 * 0.25 + 18000 / 100 * 0.25",
     rule: Rule::Between(without_calculation),
+    elastic_displacement_factor: None,
     ..SUM
 };
 
@@ -95,6 +99,7 @@ pub(crate) static MINIMUM: ProvisionDescriptor = ProvisionDescriptor {
     rule: Rule::Between(minimum),
     worked: "18000 / 100 * min(1, 2 * 0.25)",
     height: HeightDatum::Foundation,
+    elastic_displacement_factor: None,
     ..SUM
 };
 

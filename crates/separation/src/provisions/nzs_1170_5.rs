@@ -27,6 +27,8 @@ static EDITION: Edition = Edition {
     superseded_by: None,
 };
 
+const FACTOR: &str = "7.2.1.1 multiplies those of an elastic analysis by mu (recalled, unverified); u is the unreduced one.";
+
 pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     name: "nzs_1170_5_boundary",
     edition: &EDITION,
@@ -34,11 +36,11 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
     basis: Basis::Displacement,
     height: HeightDatum::NotUsed,
     ground: Ground::OwnSide,
-    elastic_displacement_factor: None,
+    elastic_displacement_factor: Some("mu"),
     formula: "u",
     inputs: &[Input::Displacement],
     status: Status::Unverified("the clause"),
-    remarks: &["For deflections of the ultimate limit state."],
+    remarks: &["For deflections of the ultimate limit state.", FACTOR],
     worked: "80",
     rule: Rule::Boundary(boundary),
 };
@@ -46,7 +48,10 @@ pub(crate) static BOUNDARY: ProvisionDescriptor = ProvisionDescriptor {
 pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     name: "nzs_1170_5_between",
     formula: "u1 + u2",
-    remarks: &["For deflections of the ultimate limit state; no relief by SRSS."],
+    remarks: &[
+        "For deflections of the ultimate limit state; no relief by SRSS.",
+        FACTOR,
+    ],
     rule: Rule::Between(between),
     worked: "80 + 60",
     ground: Ground::OneProperty,

@@ -141,14 +141,11 @@ fn what_is_said_is_of_the_steps_that_are_taken() {
         gamma: 0.6,
     };
     let half = newmark(0.04);
-    let said = warned(&system, half.clone());
+    let said = warned(&system, half);
     assert!(said.0 > 0.0 && said.1 > 0.0);
     for step in [0.041, 0.06, 0.079] {
         assert_eq!(warned(&system, newmark(step)), said, "{step}");
-        assert_eq!(
-            measured(&system, newmark(step)),
-            measured(&system, half.clone())
-        );
+        assert_eq!(measured(&system, newmark(step)), measured(&system, half));
     }
     assert!(warned(&system, newmark(0.08)).0 > 2.0 * said.0);
 }

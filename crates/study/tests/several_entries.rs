@@ -1,5 +1,7 @@
 //! Variables of several entries, and of multiples of what the case has.
 
+#![allow(clippy::unwrap_used)]
+
 use pounding_assembly::assemble;
 use pounding_case::Case;
 use pounding_files::checksum::WithoutChecksum;

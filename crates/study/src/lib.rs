@@ -35,6 +35,8 @@ mod parts;
 #[cfg(feature = "results")]
 mod runs;
 #[cfg(feature = "results")]
+pub mod sensitivity;
+#[cfg(feature = "results")]
 mod shard_name;
 #[cfg(feature = "results")]
 mod shown;

@@ -112,6 +112,27 @@ fn common_gap_of_the_row() {
     close(most(wide, "peak_force"), 17.73e6);
     close(most(wide, "isolated_demand"), 0.1946);
     close(most(of(0.1, 0.8), "isolated_demand"), 0.2377);
+    // The page says how much of the variance of the greatest force the stiffness explains: that of its means.
+    bench.text("report out.h5 -o page.html");
+    let page = String::from_utf8(bench.bytes("page.html")).unwrap();
+    let mean = |values: &[f64]| values.iter().sum::<f64>() / values.len() as f64;
+    let variance = |values: &[f64]| {
+        let squares: Vec<f64> = values.iter().map(|x| (x - mean(values)).powi(2)).collect();
+        mean(&squares)
+    };
+    let forces: Vec<f64> = rows.iter().map(|row| most(row, "peak_force")).collect();
+    let of_stiffness = |i: usize| {
+        forces
+            .iter()
+            .skip(i)
+            .step_by(5)
+            .copied()
+            .collect::<Vec<f64>>()
+    };
+    let means: Vec<f64> = (0..5).map(|i| mean(&of_stiffness(i))).collect();
+    let part = 100.0 * variance(&means) / variance(&forces);
+    let said = format!("the maximum contact force with stiffness ({part:.0}\u{a0}%)");
+    assert!(page.contains(&said), "{said}");
     let number = rows.iter().position(|row| row == wide).unwrap();
     let shown = bench.text(&format!("sweep {study} --show {number}"));
     assert_eq!(shown.matches("width = 1e-1").count(), 4, "{shown}");

@@ -1,7 +1,8 @@
 //! The page of the result of a sweep.
 
 use pounding_catalogue::wording::{agreeing, counted};
-use pounding_study::{Axis, Layout, Quantity, ResultReader, StudyFileError, fractile};
+use pounding_study::sensitivity::{Input, Sensitivity, sensitivity};
+use pounding_study::{Axis, Coordinate, Layout, Quantity, ResultReader, StudyFileError, fractile};
 use pounding_time_history::VELOCITY_JUMPS_HAVE_NO_FORCE;
 
 use super::answer::{in_parentheses, unit_of};
@@ -21,6 +22,8 @@ const LISTED: usize = 20;
 const PARTS: usize = 24;
 /// Size of a panel (pixels), as wide as a page.
 const SIZE: (u32, u32) = (718, 230);
+/// Part of a variance from which on it is worth a sentence.
+const WORTH_SAYING: f64 = 0.1;
 /// Quantities that have figures: of the run's levels or storeys the greatest.
 const DRAWN: [&str; 4] = [
     "impacts",
@@ -50,16 +53,20 @@ struct Runs {
 pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
     let runs = read(result).map_err(ReportError::Study)?;
     let d = &result.description;
-    let mut body = section(
-        "Summary",
-        &(sentences(&points(result, &runs)) + &warnings(&d.warnings)),
-    );
+    let sensitivities = sensitivities(result, &runs);
+    let mut points = points(result, &runs);
+    points.extend(depends_most(result, &sensitivities));
+    let mut body = section("Summary", &(sentences(&points) + &warnings(&d.warnings)));
     body.push_str(&section("What varied", &variables(result, &runs)));
     let mut peaks = statistics(result, &runs);
     if has_rigid_impacts(result, &runs) {
         peaks.insert_str(0, &note(VELOCITY_JUMPS_HAVE_NO_FORCE));
     }
     body.push_str(&section("Peaks over the runs", &peaks));
+    if !sensitivities.is_empty() {
+        let dependences = dependences(result, &sensitivities);
+        body.push_str(&section("What the peaks depend on", &dependences));
+    }
     let drawn = figures_of(result, &runs)?;
     if !drawn.is_empty() {
         body.push_str(&section("Over the variables", &drawn));
@@ -390,6 +397,98 @@ fn cells_of(values: &[f64], quantity: &Quantity) -> [String; 4] {
     ]
 }
 
+/// The greatest value of a quantity in a run; infinite where a building collapsed.
+fn of_run(runs: &Runs, name: &str, columns: &[usize], row: usize) -> f64 {
+    let values = columns.iter().map(|c| runs.values[*c][row]);
+    if runs.fell[row] {
+        return f64::INFINITY;
+    }
+    // A run with a level of unknown force has no maximum of it: that of its other
+    // levels, often zero, is not the run's.
+    let unknown = name == "peak_force" && values.clone().any(f64::is_nan);
+    match unknown {
+        true => f64::NAN,
+        false => values.fold(f64::NAN, f64::max),
+    }
+}
+
+/// Of quantities whose figures are drawn, what they are called and on which variables the greatest value of a run
+/// depends.
+fn sensitivities<'r>(result: &'r ResultReader, runs: &Runs) -> Vec<(&'r str, Sensitivity)> {
+    let d = &result.description;
+    let inputs = d.coordinates.iter().zip(&runs.coordinates);
+    let inputs = inputs.map(|(coordinate, values)| Input {
+        values,
+        are_choices: coordinate.choices.is_some(),
+    });
+    let inputs: Vec<Input<'_>> = inputs.collect();
+    let found = DRAWN.iter().filter_map(|name| {
+        let of = columns(&d.layout, name);
+        let quantity = d.layout.quantities.iter().find(|q| q.name == *name)?;
+        let rows = 0..runs.numbers.len();
+        let values: Vec<f64> = rows.map(|row| of_run(runs, name, &of, row)).collect();
+        let heading = quantity.long_name.split(',').next().unwrap_or_default();
+        Some((heading, sensitivity(&values, &inputs)?))
+    });
+    found.collect()
+}
+
+/// A part of the variance.
+fn percent(part: f64) -> String {
+    match part.is_nan() {
+        true => "–".to_owned(),
+        false => format!("{:.0}\u{a0}%", 100.0 * part),
+    }
+}
+
+/// The variable on which each quantity depends most, in words.
+fn depends_most(result: &ResultReader, found: &[(&str, Sensitivity)]) -> Option<String> {
+    let coordinates = &result.description.coordinates;
+    let most = found.iter().filter_map(|(heading, sensitivity)| {
+        let parts = coordinates.iter().zip(&sensitivity.first_order);
+        let (coordinate, part) = parts
+            .filter(|(_, part)| **part >= WORTH_SAYING)
+            .max_by(|a, b| a.1.total_cmp(b.1))?;
+        Some((heading, named(&coordinate.name), percent(*part)))
+    });
+    let said = most.enumerate().map(|(i, (heading, name, part))| match i {
+        0 => format!("the {heading} varies most with {name} ({part} of its variance)"),
+        _ => format!("the {heading} with {name} ({part})"),
+    });
+    let said: Vec<String> = said.collect();
+    (!said.is_empty()).then(|| format!("Over the runs {}.", said.join(", ")))
+}
+
+/// What part of the variance of each quantity every variable explains by itself.
+fn dependences(result: &ResultReader, found: &[(&str, Sensitivity)]) -> String {
+    let d = &result.description;
+    let of_variable = |(i, coordinate): (usize, &Coordinate)| {
+        let parts = found.iter().map(|(_, s)| percent(s.first_order[i]));
+        let cells = std::iter::once(coordinate.name.clone()).chain(parts);
+        Row::new(&coordinate.name, cells.collect())
+    };
+    let mut rows: Vec<Row> = d.coordinates.iter().enumerate().map(of_variable).collect();
+    let of_combinations: Option<Vec<f64>> = found.iter().map(|(_, s)| s.combinations).collect();
+    let how = match of_combinations {
+        Some(parts) => {
+            let parts = parts.into_iter().map(percent);
+            let cells = std::iter::once("combinations of them".to_owned()).chain(parts);
+            rows.push(Row::new("combinations", cells.collect()));
+            "exact for these runs, which are all combinations; what no variable explains by itself is of combinations"
+        }
+        None => {
+            "estimated from the runs, less what chance explains; what is missing to 100 % is of combinations, and of variables that go together"
+        }
+    };
+    let headings = found.iter().map(|(heading, _)| *heading);
+    let headings = std::iter::once("variable").chain(headings);
+    let columns: Vec<Column> = headings.map(Column::new).collect();
+    table("What the peaks depend on", &columns, rows.into_iter())
+        + &note(&format!(
+            "How much of the variance of the greatest value of a run each variable explains by itself (first-order sensitivity index): {how}. It holds for the ranges that varied here."
+        ))
+}
+
 /// Fractiles of the greatest value of a run over each variable.
 fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError> {
     let d = &result.description;
@@ -410,19 +509,7 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
                 continue;
             };
             let (factor, _) = unit_of(quantity.unit);
-            let of_row = |row: &usize| {
-                let values = found.iter().map(|c| runs.values[*c][*row]);
-                if runs.fell[*row] {
-                    return f64::INFINITY;
-                }
-                // A run with a level of unknown force has no maximum of it: that of its other
-                // levels, often zero, is not the run's.
-                let unknown = name == "peak_force" && values.clone().any(f64::is_nan);
-                match unknown {
-                    true => f64::NAN,
-                    false => factor * values.fold(f64::NAN, f64::max),
-                }
-            };
+            let of_row = |row: &usize| factor * of_run(runs, name, &found, *row);
             let curve = |name: &str, part: f64| Curve {
                 name: name.to_owned(),
                 points: groups

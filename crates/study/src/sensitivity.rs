@@ -85,10 +85,10 @@ pub fn sensitivity(values: &[f64], inputs: &[Input<'_>]) -> Option<Sensitivity> 
 
 /// Whether runs are all combinations of the values of their inputs, each once.
 fn is_grid(inputs: &[Input<'_>], runs: &[usize]) -> bool {
-    let sizes = inputs
+    let mut sizes = inputs
         .iter()
         .map(|input| groups(input, runs, usize::MAX).len());
-    let product = sizes.fold(Some(1_usize), |product, size| product?.checked_mul(size));
+    let product = sizes.try_fold(1_usize, usize::checked_mul);
     if product != Some(runs.len()) {
         return false;
     }

@@ -111,15 +111,16 @@ struct Storey {
 
 impl Storey {
     /// The softest of the storeys below and above the floors that meet at a level, of the buildings that
-    /// have storey stiffnesses. Isolators are none: before they yield or slide they are as stiff as it happens.
+    /// have storey stiffnesses. A slab on isolators has none: before they yield or slide they are as stiff as it
+    /// happens, and moat walls that it meets are softer than floors.
     fn softest_beside(system: &System, level: &ContactLevel) -> Option<Self> {
         let floors = level.between.iter().filter_map(|f| system.storey_of(*f));
         let storeys = floors.filter_map(|(building, floor)| {
             let of = &system.buildings()[building];
-            let own = of.stiffness().iter().enumerate();
-            let own = own
-                .skip(floor.max(usize::from(of.isolator().is_some())))
-                .take(2);
+            if floor == 0 && of.isolator().is_some() {
+                return None;
+            }
+            let own = of.stiffness().iter().enumerate().skip(floor).take(2);
             let (storey, stiffness) = own.min_by(|a, b| a.1.total_cmp(b.1))?;
             Some(Self {
                 building,

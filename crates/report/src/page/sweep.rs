@@ -483,7 +483,7 @@ fn dependences(result: &ResultReader, found: &[(&str, Sensitivity)]) -> String {
     let headings = found.iter().map(|(heading, _)| *heading);
     let headings = std::iter::once("variable").chain(headings);
     let columns: Vec<Column> = headings.map(Column::new).collect();
-    table("What the peaks depend on", &columns, rows.into_iter())
+    table("What the peaks depend on", &columns, rows)
         + &note(&format!(
             "How much of the variance of the greatest value of a run each variable explains by itself (first-order sensitivity index): {how}. It holds for the ranges that varied here."
         ))

@@ -83,8 +83,8 @@ pub use shard_name::ShardName;
 pub use shown::case_of_run;
 #[cfg(feature = "results")]
 pub use study_file::{
-    DemandKind, HazardCurve, IdaSettings, IntensityMeasure, Limit, Spacing, Study, Value, Values,
-    Variable, hazard_schema, study_schema,
+    DemandKind, Distribution, HazardCurve, IdaSettings, IntensityMeasure, Limit, Spacing, Study,
+    Value, Values, Variable, hazard_schema, study_schema,
 };
 #[cfg(feature = "results")]
 pub use sweep::{

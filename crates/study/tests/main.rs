@@ -3,6 +3,7 @@
 mod comparison;
 mod gap_check;
 mod interruption;
+mod random_numbers;
 mod records;
 mod several_entries;
 mod studies;

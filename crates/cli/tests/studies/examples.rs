@@ -149,6 +149,63 @@ fn common_gap_of_the_row() {
     assert!((hardest / most(wide, "peak_force") - 1.0).abs() < 1e-5);
 }
 
+/// The headline of the uncertain pair. Runs in which a gap closes are those whose isolated demand, from runs without
+/// gaps, is wider than the gap; a run by itself has what the study has.
+#[test]
+fn uncertain_pair() {
+    let bench = Bench::new("");
+    let study = root().join("examples/sweep_three_storey_pair/uncertain.toml");
+    let study = study.display();
+    bench.text(&format!("sweep {study} -o out.h5 --csv out.csv"));
+    let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    assert_eq!(rows.len(), 2000);
+    let most = |row: &csv::StringRecord, quantity: &str| {
+        let of = header
+            .iter()
+            .zip(row)
+            .filter(|(h, _)| h.starts_with(quantity));
+        let values = of.map(|(_, x)| x.parse::<f64>().unwrap());
+        values.fold(f64::NEG_INFINITY, f64::max)
+    };
+    let closes = |row: &&csv::StringRecord| most(row, "impacts: ") > 0.0;
+    for row in &rows {
+        let demand = most(row, "isolated_demand: ");
+        assert_eq!(closes(&row), demand > most(row, "gap [m]"), "{row:?}");
+    }
+    assert_eq!(rows.iter().filter(closes).count(), 568);
+    let mut forces: Vec<f64> = rows
+        .iter()
+        .filter(closes)
+        .map(|row| most(row, "peak_force: "))
+        .collect();
+    forces.sort_by(f64::total_cmp);
+    let close = |x: f64, y: f64| assert!((x / y - 1.0).abs() < 2e-3, "{x} {y}");
+    close(0.5 * (forces[283] + forces[284]), 561.1e3);
+    let mut demands: Vec<f64> = rows
+        .iter()
+        .map(|row| most(row, "isolated_demand: "))
+        .collect();
+    demands.sort_by(f64::total_cmp);
+    let wider = demands.iter().filter(|x| **x > 0.119).count();
+    assert_eq!(wider, 940);
+    close(demands[1899], 0.1527);
+    let shown = bench.text(&format!("sweep {study} --show 4"));
+    let motions = root().join("ground_motions");
+    let shown = shown.replace("../../ground_motions", &motions.display().to_string());
+    std::fs::write(bench.path("alone.toml"), shown).unwrap();
+    let alone = bench.text("run alone.toml --no-output --json");
+    let alone: Value = serde_json::from_str(&alone).unwrap();
+    let storeys = alone["buildings"].as_array().unwrap().iter();
+    let storeys = storeys.flat_map(|b| b["storeys"].as_array().unwrap());
+    let peak = |storey: &Value| storey["displacement"]["peak"].as_f64().unwrap();
+    assert_eq!(
+        storeys.map(peak).fold(0.0, f64::max),
+        most(&rows[4], "peak_displacement: ")
+    );
+}
+
 /// Runs the example, with other widths of the gap if there are some, in a folder.
 fn fragility(folder: &std::path::Path, gaps: Option<String>) -> Value {
     let mut study = example("fragility_three_storey_pair");

@@ -30,6 +30,13 @@ pub enum Design {
         /// Seed.
         seed: u64,
     },
+    /// Random numbers that know nothing of one another, as a Monte Carlo simulation takes them.
+    MonteCarlo {
+        /// Number of runs: more of them leave the first as they are.
+        runs: usize,
+        /// Seed.
+        seed: u64,
+    },
     /// Sobol sequence with the direction numbers of Joe and Kuo (2008), SIAM J. Sci.
     /// Comput. 30, 2635; with a seed shifted by random digits, which keeps its evenness.
     Sobol {
@@ -59,9 +66,10 @@ impl Design {
     pub fn runs(&self) -> usize {
         match self {
             Self::Grid { sizes } => sizes.iter().product(),
-            Self::List { runs } | Self::LatinHypercube { runs, .. } | Self::Sobol { runs, .. } => {
-                *runs
-            }
+            Self::List { runs }
+            | Self::LatinHypercube { runs, .. }
+            | Self::MonteCarlo { runs, .. }
+            | Self::Sobol { runs, .. } => *runs,
         }
     }
 
@@ -84,24 +92,26 @@ impl Design {
                 values
             }
             Self::List { .. } => variables.iter().map(|v| v.values.at(run)).collect(),
-            Self::LatinHypercube { runs, seed } => {
-                let parts = (0..variables.len()).map(|d| {
-                    latin_hypercube::coordinate(run as u64, d as u64, *runs as u64, *seed)
-                });
-                variables
-                    .iter()
-                    .zip(parts)
-                    .map(|(v, p)| v.values.sample(p))
-                    .collect()
+            Self::LatinHypercube { runs, seed } => sampled(variables, |d| {
+                latin_hypercube::coordinate(run as u64, d as u64, *runs as u64, *seed)
+            }),
+            Self::MonteCarlo { seed, .. } => {
+                // Apart from the numbers of a Latin hypercube of the same seed.
+                sampled(variables, |d| {
+                    mixing::unit(&[*seed, d as u64, run as u64, 3])
+                })
             }
             Self::Sobol { seed, .. } => {
-                let parts = (0..variables.len()).map(|d| sobol::coordinate(run as u64, d, *seed));
-                variables
-                    .iter()
-                    .zip(parts)
-                    .map(|(v, p)| v.values.sample(p))
-                    .collect()
+                sampled(variables, |d| sobol::coordinate(run as u64, d, *seed))
             }
         }
     }
+}
+
+/// The values at these coordinates, 0 to 1, of every variable.
+fn sampled(variables: &[Variable], coordinate: impl Fn(usize) -> f64) -> Vec<Value> {
+    let numbered = variables.iter().enumerate();
+    numbered
+        .map(|(d, v)| v.values.sample(coordinate(d)))
+        .collect()
 }

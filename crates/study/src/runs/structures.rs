@@ -55,7 +55,7 @@ pub(super) fn warnings_of_structures(
     of_case.into_iter().chain(further).collect()
 }
 
-/// The least and the greatest of numbers; choices all, if they are not too many.
+/// The least and the greatest of numbers, of random ones but for a hundredth; choices all, if they are not too many.
 fn ends(values: &Values) -> Vec<Value> {
     match values {
         Values::Numbers(numbers) => {
@@ -66,6 +66,7 @@ fn ends(values: &Values) -> Vec<Value> {
             ends.into_iter().map(Value::Number).collect()
         }
         Values::Range { from, to, .. } => vec![Value::Number(*from), Value::Number(*to)],
+        Values::Random(_) => vec![values.sample(0.01), values.sample(0.99)],
         Values::Choices(names) => (0..names.len().min(MOST_CHOICES))
             .map(Value::Choice)
             .collect(),

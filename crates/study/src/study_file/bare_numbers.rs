@@ -33,6 +33,8 @@ fn greatest(values: &Values) -> Option<f64> {
     match values {
         Values::Numbers(numbers) => Some(numbers.iter().copied().fold(0.0, f64::max)),
         Values::Range { from, to, .. } => Some(from.max(*to)),
+        // More than that are one of a hundred.
+        Values::Random(distribution) => Some(distribution.quantile(0.99)),
         Values::Choices(_) => None,
     }
 }

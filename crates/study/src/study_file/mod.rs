@@ -3,6 +3,7 @@
 mod annual_frequency;
 mod bare_numbers;
 mod context;
+mod distribution;
 mod files;
 mod hazard_file;
 mod ida;
@@ -18,6 +19,7 @@ mod varied_entry;
 
 use std::path::{Path as FilePath, PathBuf};
 
+pub use distribution::Distribution;
 pub use hazard_file::hazard_schema;
 pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
 pub(crate) use ida::{POUNDING, pounding_at};

@@ -58,11 +58,11 @@ struct StudyFile {
 #[serde(rename = "[design]")]
 struct DesignTable {
     /// grid (default): every combination; list: the first values of all, then the second;
-    /// latin_hypercube or sobol: so many runs
+    /// latin_hypercube, sobol or monte_carlo: so many runs
     kind: Optional<Kind>,
-    /// Number of runs of latin_hypercube and sobol
+    /// Number of runs of latin_hypercube, sobol and monte_carlo
     runs: Optional<Whole<1, MOST_RUNS>>,
-    /// Seed of latin_hypercube, by default 1, and of the random shift of sobol
+    /// Seed of latin_hypercube and monte_carlo, by default 1, and of the random shift of sobol
     seed: Optional<Whole<0>>,
 }
 
@@ -77,6 +77,7 @@ enum Kind {
     List,
     LatinHypercube,
     Sobol,
+    MonteCarlo,
 }
 
 /// What is stored
@@ -270,7 +271,16 @@ impl StudyFile {
             counts,
         );
         let rows = match (whole, &design) {
-            (Some(read), Some(design)) => rows::taken(reader, context, (&read.variables, design)),
+            (Some(read), Some(design)) => {
+                let rows = rows::taken(reader, context, (&read.variables, design));
+                let runs = design.runs();
+                rows.and(rows::ends_taken(
+                    reader,
+                    context,
+                    (&read.variables, &tables),
+                    runs,
+                ))
+            }
             // What else is wrong comes first.
             _ => Some(()),
         };
@@ -547,6 +557,7 @@ fn design(
     }
     let name = match kind {
         Kind::Sobol => "sobol",
+        Kind::MonteCarlo => "monte_carlo",
         _ => "latin_hypercube",
     };
     for place in counts {
@@ -559,11 +570,29 @@ fn design(
     }
     let runs = table.runs.value()?.0;
     let seed = table.seed.stated()?.map(|seed| seed.value.0 as u64);
-    if kind == Kind::LatinHypercube {
-        let seed = seed.unwrap_or(1);
-        return Some(Design::LatinHypercube { runs, seed });
+    let seed_or_one = seed.unwrap_or(1);
+    match kind {
+        Kind::LatinHypercube => {
+            let seed = seed_or_one;
+            return Some(Design::LatinHypercube { runs, seed });
+        }
+        Kind::MonteCarlo => {
+            let seed = seed_or_one;
+            return Some(Design::MonteCarlo { runs, seed });
+        }
+        _ => {}
     }
-    match Design::sobol(runs, seed, variables?.0.len()) {
+    let variables = variables?.0;
+    if let Some(random) = variables.iter().find(|v| v.values.is_random())
+        && seed.is_none()
+    {
+        let message = format!(
+            "the first run of sobol without `seed` is at the least of all numbers, of which the distribution of \"{}\" has none",
+            random.name
+        );
+        return reader.refuse(place, message, "add `seed = 1` to [design]");
+    }
+    match Design::sobol(runs, seed, variables.len()) {
         Ok(design) => Some(design),
         Err(reason) => reader.refuse(place, reason, "use latin_hypercube"),
     }
@@ -577,6 +606,9 @@ fn grid(
 ) -> Option<Design> {
     let sizes = all(variables.iter().zip(tables).map(|(v, table)| {
         v.values.count().or_else(|| {
+            if v.values.is_random() {
+                return refuse_random(reader, table.clone(), v, "a grid");
+            }
             let message = format!(
                 "the range of \"{}\" has no `count`, which a grid needs",
                 v.name
@@ -598,7 +630,25 @@ fn grid(
     }
 }
 
+/// Refuses random numbers in a design that takes no samples.
+fn refuse_random<T>(
+    reader: &Reader<'_>,
+    place: Range<usize>,
+    variable: &Variable,
+    design: &str,
+) -> Option<T> {
+    let message = format!(
+        "\"{}\" has a `distribution`, of which {design} takes no samples",
+        variable.name
+    );
+    let help = "write [design] with kind = \"latin_hypercube\", or monte_carlo, and runs = ...";
+    reader.refuse(place, message, help)
+}
+
 fn list(reader: &Reader<'_>, place: Range<usize>, variables: &[Variable]) -> Option<Design> {
+    if let Some(random) = variables.iter().find(|v| v.values.is_random()) {
+        return refuse_random(reader, place, random, "a list");
+    }
     let mut counts = variables.iter().map(|v| (&v.name, v.values.count()));
     let first = counts.next().and_then(|(_, n)| n);
     match (first, counts.find(|(_, n)| *n != first)) {
@@ -651,6 +701,7 @@ fn each_once(
         Design::List { .. } => return Some(()),
         Design::LatinHypercube { .. } => "latin_hypercube",
         Design::Sobol { .. } => "sobol",
+        Design::MonteCarlo { .. } => "monte_carlo",
     };
     let message = format!(
         "an incremental dynamic analysis takes every record at every intensity, which {sampled} does not"
@@ -674,6 +725,9 @@ fn ida_variables(
             if let Values::Range { count: None, .. } = variable.values {
                 let message = "the range of intensities has no `count`";
                 return reader.refuse(place, message, "add `count = ...`");
+            }
+            if variable.values.is_random() {
+                return refuse_random(reader, place, variable, "an incremental dynamic analysis");
             }
             Some((record, intensity))
         }

@@ -1,12 +1,15 @@
-//! Rows of a list of which the case refuses a value alone, tried with all their values.
+//! Values that are tried in the case once all variables are known: rows of a list of which the case refuses a value
+//! alone, and random numbers as far from the middle as so many runs have them.
+
+use std::ops::Range;
 
 use pounding_assembly::{AssemblyError, assemble_with_record};
 use pounding_case::document::Reader;
 use pounding_case::{CaseError, CaseTree};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 
-use super::Variable;
 use super::context::{Base, Context};
+use super::{Value, Values, Variable};
 use crate::case_text::{Edit, Variant};
 use crate::design::Design;
 
@@ -68,4 +71,37 @@ pub(super) fn taken(
         }
     }
     Some(())
+}
+
+/// Whether the case takes random numbers of variables, whose tables stand at these places, that lie as far out as one
+/// of so many runs has them on the average.
+pub(super) fn ends_taken(
+    reader: &Reader<'_>,
+    context: &Context,
+    (variables, tables): (&[Variable], &[Range<usize>]),
+    runs: usize,
+) -> Option<()> {
+    let Base { case, .. } = context.base.as_ref()?;
+    let tree = CaseTree::parse(&case.source, &case.file).ok()?;
+    let part = 0.5 / runs as f64;
+    let mut sound = Some(());
+    for (variable, table) in variables.iter().zip(tables) {
+        let Values::Random(distribution) = &variable.values else {
+            continue;
+        };
+        for (probability, bound) in [(part, "lower"), (1.0 - part, "upper")] {
+            let x = distribution.quantile(probability);
+            let edits = variable.target.edits(&Value::Number(x));
+            if let Err(refused) = tried(&tree, &edits) {
+                let (message, _) = refused.said();
+                let message = format!(
+                    "the case refuses {}, which about one of {runs} runs has: {message}",
+                    variable.in_words(&Value::Number(x))
+                );
+                let help = format!("add `{bound} = ...` to the distribution, or correct it");
+                sound = reader.refuse(table.clone(), message, help);
+            }
+        }
+    }
+    sound
 }

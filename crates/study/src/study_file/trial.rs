@@ -56,7 +56,7 @@ impl Trial<'_> {
         let number = match values {
             Values::Range { count: Some(2), .. } => return Some(()),
             Values::Range { count: Some(_), .. } => values.at(1),
-            Values::Range { count: None, .. } => values.sample(0.4),
+            Values::Range { count: None, .. } | Values::Random(_) => values.sample(0.4),
             _ => return Some(()),
         };
         let Value::Number(x) = number else {
@@ -70,8 +70,12 @@ impl Trial<'_> {
             return Some(());
         }
         let Refusal { message, help, .. } = refusal;
+        let of = match values {
+            Values::Random(_) => "distribution",
+            _ => "range",
+        };
         let message = format!(
-            "the case refuses {x} of this range for {}: {message}",
+            "the case refuses {x} of this {of} for {}: {message}",
             self.paths
         );
         self.reader.refuse(place, message, help.unwrap_or_default())

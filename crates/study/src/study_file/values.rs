@@ -8,6 +8,8 @@ use pounding_case::{Dimension, Located};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error as _};
 
+use super::distribution::Distribution;
+
 /// How a range is divided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case", expecting = "a text in quotes")]
@@ -34,27 +36,37 @@ pub enum Values {
         /// Values in a grid, both ends included.
         count: Option<usize>,
     },
+    /// Random numbers (SI).
+    Random(Distribution),
     /// Names of choices that are no numbers.
     Choices(Vec<String>),
 }
 
 impl Values {
-    /// Number of values in a grid or a list; `None` for a range without a count.
+    /// Number of values in a grid or a list; `None` for a range without a count, and random numbers.
     #[must_use]
     pub fn count(&self) -> Option<usize> {
         match self {
             Self::Numbers(numbers) => Some(numbers.len()),
             Self::Choices(names) => Some(names.len()),
             Self::Range { count, .. } => *count,
+            Self::Random(_) => None,
         }
     }
 
-    /// Value number `index` of a grid or a list.
+    /// Whether they are random numbers.
+    #[must_use]
+    pub fn is_random(&self) -> bool {
+        matches!(self, Self::Random(_))
+    }
+
+    /// Value number `index` of a grid or a list; of random numbers, which neither has, the median.
     #[must_use]
     pub fn at(&self, index: usize) -> super::Value {
         match self {
             Self::Numbers(numbers) => super::Value::Number(numbers[index]),
             Self::Choices(_) => super::Value::Choice(index),
+            Self::Random(distribution) => super::Value::Number(distribution.quantile(0.5)),
             Self::Range {
                 from,
                 to,
@@ -78,13 +90,14 @@ impl Values {
     }
 
     /// Value at a part of the way, 0 to 1: of a range the place, of a list the entry in
-    /// whose equal share the part lies.
+    /// whose equal share the part lies, of random numbers what they stay below with this probability.
     #[must_use]
     pub fn sample(&self, part: f64) -> super::Value {
         let index = |count: usize| ((part * count as f64) as usize).min(count - 1);
         match self {
             Self::Numbers(numbers) => super::Value::Number(numbers[index(numbers.len())]),
             Self::Choices(names) => super::Value::Choice(index(names.len())),
+            Self::Random(distribution) => super::Value::Number(distribution.quantile(part)),
             Self::Range {
                 from, to, spacing, ..
             } => super::Value::Number(match spacing {
@@ -186,6 +199,17 @@ table_with_range! {
 }
 
 impl Numbers {
+    /// Its keys, those of a range behind that of a list, and where they are given.
+    pub(super) fn keys(&self) -> [Place<'static>; 5] {
+        [
+            ("values", self.values.span()),
+            ("from", self.from.span()),
+            ("to", self.to.span()),
+            ("count", self.count.span()),
+            ("spacing", self.spacing.span()),
+        ]
+    }
+
     /// The numbers of a table that is called so and stands here, and the places from which
     /// they were read.
     pub(super) fn read(
@@ -197,13 +221,9 @@ impl Numbers {
         let read = |key: &str, written: &Located<Written>| {
             reader.keep(&written.span, key, number(written.value.clone()))
         };
-        for (key, place) in [
-            ("from", self.from.span()),
-            ("to", self.to.span()),
-            ("count", self.count.span()),
-            ("spacing", self.spacing.span()),
-        ] {
-            not_both(reader, table, ("values", self.values.span()), (key, place))?;
+        let [values, of_range @ ..] = self.keys();
+        for key in of_range {
+            not_both(reader, table, values.clone(), key)?;
         }
         let Some(list) = self.values.stated() else {
             // Said before; the rest is looked at.
@@ -273,7 +293,7 @@ pub(super) fn lacks<T>(
 }
 
 /// A key and where its value stands, if it is given.
-type Place<'k> = (&'k str, Option<Range<usize>>);
+pub(super) type Place<'k> = (&'k str, Option<Range<usize>>);
 
 /// Refuses a table that has both keys, which exclude one another.
 pub(super) fn not_both(

@@ -3,8 +3,8 @@
 use std::ops::Range;
 
 use pounding_case::document::{
-    Amount, Entry, Field, FreeKeys, List, Number, OneOrEach, Optional, Positive, Reader, Scalar,
-    TableOr, Time, Written,
+    Amount, Entry, Fault, Field, FreeKeys, List, Number, OneOrEach, Optional, Positive, Reader,
+    Scalar, TableOr, Time, Written,
 };
 use pounding_case::{CaseTree, Dimension, Located};
 use pounding_catalogue::wording::one_line;
@@ -14,10 +14,11 @@ use serde::de::IgnoredAny;
 
 use super::bare_numbers;
 use super::context::{Base, Context};
+use super::distribution::DistributionTable;
 use super::intensity::{BelowOne, IntensityKeys, Measure};
 use super::records::{Record, SyntheticTable};
 use super::trial::{Trial, unit_of_numbers};
-use super::values::{Numbers, Spacing, Values, Whole, all, table_with_range, unit_of};
+use super::values::{Numbers, Spacing, Values, Whole, all, not_both, table_with_range, unit_of};
 use super::varied_entry::{VariedEntry, kept, varied_entries};
 use super::{IntensityMeasure, RecordSource, Target, Variable, records};
 use crate::case_text::{Path, of_impact_model, with_model};
@@ -38,6 +39,8 @@ table_with_range! {
         relative: Optional<bool>,
         /// Values: numbers, texts, or models with all their options
         values: Optional<Listed>,
+        /// Distribution of random numbers, of which latin_hypercube, sobol and monte_carlo take samples
+        distribution: Optional<DistributionTable>,
         /// Motions from files, relative to the folder of the study
         pub records: Optional<List<Record>>,
         /// Synthetic motions
@@ -139,6 +142,7 @@ impl VariableTable {
     fn refuse_others(&self, reader: &Reader<'_>, kind: &str) {
         let numbers = [
             ("values", self.values.span()),
+            ("distribution", self.distribution.span()),
             ("from", self.from.span()),
             ("to", self.to.span()),
             ("count", self.count.span()),
@@ -220,6 +224,8 @@ impl VariableTable {
         span: &Range<usize>,
         context: &Context,
     ) -> Option<Variable> {
+        let self_titled = self.long_name.is_none();
+        let distribution_place = self.distribution.span();
         let keys = IntensityKeys {
             intensity: self.intensity.take(),
             building: self.building.take(),
@@ -235,11 +241,18 @@ impl VariableTable {
             Some(measure) => written.above_zero(measure.dimension()),
             None => written.any().map(|quantity| quantity.value),
         };
-        let values = self
-            .numbers(reader)
-            .read(reader, (TABLE, span.clone()), &read);
+        let values = self.numbers(reader).read(reader, span, &read);
         let (name, long_name) = names?;
         let (values, places) = values?;
+        let long_name = with_distribution(long_name, self_titled, &values);
+        if let Values::Random(distribution) = &values
+            && distribution.quantile(0.0) <= 0.0
+        {
+            let message =
+                "intensities lie above zero, which not all numbers of this distribution do";
+            let help = "add `lower = ...`, or write kind = \"lognormal\"";
+            return reader.refuse(distribution_place?, message, help);
+        }
         let measure = measure?;
         let is_bare = places.iter().all(|written| written.value.is_plain());
         let asked = bare_numbers::of_intensities(&measure, &values).filter(|_| is_bare);
@@ -254,7 +267,7 @@ impl VariableTable {
     }
 
     /// What says which numbers it takes.
-    fn numbers(mut self, reader: &Reader<'_>) -> Numbers {
+    fn numbers(mut self, reader: &Reader<'_>) -> NumbersOrRandom {
         let number = |item: Field<_>| match item {
             Field::Given(Located { value, span }) => match value {
                 TableOr::Value(Scalar::Written(value)) => Field::Given(Located { value, span }),
@@ -277,7 +290,10 @@ impl VariableTable {
             Field::Wrong => Field::Wrong,
         };
         let values = self.values.take().map(numbers);
-        self.range_or(values)
+        NumbersOrRandom {
+            distribution: self.distribution.take(),
+            numbers: self.range_or(values),
+        }
     }
 
     fn of_path(
@@ -286,6 +302,7 @@ impl VariableTable {
         span: &Range<usize>,
         context: &Context,
     ) -> Option<Variable> {
+        let self_titled = self.long_name.is_none();
         let place = self.path.span().unwrap_or_else(|| span.clone());
         let relative = self.relative.clone().value_or(false)?;
         let paths = self.path.clone().value().and_then(|paths| {
@@ -342,9 +359,8 @@ impl VariableTable {
                     true => written.of(Dimension::NUMBER),
                     false => written.any().map(|quantity| quantity.value),
                 };
-                let sound = sound(&numbers);
-                let Some((values, places)) = numbers.read(reader, (TABLE, span.clone()), &number)
-                else {
+                let sound = sound(&numbers.numbers);
+                let Some((values, places)) = numbers.read(reader, span, &number) else {
                     // Beside wrong ones the case may refuse others.
                     tried.as_ref().and_then(|tried| tried.numbers(sound));
                     return None;
@@ -360,7 +376,7 @@ impl VariableTable {
         let (name, long_name) = names?;
         Some(Variable {
             name,
-            long_name,
+            long_name: with_distribution(long_name, self_titled, &values),
             unit,
             values,
             target,
@@ -371,6 +387,33 @@ impl VariableTable {
 
 /// The name of the table in messages.
 const TABLE: &str = "[[variable]]";
+
+/// What a variable says of its numbers.
+struct NumbersOrRandom {
+    distribution: Optional<DistributionTable>,
+    numbers: Numbers,
+}
+
+impl NumbersOrRandom {
+    /// The numbers, and the places from which they were read.
+    fn read(
+        self,
+        reader: &Reader<'_>,
+        span: &Range<usize>,
+        number: &dyn Fn(Written) -> Result<f64, Fault>,
+    ) -> Option<(Values, Vec<Located<Written>>)> {
+        let place = ("distribution", self.distribution.span());
+        let Some(distribution) = self.distribution.stated()? else {
+            return self.numbers.read(reader, (TABLE, span.clone()), number);
+        };
+        for other in self.numbers.keys() {
+            not_both(reader, TABLE, other, place.clone())?;
+        }
+        let Located { value, span } = distribution;
+        let (distribution, places) = value.read(reader, span, number)?;
+        Some((Values::Random(distribution), places))
+    }
+}
 
 fn path(reader: &Reader<'_>, text: &Located<String>) -> Option<Path> {
     let wrong = |reason| {
@@ -417,6 +460,14 @@ fn default_name(
 fn title(paths: &[(Path, Range<usize>)], relative: bool) -> String {
     let of = if relative { "multiple of " } else { "" };
     format!("{of}{}", listed(paths, |path| path.to_string()))
+}
+
+/// A title that is no person's, with the distribution of random numbers.
+fn with_distribution(title: String, self_titled: bool, values: &Values) -> String {
+    match values {
+        Values::Random(distribution) if self_titled => format!("{title}, {distribution}"),
+        _ => title,
+    }
 }
 
 /// Most paths that are listed.

@@ -127,7 +127,7 @@ class Result:
             above, below = (self.value(part, row) for part in source.split(" / "))
             return above / below if below else math.nan
         word, _, path = source.partition(" ")
-        if path and word in ("count", "known", "sum", "maximum", "minimum", "median"):
+        if path and word in ("count", "known", "sum", "maximum", "minimum", "median", "16%", "84%"):
             known = [x for x in self.values(path, row) if not math.isnan(x)]
             if word == "count":
                 return len(self.values(path, row))
@@ -138,10 +138,20 @@ class Result:
                 return len(known)
             if word == "median":
                 return statistics.median(known) if known else math.nan
+            if word.endswith("%"):
+                return fractile(sorted(known), int(word[:-1]) / 100)
             return {"maximum": max, "minimum": min}[word](known, default=math.nan)
         values = self.values(source, row)
         assert len(values) == 1, f"{source} {row}: {len(values)} numbers"
         return values[0]
+
+
+def fractile(values, part):
+    """A fractile of values in rising order, linear between them."""
+    if len(values) < 2:
+        return values[0] if values else math.nan
+    parts = statistics.quantiles(values, n=100, method="inclusive")
+    return parts[round(100 * part) - 1]
 
 
 def eval_sum(text):

@@ -178,7 +178,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         let touches = |row: &usize| impacts.iter().any(|c| runs.values[*c][*row] > 0.0);
         let closed = (0..result.rows).filter(touches).count();
         points.push(format!(
-            "In {}{} a gap closes, with up to {} at a level.",
+            "In {}{} a gap closes ({:.1}\u{a0}%), with up to {} at a level.",
             counted(closed, "run"),
             match ended {
                 0 => String::new(),
@@ -187,6 +187,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
                     result.rows - ended
                 ),
             },
+            100.0 * closed as f64 / (result.rows - ended) as f64,
             counted_impacts(greatest(runs, &impacts)),
         ));
     }
@@ -331,13 +332,15 @@ fn statistics(result: &ResultReader, runs: &Runs) -> String {
             let (factor, _) = unit_of(quantity.unit);
             let from = format!("{}[:,*]", quantity.name);
             let statistic = |word: &str| {
-                let from = format!("{word} {from}");
+                let from = format!("{} {from}", word.replace(' ', ""));
                 Column::of(word, from, factor).below(&head)
             };
             let columns_shown = [
                 Column::new(of),
                 statistic("minimum"),
+                statistic("16 %"),
                 statistic("median"),
+                statistic("84 %"),
                 statistic("maximum"),
                 Column::count_of("runs", format!("known {from}")).below(&head),
             ];
@@ -352,23 +355,28 @@ fn statistics(result: &ResultReader, runs: &Runs) -> String {
         out.push_str(&format!("<div class=\"tables\">\n{tables}</div>\n"));
     }
     let of_run = layout.quantities.iter().filter(|q| q.axis == Axis::Run);
-    let rows = of_run.filter_map(|quantity| {
-        let column = *columns(layout, quantity.name).first()?;
-        let head = quantity.long_name.to_owned() + &in_parentheses(quantity.unit);
-        let mut cells = vec![head];
-        cells.extend(cells_of(&runs.values[column], quantity));
-        Some(Row::new(quantity.name, cells))
-    });
+    let rows: Vec<Row> = of_run
+        .filter_map(|quantity| {
+            let column = *columns(layout, quantity.name).first()?;
+            let head = quantity.long_name.to_owned() + &in_parentheses(quantity.unit);
+            let mut cells = vec![head];
+            cells.extend(cells_of(&runs.values[column], quantity));
+            Some(Row::new(quantity.name, cells))
+        })
+        .collect();
     let mut columns_shown = vec![Column::new("of the run")];
-    for word in ["minimum", "median", "maximum"] {
-        columns_shown.push(Column::in_unit_of_row(word, format!("{word} *")));
+    for word in ["minimum", "16 %", "median", "84 %", "maximum"] {
+        let from = format!("{} *", word.replace(' ', ""));
+        columns_shown.push(Column::in_unit_of_row(word, from));
     }
     columns_shown.push(Column::count_of("runs", "known *"));
-    out.push_str(&table("Of the run", &columns_shown, rows));
+    if !rows.is_empty() {
+        out.push_str(&table("Of the run", &columns_shown, rows));
+    }
     let collapsed = match runs.collapsed.len() {
         0 => String::new(),
         n => format!(
-            " {} collapsed, of which only isolated demands and peaks are known: all other minima, medians and maxima are of the runs that stood.",
+            " {} collapsed, of which only isolated demands and peaks are known: all other numbers are of the runs that stood.",
             counted(n, "run")
         ),
     };
@@ -377,8 +385,8 @@ fn statistics(result: &ResultReader, runs: &Runs) -> String {
     ))
 }
 
-/// Minimum, median and maximum of a column, and how many runs have a value.
-fn cells_of(values: &[f64], quantity: &Quantity) -> [String; 4] {
+/// Minimum, fractiles and maximum of a column, and how many runs have a value.
+fn cells_of(values: &[f64], quantity: &Quantity) -> [String; 6] {
     let (factor, _) = unit_of(quantity.unit);
     // Demands of buildings that collapse by themselves are infinite, and so known.
     let mut known: Vec<f64> = values.iter().copied().filter(|x| !x.is_nan()).collect();
@@ -391,7 +399,9 @@ fn cells_of(values: &[f64], quantity: &Quantity) -> [String; 4] {
     };
     [
         shown(least),
+        shown(fractile(&known, 0.16)),
         shown(fractile(&known, 0.5)),
+        shown(fractile(&known, 0.84)),
         shown(most),
         known.len().to_string(),
     ]

@@ -7,8 +7,8 @@ mod words;
 
 use words::{
     BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS, COUNTS, DURATIONS,
-    FACTORS, FREQUENCIES, HERTZ, LAST_UNITS, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES,
-    RATES, STEPS, STEPS_BY_UNIT, UNITS,
+    FACTORS, FREQUENCIES, HEADINGS, HERTZ, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES,
+    PEAKS, QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS,
 };
 
 /// What stands under a key.
@@ -429,29 +429,33 @@ fn last_unit(plain: &str) -> Option<&str> {
     LAST_UNITS.contains(&last).then_some(last)
 }
 
-/// Whether a key is that of the count of all values: `npts`, `number of data points`.
+/// Whether a key is that of the count of all values: `npts`, `number of data points`, `numero de muestras`.
 fn is_count(key: &str) -> bool {
     if ends_in(key, "npts") {
         return true;
     }
     let mut words: Vec<&str> = key
-        .split([' ', '.', '_'])
+        .split([' ', '.', '_', '\''])
         .filter(|w| !w.is_empty())
         .collect();
     // `Total No. of Points`.
     if words.len() > 2 && words[0] == "total" {
         words.remove(0);
     }
-    if words
-        .first()
-        .is_some_and(|w| ["number", "no", "num", "nr"].contains(w))
-    {
-        words.remove(0);
+    let of_all = |words: &[&str]| {
         let of = words.iter().take_while(|w| OF_ALL.contains(w)).count();
-        words.drain(..of.min(words.len().saturating_sub(1)));
+        of.min(words.len().saturating_sub(1))
+    };
+    if words.first().is_some_and(|w| NUMBERS_OF.contains(w)) {
+        words.remove(0);
+        words.drain(..of_all(&words));
         return words.len() == 1 && COUNTS.contains(&words[0]);
     }
-    COUNTS.contains(&words.join(" ").as_str()) && key != "data" && key != "values"
+    // `Total de muestras`.
+    if words.first() == Some(&"de") {
+        words.remove(0);
+    }
+    COUNTS.contains(&words.join(" ").as_str()) && !HEADINGS.contains(&key)
 }
 
 /// Whether a text ends in a key as a word of its own.

@@ -305,14 +305,28 @@ pub(crate) fn step_or_rate(text: &str, bare: Bare) -> Result<Option<f64>, String
 
 /// The time steps (s) of the sampling rates in a text, with one unit of their last printed
 /// digit: `200 samples/sec`, `100 pts/sec`, `200 sps`; in a text on sampling `200 Hz` and
-/// `200/sec` as well.
+/// `200/sec` as well, unless the words before it are of a filter or an instrument.
 pub(crate) fn rates(text: &str) -> Vec<(f64, f64)> {
+    const OF_FILTERS: [&str; 9] = [
+        " filter",
+        "corner",
+        "cut",
+        "natural",
+        "pass",
+        "nyquist",
+        "alias",
+        "corte",
+        "bandwidth",
+    ];
     let lower = text.to_ascii_lowercase();
     let on_sampling = lower.contains("sampl");
     let number = |c: char| c.is_ascii_digit() || c == '.';
     let mut found = Vec::new();
     let mut rest = lower.as_str();
+    // What stands between the number before that has a unit and this one.
+    let mut words = " ".to_owned();
     while let Some(start) = rest.find(number) {
+        words.push_str(&rest[..start]);
         let end = rest[start..]
             .find(|c| !number(c))
             .map_or(rest.len(), |n| start + n);
@@ -329,7 +343,14 @@ pub(crate) fn rates(text: &str) -> Vec<(f64, f64)> {
                     .iter()
                     .any(|p| after.starts_with(p))
             });
-        let plain = on_sampling && (unit.starts_with("hz") || unit.starts_with("/s"));
+        let hertz = unit.starts_with("hz") || unit.starts_with("/s");
+        // `filtered, resampled at 200 Hz`.
+        let last = words.rfind("sampl").unwrap_or(0);
+        let of_filter = OF_FILTERS.iter().any(|word| words[last..].contains(word));
+        let plain = on_sampling && hertz && !of_filter;
+        if hertz || per {
+            words.clear();
+        }
         if !(per || plain || unit.starts_with("sps")) {
             continue;
         }

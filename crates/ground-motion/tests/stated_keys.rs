@@ -353,6 +353,14 @@ fn one_of_several_numbers() {
         ("Original sampling rate: 200 Hz", None),
         ("Frequency: 50 Hz notch", None),
         ("Filter: Butterworth, order 4, frequency = 40 Hz", None),
+        ("Sampling filter corner 80 Hz", None),
+        ("Low pass 40 Hz, sampling anti-alias 80 Hz", None),
+        ("Filtered 0.1-25 Hz, 200 Hz sampling", Some(0.005)),
+        ("Filtered and resampled at 200 Hz", Some(0.005)),
+        ("Unfiltered, 200 samples/sec", Some(0.005)),
+        ("Low-pass corner: 50 Hz", None),
+        ("Frecuencia de corte: 25 Hz", None),
+        ("Natural frequency 200 Hz", None),
     ] {
         let header = format!("{line}\nUnits: g");
         match step {
@@ -413,6 +421,37 @@ fn counts() {
         refused(&of(count), "41");
     }
     is_read(&of("count: 40"), 0.01, "g");
+    for (count, right) in [
+        ("Numero de muestras: 41", "Numero de muestras: 40"),
+        ("NUMERO DE DATOS : 41", "NUMERO DE DATOS : 40"),
+        ("N\u{fa}mero de puntos = 41", "N\u{fa}mero de puntos = 40"),
+        ("No. de puntos: 41", "No. de puntos: 40"),
+        ("Total de muestras: 41", "Total de muestras: 40"),
+        ("Cantidad de datos: 41", "Cantidad de datos: 40"),
+        ("N\u{fa}mero de amostras: 41", "N\u{fa}mero de amostras: 40"),
+        ("Numero di campioni: 41", "Numero di campioni: 40"),
+        ("numero dati: 41", "numero dati: 40"),
+        ("Nombre de points: 41", "Nombre de points: 40"),
+        (
+            "Nombre d'\u{e9}chantillons : 41",
+            "Nombre d'\u{e9}chantillons : 40",
+        ),
+        ("Anzahl der Werte: 41", "Anzahl der Werte: 40"),
+        ("Anzahl Messwerte: 41", "Anzahl Messwerte: 40"),
+        ("Veri say\u{131}s\u{131}: 41", "Veri say\u{131}s\u{131}: 40"),
+        ("Toplam veri sayisi = 41", "Toplam veri sayisi = 40"),
+    ] {
+        refused(&of(count), "41 samples, the series ends after 40");
+        is_read(&of(right), 0.01, "g");
+    }
+    for other in [
+        "Numero de datos por linea: 8",
+        "Numero de registro: 35",
+        "Anzahl Kan\u{e4}le: 3",
+        "Datos: 7",
+    ] {
+        is_read(&of(other), 0.01, "g");
+    }
     // Neither is a count of values.
     is_read(&of("channel count: 3"), 0.01, "g");
     is_read(&of("Record 12"), 0.01, "g");
@@ -430,6 +469,23 @@ fn peaks() {
         assert!(is_read(&of(peak), 0.01, "g").is_empty(), "{peak}");
     }
     refused(&of("PGA: 300 g"), "the header's peak is 300.00 g");
+    for peak in [
+        "Aceleracion maxima",
+        "Aceleraci\u{f3}n m\u{e1}xima",
+        "Acelera\u{e7}\u{e3}o m\u{e1}xima",
+        "Accelerazione massima",
+        "Acc\u{e9}l\u{e9}ration maximale",
+        "Maximale Beschleunigung",
+        "Maximalwert",
+        "En b\u{fc}y\u{fc}k ivme",
+    ] {
+        refused(&of(&format!("{peak}: 999 gal")), "the header's peak is");
+        refused(&of(&format!("{peak} (m/s2): 9.99")), "the header's peak is");
+        assert!(
+            is_read(&of(&format!("{peak}: 294.2 gal")), 0.01, "g").is_empty(),
+            "{peak}"
+        );
+    }
     refused(&of("Kobe, PGA: 0.8 g"), "the header's peak is 0.80000 g");
     // One of several columns.
     let table = "PGA: 0.3 g\ntime (s),NS (g),EW (g)\n0,0.1,0.0\n1,0.3,0.1\n2,0.0,-0.2\n3,0.1,0.1\n";

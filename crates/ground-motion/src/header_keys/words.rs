@@ -97,7 +97,7 @@ pub(super) const RATES: [&str; 29] = [
     "ornekleme hizi",
 ];
 /// Keys of a count.
-pub(super) const COUNTS: [&str; 11] = [
+pub(super) const COUNTS: [&str; 35] = [
     "npts",
     "count",
     "ndata",
@@ -109,9 +109,73 @@ pub(super) const COUNTS: [&str; 11] = [
     "data",
     "data points",
     "sample count",
+    // Spanish, Portuguese and Italian.
+    "muestras",
+    "datos",
+    "puntos",
+    "amostras",
+    "dados",
+    "pontos",
+    "campioni",
+    "dati",
+    "punti",
+    // French and German.
+    "echantillons",
+    "donnees",
+    "werte",
+    "punkte",
+    "datenpunkte",
+    "messwerte",
+    "abtastwerte",
+    // Turkish, whose word for a number stands behind.
+    "veri sayisi",
+    "nokta sayisi",
+    "ornek sayisi",
+    "toplam veri sayisi",
+    "toplam nokta sayisi",
+    "toplam veri",
+    "veri adedi",
+    "nokta adedi",
+];
+/// Keys of a count that alone are a heading.
+pub(super) const HEADINGS: [&str; 7] = [
+    "data", "values", "datos", "dados", "dati", "donnees", "werte",
+];
+/// Words before what is counted.
+pub(super) const NUMBERS_OF: [&str; 12] = [
+    "number",
+    "no",
+    "num",
+    "nr",
+    "n\u{b0}",
+    "n\u{ba}",
+    "numero",
+    "cantidad",
+    "quantidade",
+    "nombre",
+    "anzahl",
+    "zahl",
 ];
 /// Words between `number` and what is counted.
-pub(super) const OF_ALL: [&str; 7] = ["of", "the", "data", "total", "acceleration", "acc", "accel"];
+pub(super) const OF_ALL: [&str; 17] = [
+    "of",
+    "the",
+    "data",
+    "total",
+    "acceleration",
+    "acc",
+    "accel",
+    "de",
+    "del",
+    "los",
+    "las",
+    "dos",
+    "das",
+    "di",
+    "d",
+    "der",
+    "totale",
+];
 /// Keys of a rate, unless it is of something slow.
 pub(super) const FREQUENCIES: [&str; 5] = ["frequency", "freq", "frecuencia", "frequenza", "rate"];
 /// Keys of a length of the record.
@@ -124,7 +188,7 @@ pub(super) const DURATIONS: [&str; 6] = [
     "length of record",
 ];
 /// Keys of a largest acceleration.
-pub(super) const PEAKS: [&str; 12] = [
+pub(super) const PEAKS: [&str; 33] = [
     "amax",
     "acc max",
     "pga",
@@ -137,6 +201,32 @@ pub(super) const PEAKS: [&str; 12] = [
     "maximum acceleration",
     "maximum acc",
     "peak value",
+    // Spanish and Portuguese.
+    "aceleracion maxima",
+    "maxima aceleracion",
+    "aceleracion maxima del suelo",
+    "aceleracion pico",
+    "aceleracao maxima",
+    "aceleracao de pico",
+    "valor maximo",
+    // Italian.
+    "accelerazione massima",
+    "accelerazione di picco",
+    "valore massimo",
+    // French.
+    "acceleration maximale",
+    "acceleration maximum",
+    "acceleration max",
+    "valeur maximale",
+    // German.
+    "maximale beschleunigung",
+    "maximalbeschleunigung",
+    "spitzenbeschleunigung",
+    "maximalwert",
+    // Turkish.
+    "en buyuk ivme",
+    "maksimum ivme",
+    "pik ivme",
 ];
 /// Keys of what the values are.
 pub(super) const QUANTITIES: [&str; 7] = [

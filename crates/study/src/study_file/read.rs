@@ -630,6 +630,9 @@ fn grid(
     }
 }
 
+/// What takes every record at every intensity.
+const OF_IDA: &str = "an incremental dynamic analysis";
+
 /// Refuses random numbers in a design that takes no samples.
 fn refuse_random<T>(
     reader: &Reader<'_>,
@@ -641,7 +644,15 @@ fn refuse_random<T>(
         "\"{}\" has a `distribution`, of which {design} takes no samples",
         variable.name
     );
-    let help = "write [design] with kind = \"latin_hypercube\", or monte_carlo, and runs = ...";
+    let values = "write `values`, or `from`, `to` and `count`, in its place";
+    let help = match design {
+        OF_IDA => values.to_owned(),
+        _ => {
+            format!(
+                "write [design] with kind = \"latin_hypercube\", or monte_carlo, and runs = ...; or {values}"
+            )
+        }
+    };
     reader.refuse(place, message, help)
 }
 
@@ -727,7 +738,7 @@ fn ida_variables(
                 return reader.refuse(place, message, "add `count = ...`");
             }
             if variable.values.is_random() {
-                return refuse_random(reader, place, variable, "an incremental dynamic analysis");
+                return refuse_random(reader, place, variable, OF_IDA);
             }
             Some((record, intensity))
         }

@@ -93,12 +93,15 @@ pub(super) fn ends_taken(
             let x = distribution.quantile(probability);
             let edits = variable.target.edits(&Value::Number(x));
             if let Err(refused) = tried(&tree, &edits) {
-                let (message, _) = refused.said();
+                let (message, of_case) = refused.said();
                 let message = format!(
                     "the case refuses {}, which about one of {runs} runs has: {message}",
                     variable.in_words(&Value::Number(x))
                 );
-                let help = format!("add `{bound} = ...` to the distribution, or correct it");
+                let of_case =
+                    of_case.map_or_else(String::new, |help| format!("; of the case: {help}"));
+                let help =
+                    format!("add `{bound} = ...` to the distribution, or correct it{of_case}");
                 sound = reader.refuse(table.clone(), message, help);
             }
         }

@@ -330,7 +330,7 @@ impl Stated {
                     }
                     let time = entry.time().map(|(time, digits)| (time, printed(digits)));
                     // Without a unit it may be of anything that the line names.
-                    if stated.is_none() && count.is_none() && !is_of_the_values(lower) {
+                    if stated.is_none() && count.is_none() && !is_of_the_values(lower, entry.key) {
                         continue;
                     }
                     let value = Peak {
@@ -707,16 +707,33 @@ fn without_cells(lower: String) -> String {
     joined.replace('"', " ")
 }
 
-/// Whether a line begins with a peak, and names nothing but the values of which it may be: no other quantity, no
-/// other stage of the processing.
-fn is_of_the_values(lower: &str) -> bool {
-    const OTHERS: [&str; 10] = [
-        "veloc", "displ", "spectr", "response", "psa", "normal", "raw", "uncorr", "vert", "damp",
+/// Whether a line begins with a peak under this key, and names nothing but the values of which it may be: no other
+/// quantity, no other stage of the processing.
+fn is_of_the_values(lower: &str, key: &str) -> bool {
+    const OTHERS: [&str; 16] = [
+        "veloc",
+        "displ",
+        "spectr",
+        "response",
+        "psa",
+        "normal",
+        "raw",
+        "uncorr",
+        "vert",
+        "damp",
+        "vitesse",
+        "geschwindigk",
+        "desplaz",
+        "deslocam",
+        "spostam",
+        "verschieb",
     ];
     let begins = lower.trim_start_matches(|c: char| !c.is_alphabetic());
     // Of two peaks in a line one may be that of another component.
     let once = |word: &&str| begins.starts_with(*word) && begins.matches(*word).count() == 1;
-    ["peak", "max", "amax", "pga", "largest"].iter().any(once)
+    ["peak", "max", "amax", "pga", "largest", key]
+        .iter()
+        .any(once)
         && !OTHERS.iter().any(|word| lower.contains(word))
 }
 

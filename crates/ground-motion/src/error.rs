@@ -292,7 +292,7 @@ impl GroundMotionError {
             Self::Binary { .. } => "the file is damaged or truncated: get it again".to_owned(),
             Self::UnknownFormat { .. } => {
                 format!(
-                    "known formats: {}; for columns of numbers give `format = \"plain_columns\"`, `unit` and `time_step`",
+                    "known formats: {}; for columns of numbers give `format = \"plain_columns\"`, `unit` and `time_step`, and for rows that begin with text `skip_columns`, the characters of each to pass over",
                     Format::names()
                 )
             }

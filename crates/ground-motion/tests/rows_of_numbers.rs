@@ -125,6 +125,27 @@ fn components_without_times_are_not_one_series() {
             .len(),
         30
     );
+    // A title of one acceleration says no more; a count of samples does.
+    let title = "Acceleration (cm/s2)\ndt = 0.02 s\n";
+    for width in [2, 3] {
+        let text = |count: &str| title.to_owned() + count + &rows(width, 30);
+        let without_unit = ReadOptions::default();
+        let read = |count: &str| read_bytes("f", text(count).as_bytes(), &without_unit);
+        let asked = read("").unwrap_err();
+        let place = format!("f:3:1: rows of {width} values");
+        assert!(asked.to_string().starts_with(&place), "{asked}");
+        let asked = read("Samples: 30\n").unwrap_err();
+        let told = "as many rows as the header counts samples";
+        assert!(asked.to_string().contains(told), "{asked}");
+        let along = read(&format!("Samples: {}\n", 30 * width)).unwrap();
+        assert_eq!(along.samples().len(), 30 * width);
+        let headless = format!("Samples: {}\n{}", 30 * width, rows(width, 30));
+        let along = read_bytes("f", headless.as_bytes(), &options(None, Some(0.02))).unwrap();
+        assert_eq!(along.samples().len(), 30 * width);
+    }
+    let padded = format!("{title}Samples: 88\n{}0.1 0 0\n", rows(3, 29));
+    let along = read_bytes("f", padded.as_bytes(), &ReadOptions::default()).unwrap();
+    assert_eq!(along.samples().len(), 88);
     // What agencies wrap.
     for width in [4, 5, 6, 8, 10] {
         let text = "Imperial Valley 1940 El Centro NS component corrected by USGS\n".to_owned()

@@ -861,3 +861,87 @@ fn columns_of_something_else() {
         assert!(read_with(&text, &ReadOptions::default()).is_ok(), "{title}");
     }
 }
+
+/// A Fortran format in brackets is no unit, and hides none.
+#[test]
+fn formats_are_no_units() {
+    for header in [
+        "Acceleration (cm/s2) (8F9.6)\ndt: 0.01",
+        "Acceleration in gal (5E14.7)\ndt: 0.01",
+        "Acceleration data, format (1P5E14.6), in cm/s2\ndt: 0.01",
+        "(8F9.6)\ndt: 0.01\nunits: gal",
+    ] {
+        is_read(header, 0.01, "cm/s2");
+    }
+    refused("Acceleration (8F9.6)\ndt: 0.01", "does not state the unit");
+}
+
+/// A value of something else hides neither what is stated nor what is missing.
+#[test]
+fn values_of_something_else_are_no_columns() {
+    for line in ["Altitude (m) : 130", "Depth (km) : 12", "Vs30 (m/s) = 350"] {
+        let header = format!("Acceleration (cm/s2)\n{line}");
+        refused(&header, "does not state its time step");
+        is_read(&format!("{header}\ndt: 0.01"), 0.01, "cm/s2");
+    }
+}
+
+/// Names of several words between blanks end where their unit does.
+#[test]
+fn names_of_several_words_between_blanks() {
+    for (header, names) in [
+        (
+            "Time (s)  Roof acc (g)  Base acc (g)",
+            ["Roof acc", "Base acc"],
+        ),
+        ("Time (s) Acc X (g) Acc Y (g)", ["Acc X", "Acc Y"]),
+        (
+            "# Time [s] Free field acc [g] Base acc [g]",
+            ["Free field acc", "Base acc"],
+        ),
+        (
+            "time (s)\tRoof acc (g)\tBase acc (g)",
+            ["Roof acc", "Base acc"],
+        ),
+    ] {
+        let series = read_with(&table(header, 2, " "), &ReadOptions::default());
+        let series = series.unwrap_or_else(|e| panic!("{header}: {e}"));
+        let found: Vec<&str> = series.iter().map(|s| s.component.as_str()).collect();
+        assert_eq!(found, names, "{header}");
+        assert!(
+            series
+                .iter()
+                .all(|s| s.unit == "g" && s.samples.len() == 40)
+        );
+    }
+    let chosen = ReadOptions {
+        component: Some("Base acc".to_owned()),
+        ..ReadOptions::default()
+    };
+    let text = table("Time (s)  Roof acc (g)  Base acc (g)", 2, " ");
+    let record = pounding_ground_motion::read_bytes("f", text.as_bytes(), &chosen).unwrap();
+    // The second column of the table begins with 0.3 sin 0.5.
+    assert!((record.samples()[0] - 0.1438 * 9.80665).abs() < 1e-9);
+}
+
+/// Ordinates of spectra in one component or at a damping are none of a motion.
+#[test]
+fn ordinates_of_one_component() {
+    for (header, columns, separator) in [
+        ("PSA_5pct_g", 0, ","),
+        ("Sa_NS_g Sa_EW_g", 1, " "),
+        ("T (s),Sa_X_g", 1, ","),
+        ("T,Sd_NS_ft", 1, ","),
+        ("time,PSA_5%_g", 1, ","),
+        ("Sa_X_ft_s2 Sd_X_ft", 1, " "),
+    ] {
+        let text = table(header, columns, separator);
+        let given = ReadOptions {
+            unit: Some(AccelerationUnit::StandardGravity),
+            time_step: Some(0.01),
+            ..ReadOptions::default()
+        };
+        let said = read_with(&text, &given).unwrap_err().to_string();
+        assert!(said.contains("that of a spectrum"), "{header}: {said}");
+    }
+}

@@ -8,6 +8,7 @@ use super::names::{
 };
 use super::{OTHERS, stated};
 use crate::error::GroundMotionError;
+use crate::header_keys::{Entry, keyed};
 use crate::quantity::{Quantity, SeriesUnit, is_of_no_record};
 use crate::source::Source;
 use crate::text::Line;
@@ -195,10 +196,33 @@ impl Cells {
     /// The header of rows like the first one: every cell names a column, or one is that of times,
     /// and the names need no units.
     pub(super) fn header_of(&self, row: &Line<'_>) -> Option<Header> {
+        if let Some(names) = self.up_to_brackets().filter(|names| names.fits(row))
+            && !self.fits(row)
+        {
+            return names.header_of(row);
+        }
         self.parse().or_else(|| self.beside_times(row)).or_else(|| {
             self.with_units_apart()
                 .filter(|both| both.fits(row))?
                 .header_of(row)
+        })
+    }
+
+    /// The same between blanks, where names have several words and each ends in brackets: `Time (s) Roof acc (g)`.
+    fn up_to_brackets(&self) -> Option<Self> {
+        let ends = |word: &str| word.ends_with([')', ']']);
+        let is_key = self.text.contains([':', '=']);
+        let last = self.names.last();
+        if self.separator.is_some() || is_key || !last.is_some_and(|last| ends(last)) {
+            return None;
+        }
+        let names = self.names.split_inclusive(|name| ends(name));
+        let names: Vec<String> = names.map(|words| words.join(" ")).collect();
+        (names.len() < self.names.len()).then(|| Self {
+            line: self.line,
+            text: self.text.clone(),
+            names,
+            separator: None,
         })
     }
 
@@ -344,8 +368,15 @@ impl Cells {
     /// Whether the line states something under a key, and names no acceleration beside it.
     pub(super) fn is_key(&self) -> bool {
         let accelerates = |name: &String| matches!(role(name), Some(Role::Acceleration(..)));
-        stated::has_unit(&self.text)
-            || stated::has_number(&self.text) && !self.names.iter().any(accelerates)
+        // `Altitude (m) : 130`, whatever it is of.
+        let is_parted = self.separator.is_none() && self.text.contains([':', '=']);
+        let has_value = || {
+            keyed(&self.text.to_lowercase())
+                .iter()
+                .any(Entry::has_number)
+        };
+        let has_number = stated::has_number(&self.text) || is_parted && has_value();
+        stated::has_unit(&self.text) || has_number && !self.names.iter().any(accelerates)
     }
 
     /// Whether the cells name the columns of rows without saying that one has the times: `NS EW

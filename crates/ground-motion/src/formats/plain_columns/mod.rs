@@ -447,7 +447,7 @@ fn numbers(
     if let Some(below) = survey.head_of_columns(source, 2)? {
         return below_head(source, header, said, below);
     }
-    match survey.arrangement(source)? {
+    match survey.arrangement(source, &said.stated.counted())? {
         Arrangement::Wrapped => {
             let step = source.options.time_step.or(said.stated.first_step());
             survey.starts_as_samples(source, step)?;
@@ -547,8 +547,10 @@ fn headed(
     }
     if let ([name], [Role::Acceleration(..)]) = (columns.names.as_slice(), &*header.columns) {
         // A title with the unit above columns that are told apart by their numbers.
+        let counted = said.stated.counted();
         if survey.width() > 1
-            && let Ok(Arrangement::Columns(names)) = Survey::new(source, false)?.arrangement(source)
+            && let Ok(Arrangement::Columns(names)) =
+                Survey::new(source, false)?.arrangement(source, &counted)
         {
             let mut below = Columns::new(names, None);
             below.declared = false;
@@ -558,6 +560,7 @@ fn headed(
         }
         // Values may follow one another along the rows.
         survey.regular(source, None)?;
+        survey.is_one_series(source, &counted)?;
         let samples = along(source, survey, 0)?;
         without_times(source, survey.first, &samples, survey.width())?;
         let mut draft = said.draft(samples, columns.units[0], survey);

@@ -316,8 +316,11 @@ pub(super) fn is_spectral(cell: &str) -> bool {
     let name = cell.split(['(', '[']).next().unwrap_or(cell);
     let known = plain(&name.replace('-', " "));
     let words: Vec<&str> = known.split(' ').collect();
-    let is_unit =
-        |unit: &str| motion_unit(unit).is_some() || time_unit(unit).is_some() || unit == "hz";
+    let is_unit = |unit: &str| {
+        motion_unit(unit).is_some()
+            || time_unit(unit).is_some()
+            || ["hz", "ft", "in"].contains(&unit)
+    };
     let named = |count: usize| SPECTRAL.contains(&words[..count].join(" ").as_str());
     let with_unit = |count: usize| named(count) && is_unit(&words[count..].join("_"));
     let starts = ["spectral", "pseudo", "rotd", "fourier", "gmrot"];
@@ -336,8 +339,24 @@ pub(super) fn is_spectral(cell: &str) -> bool {
         let digits = behind.bytes().take_while(u8::is_ascii_digit).count();
         digits > 0 && !behind[digits..].starts_with(char::is_alphanumeric)
     });
+    // `Sa_X_ft_s2`, `PSA_5pct_g`: of a component or a damping.
+    let of_one = |words: &[&str]| match words {
+        [name, of, unit @ ..] => {
+            let ordinate = ["sa", "spa", "psa", "sv", "psv", "sd"].contains(name);
+            let percent = of.trim_start_matches(|c: char| c.is_ascii_digit());
+            let damping =
+                percent.len() < of.len() && ["", "%", "pct", "percent"].contains(&percent);
+            ordinate
+                && (damping
+                    || is_component(of)
+                    || ["x", "y", "z", "n", "e", "u", "h", "v"].contains(of))
+                && (unit.is_empty() || is_unit(&unit.join("_")))
+        }
+        _ => false,
+    };
     named(words.len())
         || of_damping
+        || of_one(&words)
         || (1..words.len()).any(with_unit)
         || starts.iter().any(|start| known.starts_with(start))
             && (words.len() == 1 || motions.iter().any(|motion| words.contains(motion)))

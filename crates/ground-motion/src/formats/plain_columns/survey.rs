@@ -127,10 +127,11 @@ impl Survey {
         self.last_length = length;
     }
 
-    /// Finds the arrangement from the numbers.
+    /// Finds the arrangement from the numbers, and from counts of samples that lines before them state.
     pub(super) fn arrangement(
         &self,
         source: &Source<'_>,
+        counts_stated: &[usize],
     ) -> Result<Arrangement, GroundMotionError> {
         if let Some(head) = self.head(source, false)? {
             return Ok(Arrangement::Headed(head));
@@ -207,7 +208,7 @@ impl Survey {
         }
         match (times.as_slice(), last_counts) {
             ([], true) => Ok(Arrangement::Cards),
-            ([], false) => self.components(source, width),
+            ([], false) => self.components(source, width, counts_stated),
             ([k], false) => Ok(Arrangement::Columns(named(width, *k, &[]))),
             ([k, ..], _) => Err(source.error(
                 self.first,
@@ -336,6 +337,7 @@ impl Survey {
         &self,
         source: &Source<'_>,
         width: usize,
+        counts_stated: &[usize],
     ) -> Result<Arrangement, GroundMotionError> {
         if self.rows >= INCREASING_ROWS {
             for k in 0..width.min(TIME_AMONG) {
@@ -346,21 +348,51 @@ impl Survey {
         let named = rows(source)
             .next()
             .and_then(|row| names.last().filter(|names| names.names_columns(&row)));
-        let many = COMPONENTS.contains(&width) && self.rows > EVEN_ROWS;
-        if !(named.is_some() || many) {
-            return Ok(Arrangement::Wrapped);
+        if let Some(names) = named {
+            let own = format!("`layout = \"{}\"`, or ", names.as_layout());
+            return Err(self.asks(source, width, "", &own));
         }
-        let own = named.map_or(String::new(), |names| {
-            format!("`layout = \"{}\"`, or ", names.as_layout())
-        });
-        Err(source.error(
+        self.is_one_series(source, counts_stated)?;
+        Ok(Arrangement::Wrapped)
+    }
+
+    /// Refuses rows of two or three values, which may be as many components, unless a count of samples says that
+    /// they are one series along the rows.
+    pub(super) fn is_one_series(
+        &self,
+        source: &Source<'_>,
+        counts_stated: &[usize],
+    ) -> Result<(), GroundMotionError> {
+        let width = self.second_length;
+        let many = COMPONENTS.contains(&width) && self.rows > EVEN_ROWS;
+        // Zeros may fill the last row.
+        let all = self.numbers + 1 - width.min(self.numbers)..=self.numbers;
+        if !many || counts_stated.iter().any(|count| all.contains(count)) {
+            return Ok(());
+        }
+        let counted = match counts_stated.contains(&self.rows) {
+            true => "; as many rows as the header counts samples are those of components",
+            false => "",
+        };
+        Err(self.asks(source, width, counted, ""))
+    }
+
+    /// The question what the values of a row are.
+    fn asks(
+        &self,
+        source: &Source<'_>,
+        width: usize,
+        counted: &str,
+        own: &str,
+    ) -> GroundMotionError {
+        source.error(
             self.first,
             0,
             format!(
-                "rows of {width} values, of which none is a time: {width} components beside one another, or one series along the rows?"
+                "rows of {width} values, of which none is a time: {width} components beside one another, or one series along the rows{counted}?"
             ),
             &format!("give {own}`layout` with a name for each column, such as \"ns,ew\" or \"ns,ew,ud\" (`-` passes one over), and choose one by `component`; or \"a\" if the values follow one another along the rows"),
-        ))
+        )
     }
 
     /// Refuses a column (from 0) whose values increase as times do, but for a few.

@@ -110,6 +110,9 @@ fn bounds_hold_and_runs_are_shown_as_they_are() {
         "kind = \"monte_carlo\"\nruns = 2000",
     )
     .unwrap();
+    // The first point of the sequence is the least number.
+    let sobol = parsed(place.path(), &[bounded], "kind = \"sobol\"\nruns = 8").unwrap();
+    assert_eq!(numbers(&sobol, 0)[0], 0.025);
     let all = numbers(&study, 0);
     assert!(all.iter().all(|x| (0.025..=0.031).contains(x)));
     assert!(all.iter().any(|x| *x < 0.0255) && all.iter().any(|x| *x > 0.0309));

@@ -39,6 +39,12 @@ enum Family {
 const LEAST_PROBABILITY: f64 = f64::EPSILON / 8.0;
 
 impl Distribution {
+    /// The least number, if there is one.
+    #[must_use]
+    pub fn lower(&self) -> Option<f64> {
+        self.lower
+    }
+
     /// The number that it stays below with this probability, a decimal number of 12 digits, so that a file that
     /// holds it is read back as the same number, and libraries that differ in the last bit give the same.
     ///

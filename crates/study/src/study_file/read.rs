@@ -583,14 +583,22 @@ fn design(
         _ => {}
     }
     let variables = variables?.0;
-    if let Some(random) = variables.iter().find(|v| v.values.is_random())
+    let has_no_least = |v: &&Variable| match &v.values {
+        Values::Random(distribution) => distribution.lower().is_none(),
+        _ => false,
+    };
+    if let Some(random) = variables.iter().find(has_no_least)
         && seed.is_none()
     {
         let message = format!(
             "the first run of sobol without `seed` is at the least of all numbers, of which the distribution of \"{}\" has none",
             random.name
         );
-        return reader.refuse(place, message, "add `seed = 1` to [design]");
+        return reader.refuse(
+            place,
+            message,
+            "add `seed = 1` to [design], or `lower = ...` to the distribution",
+        );
     }
     match Design::sobol(runs, seed, variables.len()) {
         Ok(design) => Some(design),

@@ -237,6 +237,23 @@ fn scales_are_moved() {
     assert!(control["value"].as_str().unwrap().contains("spectrum"));
 }
 
+/// Another model in the place of one with parameters for each level is said to have one law at all levels.
+#[test]
+fn models_of_gaps_with_a_law_for_each_level() {
+    let calibrate = json!({ "do": "calibrate", "changes": [], "gap": 0, "model": "hertz_1882" });
+    let levels = pair("31 s").replacen("restitution = 0.65", "restitution = [0.65, 0.6, 0.5]", 1);
+    assert!(levels.contains("[0.65, 0.6, 0.5]"));
+    let open = json!({ "do": "open", "name": "case.toml", "$text": levels });
+    let answers = natively(&of_the_pair(vec![calibrate.clone(), open, calibrate]));
+    let notes = |i: usize| answers[i]["notes"].to_string();
+    assert!(
+        !notes(2).contains("parameters of their own"),
+        "{}",
+        notes(2)
+    );
+    assert!(notes(4).contains("parameters of their own"), "{}", notes(4));
+}
+
 /// A model can be chosen where a building collapses without contact: there is nothing to be like. Such a
 /// case is sound, and so is one of more steps than a page takes.
 #[test]

@@ -1,10 +1,14 @@
 //! On which variables the values of runs hang: the parts of their variance that each explains by itself.
 
-/// Runs that are needed at least.
-const LEAST_RUNS: usize = 20;
-/// Runs in a part of the range of a variable, and most parts: fewer would be chance.
-const RUNS_OF_PART: usize = 20;
-const MOST_PARTS: usize = 24;
+use pounding_ground_motion::distributions::beta_quantile;
+
+/// Runs that estimates need at least.
+const LEAST_RUNS: usize = 40;
+/// Runs for each piece of a mean over a variable, and most pieces.
+const RUNS_OF_PIECE: usize = 15;
+const MOST_PIECES: usize = 12;
+/// Probability with which chance explains less than what is said of it.
+const BY_CHANCE: f64 = 0.95;
 
 /// What a variable was in every run.
 #[derive(Debug, Clone, Copy)]
@@ -22,16 +26,20 @@ pub struct Sensitivity {
     /// The part (-) of the variance that each input explains by itself; NaN for one that has a single value, and
     /// where it has about as many as there are runs.
     pub first_order: Vec<f64>,
-    /// The part (-) that none explains by itself, of runs that are all combinations of their inputs.
+    /// What chance alone explains of an estimate at most, with a probability of 95 %; zero where nothing is estimated.
+    pub by_chance: Vec<f64>,
+    /// Whether runs are all combinations of their inputs.
+    pub is_grid: bool,
+    /// The part (-) that none explains by itself, where runs are all combinations and all have a value.
     pub combinations: Option<f64>,
 }
 
-/// The sensitivity of values to inputs; values that are not finite are left out. `None` for fewer than 20 others,
-/// for values that are all one, and for a single input, which explains all.
+/// The sensitivity of values to inputs; values that are not finite are left out. `None` for fewer than 40 others that
+/// are not all combinations, for values that are all one, and for a single input, which explains all.
 ///
-/// Runs of all combinations give the indices of their inputs exactly. Those of samples are estimated from the
-/// means in parts of equal count of each range, less what chance alone puts between them (Kelley, Proc. Natl.
-/// Acad. Sci. 21 (1935) 554).
+/// Runs of all combinations give the indices of their inputs exactly. Those of samples are estimated from a mean that
+/// is linear between quantiles of the input (of an input of few values, from the mean of each), less what chance alone
+/// explains (Ezekiel, J. Am. Stat. Assoc. 24 (1929) 99; Kelley, Proc. Natl. Acad. Sci. 21 (1935) 554).
 #[must_use]
 pub fn sensitivity(values: &[f64], inputs: &[Input<'_>]) -> Option<Sensitivity> {
     let known: Vec<usize> = (0..values.len())
@@ -46,83 +54,157 @@ pub fn sensitivity(values: &[f64], inputs: &[Input<'_>]) -> Option<Sensitivity> 
     let all: f64 = known.iter().map(|i| square(values[*i])).sum();
     let varying = inputs
         .iter()
-        .filter(|input| groups(input, &known, usize::MAX).len() > 1);
+        .filter(|input| groups(input, &known).len() > 1);
     // Less than round-off is no variance.
     let is_one = (all / count).sqrt() <= 1.0e-12 * size;
-    if known.len() < LEAST_RUNS || is_one || varying.count() < 2 {
+    let rows: Vec<usize> = (0..values.len()).collect();
+    let is_grid = is_grid(inputs, &rows);
+    if !is_grid && known.len() < LEAST_RUNS || is_one || varying.count() < 2 {
         return None;
     }
-    let is_grid = known.len() == values.len() && is_grid(inputs, &known);
-    let parts = match is_grid {
-        true => usize::MAX,
-        false => (known.len() / RUNS_OF_PART).clamp(2, MOST_PARTS),
-    };
-    let first_order = inputs.iter().map(|input| {
-        let groups = groups(input, &known, parts);
-        if groups.len() < 2 || (!is_grid && 2 * groups.len() > known.len()) {
-            return f64::NAN;
+    let pieces = (known.len() / RUNS_OF_PIECE).clamp(2, MOST_PIECES);
+    let explained = inputs.iter().map(|input| {
+        let groups = groups(input, &known);
+        let few = is_grid || input.are_choices || groups.len() <= pieces + 1;
+        let (rest, parameters) = match few {
+            true => (within_groups(values, &groups), groups.len()),
+            false => beside_pieces(values, input.values, &groups, pieces),
+        };
+        if groups.len() < 2 || !is_grid && 2 * parameters > known.len() {
+            return (f64::NAN, 0.0);
         }
-        let between = groups.iter().map(|rows| {
-            let count = rows.len() as f64;
-            let of_group = rows.iter().map(|i| values[*i]).sum::<f64>() / count;
-            count * square(of_group)
-        });
-        let between: f64 = between.sum();
         if is_grid {
-            return between / all;
+            // What the other inputs do is the same in every group.
+            return ((1.0 - rest / all).max(0.0), 0.0);
         }
-        let free = (groups.len() - 1) as f64;
-        let within = (all - between) / (count - groups.len() as f64);
-        ((between - free * within) / all).max(0.0)
+        let free = count - parameters as f64;
+        let corrected = |rest: f64| (1.0 - rest * (count - 1.0) / free).max(0.0);
+        let parts = [0.5 * (parameters as f64 - 1.0), 0.5 * free];
+        let chance = corrected(1.0 - beta_quantile(parts[0], parts[1], BY_CHANCE));
+        (corrected(rest / all), chance)
     });
-    let first_order: Vec<f64> = first_order.collect();
+    let (first_order, by_chance): (Vec<f64>, Vec<f64>) = explained.unzip();
     let explained: f64 = first_order.iter().filter(|part| part.is_finite()).sum();
+    let is_whole = is_grid && known.len() == values.len();
     Some(Sensitivity {
-        combinations: is_grid.then(|| (1.0 - explained).max(0.0)),
+        combinations: is_whole.then(|| (1.0 - explained).max(0.0)),
         first_order,
+        by_chance,
+        is_grid,
     })
 }
 
-/// Whether runs are all combinations of the values of their inputs, each once.
+/// Whether runs are all combinations of the values of their inputs, each as often as its values: a value may stand
+/// twice.
 fn is_grid(inputs: &[Input<'_>], runs: &[usize]) -> bool {
-    let mut sizes = inputs
-        .iter()
-        .map(|input| groups(input, runs, usize::MAX).len());
-    let product = sizes.try_fold(1_usize, usize::checked_mul);
-    if product != Some(runs.len()) {
+    let groups: Vec<Vec<Vec<usize>>> = inputs.iter().map(|input| groups(input, runs)).collect();
+    let mut sizes = groups.iter().map(Vec::len);
+    let Some(product) = sizes.try_fold(1_usize, usize::checked_mul) else {
+        return false;
+    };
+    if product > runs.len() {
         return false;
     }
+    // Runs with the same value, for every input and run.
+    let equal: Vec<Vec<usize>> = groups
+        .iter()
+        .map(|groups| {
+            let mut equal = vec![0; runs.len()];
+            for group in groups {
+                group.iter().for_each(|run| equal[*run] = group.len());
+            }
+            equal
+        })
+        .collect();
     let bits = |run: &usize| -> Vec<u64> {
-        inputs
-            .iter()
-            .map(|input| input.values[*run].to_bits())
-            .collect()
+        // Zero has two signs.
+        let values = inputs.iter().map(|input| input.values[*run] + 0.0);
+        values.map(f64::to_bits).collect()
     };
-    let mut points: Vec<Vec<u64>> = runs.iter().map(bits).collect();
+    let mut points: Vec<(Vec<u64>, usize)> = runs.iter().map(|run| (bits(run), *run)).collect();
     points.sort_unstable();
-    points.dedup();
-    points.len() == runs.len()
+    let same: Vec<&[(Vec<u64>, usize)]> = points.chunk_by(|a, b| a.0 == b.0).collect();
+    let count = runs.len() as f64;
+    let as_often = |point: &&[(Vec<u64>, usize)]| {
+        let shares = equal.iter().map(|equal| equal[point[0].1] as f64 / count);
+        let expected = count * shares.product::<f64>();
+        (expected - point.len() as f64).abs() < 1.0e-6 * expected
+    };
+    same.len() == product && same.iter().all(as_often)
 }
 
-/// Runs with the same value of an input, or in the same part of its range, if it has more values than so many.
-fn groups(input: &Input<'_>, runs: &[usize], parts: usize) -> Vec<Vec<usize>> {
+/// Runs with the same value of an input, in its order.
+fn groups(input: &Input<'_>, runs: &[usize]) -> Vec<Vec<usize>> {
     let mut order = runs.to_vec();
     order.sort_by(|a, b| input.values[*a].total_cmp(&input.values[*b]));
     let same = order.chunk_by(|a, b| input.values[*a] == input.values[*b]);
-    let same: Vec<Vec<usize>> = same.map(<[usize]>::to_vec).collect();
-    if input.are_choices || same.len() <= parts {
-        return same;
+    same.map(<[usize]>::to_vec).collect()
+}
+
+/// The sum of squares of what lies beside the means of groups.
+fn within_groups(values: &[f64], groups: &[Vec<usize>]) -> f64 {
+    let within = groups.iter().map(|rows| {
+        let mean = rows.iter().map(|i| values[*i]).sum::<f64>() / rows.len() as f64;
+        let squares = rows
+            .iter()
+            .map(|i| (values[*i] - mean) * (values[*i] - mean));
+        squares.sum::<f64>()
+    });
+    within.sum()
+}
+
+/// The sum of squares of what lies beside a mean over an input that is linear between so many of its quantiles, fitted
+/// by least squares, and the number of its parameters.
+fn beside_pieces(
+    values: &[f64],
+    input: &[f64],
+    groups: &[Vec<usize>],
+    pieces: usize,
+) -> (f64, usize) {
+    let order: Vec<usize> = groups.concat();
+    let last = order.len() - 1;
+    let mut knots: Vec<f64> = (0..=pieces)
+        .map(|k| input[order[k * last / pieces]])
+        .collect();
+    knots.dedup();
+    let size = knots.len();
+    // Of a run the knot before it, and the part of the way to the next.
+    let place = |x: f64| {
+        let next = knots.partition_point(|knot| *knot <= x).clamp(1, size - 1);
+        let (from, to) = (knots[next - 1], knots[next]);
+        (next - 1, (x - from) / (to - from))
+    };
+    // Normal equations of hat functions, of which two overlap at most.
+    let (mut diagonal, mut beside, mut right) = (vec![0.0; size], vec![0.0; size], vec![0.0; size]);
+    for run in &order {
+        let (k, part) = place(input[*run]);
+        let (here, next) = (1.0 - part, part);
+        diagonal[k] += here * here;
+        diagonal[k + 1] += next * next;
+        beside[k] += here * next;
+        right[k] += here * values[*run];
+        right[k + 1] += next * values[*run];
     }
-    // Of equal values none goes to another part than the others.
-    let size = order.len().div_ceil(parts);
-    let mut groups: Vec<Vec<usize>> = vec![Vec::new()];
-    for equal in same {
-        match groups.last_mut() {
-            Some(group) if group.len() < size => group.extend(equal),
-            _ => groups.push(equal),
-        }
+    for k in 1..size {
+        let factor = beside[k - 1] / diagonal[k - 1];
+        diagonal[k] -= factor * beside[k - 1];
+        right[k] -= factor * right[k - 1];
     }
-    groups
+    let mut at_knots = vec![0.0; size];
+    for k in (0..size).rev() {
+        let after = if k + 1 < size {
+            beside[k] * at_knots[k + 1]
+        } else {
+            0.0
+        };
+        at_knots[k] = (right[k] - after) / diagonal[k];
+    }
+    let squares = order.iter().map(|run| {
+        let (k, part) = place(input[*run]);
+        let rest = values[*run] - at_knots[k] - part * (at_knots[k + 1] - at_knots[k]);
+        rest * rest
+    });
+    (squares.sum(), size)
 }
 
 #[cfg(test)]
@@ -189,7 +271,7 @@ mod tests {
         assert_eq!(found.combinations, None);
     }
 
-    /// Pure chance explains nothing: without its correction ten parts would explain 5 % of 200 runs.
+    /// Pure chance explains no more than is said of it.
     #[test]
     fn chance_explains_nothing() {
         let step = 0.618_033_988_749_894_9_f64;
@@ -201,19 +283,86 @@ mod tests {
             .map(|i| (f64::from(i * i) * PI_PART).fract())
             .collect();
         let found = sensitivity(&values, &[number(&a), number(&b)]).unwrap();
-        assert!(found.first_order.iter().all(|x| *x < 0.06), "{found:?}");
+        for (part, chance) in found.first_order.iter().zip(&found.by_chance) {
+            assert!(part < chance && (0.03..0.06).contains(chance), "{found:?}");
+        }
     }
     const PI_PART: f64 = 0.141_592_653_589_793;
 
+    /// What one input alone decides is all its own, however few runs there are, skewed as it may be: in proportion to
+    /// it to round-off, with a kink or a bend but for what lies between the quantiles.
+    #[test]
+    fn one_input_alone_explains_all() {
+        for count in [40, 50, 100, 1000] {
+            let column = |k: f64| -> Vec<f64> {
+                (0..count)
+                    .map(|i| (0.5 / f64::from(count) + f64::from(i) * k).fract())
+                    .collect()
+            };
+            let even = column(0.618_033_988_749_894_9);
+            let useless = column(2.0_f64.sqrt());
+            let skewed: Vec<f64> = even.iter().map(|x| libm::exp(6.0 * (x - 0.5))).collect();
+            let part = |values: &[f64], input: &[f64]| {
+                let found = sensitivity(values, &[number(input), number(&useless)]).unwrap();
+                assert!(
+                    found.first_order[1] <= found.by_chance[1] + 0.05,
+                    "{count}: {found:?}"
+                );
+                assert_eq!(found.combinations, None);
+                found.first_order[0]
+            };
+            let of = |function: &dyn Fn(f64) -> f64, input: &[f64]| {
+                let values: Vec<f64> = input.iter().map(|x| function(*x)).collect();
+                part(&values, input)
+            };
+            assert!((of(&|x| 3.0 - 2.0 * x, &even) - 1.0).abs() < 1e-12);
+            assert!((of(&|x| 5.0 * x, &skewed) - 1.0).abs() < 1e-12);
+            assert!(of(&|x| (x - 0.5).abs(), &even) > 0.9, "{count}");
+            // Few pieces do not follow a peak of resonance.
+            let least = if count < 100 { 0.5 } else { 0.9 };
+            let peak = of(&|x| 1.0 / (0.02 + (x - 0.6) * (x - 0.6)), &even);
+            assert!(peak > least, "{count}: {peak}");
+        }
+    }
+
+    /// A value that stands twice counts twice, and runs without a value leave a grid what it is.
+    #[test]
+    fn grids_with_a_value_twice_and_with_gaps() {
+        let (mut a, mut b) = (Vec::new(), Vec::new());
+        for x in [1.0, 3.0, 1.0, 2.0] {
+            for y in 0..10 {
+                a.push(x);
+                b.push(f64::from(y));
+            }
+        }
+        let values: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + 0.5 * b).collect();
+        let inputs = [number(&a), number(&b)];
+        let found = sensitivity(&values, &inputs).unwrap();
+        // Variances by hand: 11/16 of 1, 3, 1, 2 and 33/16 of 0 to 4.5.
+        assert!((found.first_order[0] - 0.25).abs() < 1e-14, "{found:?}");
+        assert!((found.first_order[1] - 0.75).abs() < 1e-14, "{found:?}");
+        assert!(found.combinations.unwrap() < 1e-14);
+        // A whole value of `a` fails: what is left is in proportion to `b` alone.
+        let mut gaps: Vec<f64> = b.clone();
+        for (value, x) in gaps.iter_mut().zip(&a) {
+            if *x == 3.0 {
+                *value = f64::NAN;
+            }
+        }
+        let found = sensitivity(&gaps, &inputs).unwrap();
+        assert!(found.is_grid && found.combinations.is_none());
+        assert!((found.first_order[1] - 1.0).abs() < 1e-14, "{found:?}");
+    }
+
     #[test]
     fn what_has_no_sensitivity() {
-        let count: Vec<f64> = (0..30).map(f64::from).collect();
-        let ones = vec![1.0; 30];
-        let half: Vec<f64> = (0..30).map(|i| f64::from(i % 2)).collect();
+        let count: Vec<f64> = (0..60).map(f64::from).collect();
+        let ones = vec![1.0; 60];
+        let half: Vec<f64> = (0..60).map(|i| f64::from(i % 2)).collect();
         let two = [number(&count), number(&half)];
         assert_eq!(sensitivity(&ones, &two), None);
         assert_eq!(
-            sensitivity(&count[..10], &[number(&half[..10]), number(&count[..10])]),
+            sensitivity(&count[..39], &[number(&half[..39]), number(&count[..39])]),
             None
         );
         assert_eq!(sensitivity(&count, &[number(&half), number(&ones)]), None);

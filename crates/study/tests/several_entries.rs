@@ -268,7 +268,16 @@ fn unusual_structures_are_said_of_their_values() {
         of(&wide, "with gap = 60 m: gap light-heavy: a width of 60 m"),
         "{wide:?}"
     );
-    assert_eq!(wide.len(), 1, "{wide:?}");
+    // Values between the ends too.
+    let between = "with gap = 20 m: gap light-heavy: a width of 20 m";
+    assert!(of(&wide, between) && wide.len() == 2, "{wide:?}");
+    let many: Vec<String> = (10..22).map(|i| i.to_string()).collect();
+    let many = told(&format!("{gap}values = [0.01, {}]\n", many.join(", ")));
+    assert_eq!(many.len(), 4, "{many:?}");
+    assert!(many[3].ends_with("; 8 more of other values"), "{many:?}");
+    // Rows of a list are runs, other combinations none.
+    let list = "[[variable]]\nname = \"m\"\npath = \"building.light.mass\"\nvalues = [2.5e3, 2.5e6]\n[[variable]]\nname = \"k\"\npath = \"building.light.stiffness\"\nvalues = [3.46e5, 3.46e8]\n[[variable]]\nname = \"contact\"\npath = \"gap.0.stiffness\"\nvalues = [2.75e9, 2.75e11]\n[design]\nkind = \"list\"\n";
+    assert_eq!(told(list), Vec::<String>::new());
     let model = "[[variable]]\nname = \"model\"\npath = \"gap.0.model\"\nvalues = [{ label = \"soft\", model = \"linear_elastic\", stiffness = 2e3 }, { model = \"linear_elastic\", stiffness = 1e8 }]\n";
     let soft = told(model);
     assert!(

@@ -192,7 +192,7 @@ const controlsOf = (state, documentation, actions) => {
       { class: "control", "data-fixed": control.path },
       html("span", {}, `${control.label}, by level`),
       html("span", { class: "value" }, `${control.value.map((x) => clean(x / control.factor)).join(", ")} ${control.unit}`),
-      html("p", { class: "note" }, "Widths that differ by level are not moved here, the case file says them. ", more(documentation, control.page)),
+      html("p", { class: "note" }, "Values that differ by level are not moved here, the case file says them. ", more(documentation, control.page)),
     );
 
   // What is no number, and stays as the case file says it.

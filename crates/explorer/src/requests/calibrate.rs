@@ -27,7 +27,7 @@ pub(crate) fn answer(prepared: Prepared, gap: usize, model: &str) -> Result<Answ
         .and_then(|own| references(&case, system, &own, (None, None)))
         .map_err(|e| e.to_string())
         .and_then(|references| calibrated(descriptor, &references[gap], rules));
-    let (values, notes) = match like_it {
+    let (values, mut notes) = match like_it {
         Ok(made) => (made.parameters.values.clone(), made.notes),
         Err(reason) => {
             let restitution = case.gaps[gap].parameters.iter();
@@ -39,6 +39,9 @@ pub(crate) fn answer(prepared: Prepared, gap: usize, model: &str) -> Result<Answ
             (example.values.clone(), vec![note])
         }
     };
+    if case.gaps[gap].parameters.iter().any(|p| !p.is_one()) {
+        notes.push("the levels had parameters of their own: all have those now that follow from the level that is hit fastest, also with the former model; \"Reset\" takes the case file's again".to_owned());
+    }
     let mut keys = vec![json!(["model", descriptor.name])];
     // As many digits as mean anything: what is written is what is run.
     let shown = |x: f64| significant(x).to_string().parse().unwrap_or(x);

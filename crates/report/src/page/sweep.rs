@@ -53,7 +53,11 @@ struct Runs {
 pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
     let runs = read(result).map_err(ReportError::Study)?;
     let d = &result.description;
-    let sensitivities = sensitivities(result, &runs);
+    // What depends on what is of all runs: a part has some values of some variables alone.
+    let sensitivities = match result.description.part.is_whole() {
+        true => sensitivities(result, &runs),
+        false => Vec::new(),
+    };
     let mut points = points(result, &runs);
     points.extend(depends_most(result, &sensitivities));
     let mut body = section("Summary", &(sentences(&points) + &warnings(&d.warnings)));
@@ -443,11 +447,12 @@ fn sensitivities<'r>(result: &'r ResultReader, runs: &Runs) -> Vec<(&'r str, Sen
     found.collect()
 }
 
-/// A part of the variance.
-fn percent(part: f64) -> String {
-    match part.is_nan() {
-        true => "–".to_owned(),
-        false => format!("{:.0}\u{a0}%", 100.0 * part),
+/// A part of the variance, of which chance explains another one at most.
+fn percent(part: f64, by_chance: f64) -> String {
+    match (part.is_nan(), part < by_chance) {
+        (true, _) => "–".to_owned(),
+        (_, true) => format!("below {:.0}\u{a0}%", (100.0 * by_chance).ceil()),
+        _ => format!("{:.0}\u{a0}%", 100.0 * part),
     }
 }
 
@@ -455,11 +460,13 @@ fn percent(part: f64) -> String {
 fn depends_most(result: &ResultReader, found: &[(&str, Sensitivity)]) -> Option<String> {
     let coordinates = &result.description.coordinates;
     let most = found.iter().filter_map(|(heading, sensitivity)| {
-        let parts = coordinates.iter().zip(&sensitivity.first_order);
-        let (coordinate, part) = parts
-            .filter(|(_, part)| **part >= WORTH_SAYING)
-            .max_by(|a, b| a.1.total_cmp(b.1))?;
-        Some((heading, named(&coordinate.name), percent(*part)))
+        let parts = sensitivity.first_order.iter().zip(&sensitivity.by_chance);
+        let (coordinate, (part, _)) = coordinates
+            .iter()
+            .zip(parts)
+            .filter(|(_, (part, by_chance))| **part >= by_chance.max(WORTH_SAYING))
+            .max_by(|a, b| a.1.0.total_cmp(b.1.0))?;
+        Some((heading, named(&coordinate.name), percent(*part, 0.0)))
     });
     let said = most.enumerate().map(|(i, (heading, name, part))| match i {
         0 => format!("the {heading} varies most with {name} ({part} of its variance)"),
@@ -473,21 +480,26 @@ fn depends_most(result: &ResultReader, found: &[(&str, Sensitivity)]) -> Option<
 fn dependences(result: &ResultReader, found: &[(&str, Sensitivity)]) -> String {
     let d = &result.description;
     let of_variable = |(i, coordinate): (usize, &Coordinate)| {
-        let parts = found.iter().map(|(_, s)| percent(s.first_order[i]));
+        let part = |s: &Sensitivity| percent(s.first_order[i], s.by_chance[i]);
+        let parts = found.iter().map(|(_, s)| part(s));
         let cells = std::iter::once(coordinate.name.clone()).chain(parts);
         Row::new(&coordinate.name, cells.collect())
     };
     let mut rows: Vec<Row> = d.coordinates.iter().enumerate().map(of_variable).collect();
     let of_combinations: Option<Vec<f64>> = found.iter().map(|(_, s)| s.combinations).collect();
+    let is_grid = found.iter().all(|(_, s)| s.is_grid);
     let how = match of_combinations {
         Some(parts) => {
-            let parts = parts.into_iter().map(percent);
+            let parts = parts.into_iter().map(|part| percent(part, 0.0));
             let cells = std::iter::once("combinations of them".to_owned()).chain(parts);
             rows.push(Row::new("combinations", cells.collect()));
             "exact for these runs, which are all combinations; what no variable explains by itself is of combinations"
         }
+        None if is_grid => {
+            "by the means over all combinations but those of runs without a value, which are left out"
+        }
         None => {
-            "estimated from the runs, less what chance explains; what is missing to 100 % is of combinations, and of variables that go together"
+            "estimated from the runs, by a mean that is linear between quantiles of the variable, less what chance explains; \"below\" stands where chance alone may give as much (5 % of variables without influence have more). What is missing to 100 % is of combinations, of variables that go together, and of what is finer than so few runs show"
         }
     };
     let headings = found.iter().map(|(heading, _)| *heading);

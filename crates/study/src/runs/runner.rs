@@ -19,7 +19,7 @@ use sha2::{Digest, Sha256};
 use super::cache::Cache;
 use super::motions::{Motion, Motions};
 use super::proportion::{factors_of_further, intensity_of_case};
-use super::structures::warnings_of_structures;
+use super::structures::{looked_at, warnings_of_structures};
 use super::varied::leave_out_varied;
 use super::{Ending, ID, IsolatedQuantities, IsolatedRun, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
@@ -124,7 +124,7 @@ impl<'s> Runner<'s> {
             Some((source.name.as_str(), motion.as_ref().ok()?.warnings.clone()))
         })));
         warnings.extend(of_each_record(told().filter_map(|(motion, source)| {
-            let (duration, peak) = (duration_of_case(study)?, motion.as_ref().ok()?.peak_time);
+            let (duration, peak) = (shortest_duration(study)?, motion.as_ref().ok()?.peak_time);
             let warning = Warning::ends_before_peak("", duration, peak)?;
             Some((source.name.as_str(), warning))
         })));
@@ -557,10 +557,21 @@ fn may_be_rigid(
     }
 }
 
-/// Duration (s) of the runs that the case gives; `None` where it is the record's, or varies.
-fn duration_of_case(study: &Study) -> Option<f64> {
-    let varied = varies(study, "analysis.duration");
-    study.base.analysis.duration.filter(|_| !varied)
+/// The shortest duration (s) of runs that case and variables give; `None` where it is the record's.
+fn shortest_duration(study: &Study) -> Option<f64> {
+    let at = case_text::Path::parse("analysis.duration").ok()?;
+    let varied = study.variables.iter().find_map(|v| {
+        let mut entries = v.target.entries().iter();
+        let entry = entries.find(|entry| entry.path == at)?;
+        let numbers = looked_at(&v.values)
+            .into_iter()
+            .filter_map(|value| match value {
+                Value::Number(x) => Some(entry.number(x)),
+                Value::Choice(_) => None,
+            });
+        numbers.reduce(f64::min)
+    });
+    varied.or(study.base.analysis.duration)
 }
 
 /// Whether a study varies the entry of its case at a path.

@@ -5,14 +5,18 @@ use pounding_case::CaseTree;
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{System, Warning};
 
-use crate::case_text::Variant;
+use crate::case_text::{Edit, Variant};
+use crate::design::Design;
 use crate::study_file::{Study, Value, Values, Variable};
 
-/// Most choices of a variable that are looked at.
+/// Most values of a variable, and rows of a list, that are looked at.
 const MOST_CHOICES: usize = 40;
 
-/// Warnings of the structures of a study: those of its case that hold in a run too, and further ones that the ends of
-/// a variable, or one of its choices, bring about.
+/// Most warnings that are told of the values of a variable.
+const MOST_TOLD: usize = 4;
+
+/// Warnings of the structures of a study: those of its case that hold in a run too, and further ones that values of
+/// variables bring about.
 pub(super) fn warnings_of_structures(
     study: &Study,
     base: &CaseTree<'_>,
@@ -23,28 +27,38 @@ pub(super) fn warnings_of_structures(
         let warnings = Warning::of_structure(system).into_iter();
         warnings.map(|warning| warning.to_string()).collect()
     };
-    let of_value = |variable: &Variable, value: &Value| {
-        let edits = variable.target.edits(value);
-        let variant = Variant::new(base, &edits);
+    let of_edits = |edits: &[Edit]| {
+        let variant = Variant::new(base, edits);
         let case = variant.case().ok()?;
         let assembled = variant.make(&case, |case| assemble_with_record(case, rest));
         Some(said(&assembled.ok()?.system))
     };
     let (mut of_case, mut further) = (said(of_case), Vec::new());
-    for variable in study.variables.iter().filter(|v| v.target.changes_case()) {
-        let of_values = ends(&variable.values).into_iter().filter_map(|value| {
-            let warnings = of_value(variable, &value)?;
-            Some((value, warnings))
+    let mut told: Vec<String> = Vec::new();
+    for tried in tried(study) {
+        let of_values = tried.into_iter().filter_map(|(words, edits)| {
+            let warnings = of_edits(&edits)?;
+            Some((words, warnings))
         });
         let of_values: Vec<_> = of_values.collect();
-        let mut told: Vec<&String> = Vec::new();
-        for (value, warnings) in &of_values {
+        let mut left_out = 0;
+        let before = further.len();
+        for (words, warnings) in &of_values {
             for warning in warnings {
-                if !of_case.contains(warning) && !told.contains(&warning) {
-                    told.push(warning);
-                    further.push(format!("with {}: {warning}", variable.in_words(value)));
+                if of_case.contains(warning) || told.contains(warning) {
+                    continue;
+                }
+                told.push(warning.clone());
+                match further.len() - before < MOST_TOLD {
+                    true => further.push(format!("with {words}: {warning}")),
+                    false => left_out += 1,
                 }
             }
+        }
+        if left_out > 0
+            && let Some(last) = further.last_mut()
+        {
+            last.push_str(&format!("; {left_out} more of other values"));
         }
         // One that another value takes away in every run is of no run.
         of_case.retain(|warning| {
@@ -55,15 +69,48 @@ pub(super) fn warnings_of_structures(
     of_case.into_iter().chain(further).collect()
 }
 
-/// The least and the greatest of numbers, of random ones but for a hundredth; choices all, if they are not too many.
-fn ends(values: &Values) -> Vec<Value> {
+/// Values in words with their edits.
+type Tried = Vec<(String, Vec<Edit>)>;
+
+/// What is tried: of each variable its values alone, or of a list, whose values go together, its rows.
+fn tried(study: &Study) -> Vec<Tried> {
+    let changes = |v: &&Variable| v.target.changes_case();
+    let words = |v: &Variable, value: &Value| v.in_words(value);
+    if let (Design::List { runs }, true) = (&study.design, study.variables.len() > 1) {
+        let row = |run| {
+            let point = study.point(run);
+            let values = study.variables.iter().zip(&point);
+            let values: Vec<_> = values.filter(|(v, _)| changes(v)).collect();
+            let said: Vec<String> = values.iter().map(|(v, x)| words(v, x)).collect();
+            let edits = values.iter().flat_map(|(v, x)| v.target.edits(x));
+            (said.join(", "), edits.collect())
+        };
+        return vec![(0..(*runs).min(MOST_CHOICES)).map(row).collect()];
+    }
+    let of_variable = |v: &Variable| {
+        let values = looked_at(&v.values).into_iter();
+        values.map(|x| (words(v, &x), v.target.edits(&x))).collect()
+    };
+    study
+        .variables
+        .iter()
+        .filter(changes)
+        .map(of_variable)
+        .collect()
+}
+
+/// The values that are looked at: all of a list, if they are not too many, else the least and the greatest; of random
+/// ones but for a hundredth.
+pub(super) fn looked_at(values: &Values) -> Vec<Value> {
     match values {
         Values::Numbers(numbers) => {
-            let least = numbers.iter().copied().reduce(f64::min);
-            let greatest = numbers.iter().copied().reduce(f64::max);
-            let mut ends: Vec<f64> = least.into_iter().chain(greatest).collect();
-            ends.dedup();
-            ends.into_iter().map(Value::Number).collect()
+            let mut numbers = numbers.clone();
+            numbers.sort_by(f64::total_cmp);
+            numbers.dedup();
+            if numbers.len() > MOST_CHOICES {
+                numbers = vec![numbers[0], numbers[numbers.len() - 1]];
+            }
+            numbers.into_iter().map(Value::Number).collect()
         }
         Values::Range { from, to, .. } => vec![Value::Number(*from), Value::Number(*to)],
         Values::Random(_) => vec![values.sample(0.01), values.sample(0.99)],

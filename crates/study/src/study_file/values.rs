@@ -112,7 +112,7 @@ impl Values {
 /// A number of a grid without the round-off of its steps: the decimal number of 12 digits, if it lies
 /// as near as round-off does, that of a power of e with its exponent too, so that 0.8 is what `0.8` is read as.
 /// Others stay as they are.
-fn short(x: f64, power: f64) -> f64 {
+pub(super) fn short(x: f64, power: f64) -> f64 {
     let round_off = (16.0 + power.abs()) * f64::EPSILON;
     match format!("{x:.11e}").parse() {
         Ok(near) if f64::abs(near - x) <= round_off * x.abs() => near,

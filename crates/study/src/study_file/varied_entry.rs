@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use pounding_case::document::Reader;
 
+use super::values::short;
 use crate::case_text::{Edit, Entry, Found, Lost, LostAmong, Path, entries, numbers};
 use crate::runs::written;
 
@@ -18,9 +19,10 @@ pub(crate) struct VariedEntry {
 }
 
 impl VariedEntry {
-    /// The number (SI) that it has with a value of the variable.
+    /// The number (SI) that it has with a value of the variable: 0.9 times 20 mm is 0.018, as it is written.
     pub(crate) fn number(&self, value: f64) -> f64 {
-        self.of_case.map_or(value, |of_case| value * of_case)
+        self.of_case
+            .map_or(value, |of_case| short(value * of_case, 0.0))
     }
 }
 

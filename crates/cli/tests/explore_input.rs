@@ -241,8 +241,12 @@ fn scales_are_moved() {
 #[test]
 fn models_of_gaps_with_a_law_for_each_level() {
     let calibrate = json!({ "do": "calibrate", "changes": [], "gap": 0, "model": "hertz_1882" });
-    let levels = pair("31 s").replacen("restitution = 0.65", "restitution = [0.65, 0.6, 0.5]", 1);
-    assert!(levels.contains("[0.65, 0.6, 0.5]"));
+    let levels = pair("31 s").replacen(
+        "damping_ratio = 0.35",
+        "damping_ratio = [0.35, 0.3, 0.2]",
+        1,
+    );
+    assert!(levels.contains("[0.35, 0.3, 0.2]"));
     let open = json!({ "do": "open", "name": "case.toml", "$text": levels });
     let answers = natively(&of_the_pair(vec![calibrate.clone(), open, calibrate]));
     let notes = |i: usize| answers[i]["notes"].to_string();

@@ -194,6 +194,78 @@ fn sweeps_vary_isolators() {
     assert!(output.status.success(), "{}", words(&output.stderr));
 }
 
+/// An incremental dynamic analysis of a moat: drifts are those of the storeys above the isolators, unless a limit names
+/// these, and walls at both least gaps are hit as often as a count over the demands of both says, more often than one.
+#[test]
+fn an_incremental_dynamic_analysis_of_a_moat() {
+    let (folder, _case) = changed(&[("duration = \"25 s\"", "duration = \"20 s\"")]);
+    let drift = |name: &str, more: &str| {
+        format!(
+            "[[ida.limit]]\nname = \"{name}\"\ndemand = \"drift_ratio\"\nbuilding = \"office\"\n{more}exceeds = 0.02\n"
+        )
+    };
+    let study = format!(
+        "case = \"case.toml\"\n[[variable]]\nsynthetic = {{ model = \"rezaeian_der_kiureghian_2010\", count = 12, duration = \"20 s\", significant_duration = \"10 s\", middle_time = \"7 s\", middle_frequency = \"2 1/s\" }}\n[[variable]]\nintensity = \"peak_ground_velocity\"\nfrom = \"0.1 m/s\"\nto = \"1.5 m/s\"\ncount = 10\n[ida]\nhazard = [[\"0.05 m/s\", 0.05], [\"0.5 m/s\", 1e-3], [\"2 m/s\", 1e-5]]\ntarget_frequency = 4e-4\n{}{}",
+        drift("storeys", ""),
+        drift("isolators", "storey = 1\n")
+    );
+    std::fs::write(folder.path().join("study.toml"), study).unwrap();
+    let at = |arguments: &[&str]| {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_pounding"));
+        let output = command.current_dir(folder.path()).args(arguments).output();
+        let output = output.unwrap();
+        assert!(output.status.success(), "{}", words(&output.stderr));
+        words(&output.stdout)
+    };
+    let answer = at(&[
+        "ida",
+        "study.toml",
+        "--json",
+        "--csv",
+        "runs.csv",
+        "-o",
+        "out.h5",
+    ]);
+    let answer: Value = serde_json::from_str(&answer).unwrap();
+    let least = |gap: usize, what: &str| answer["gaps"][gap]["minimum"][what].as_f64().unwrap();
+    let together = &answer["least_gaps_together"];
+    let frequency = together["mean_annual_frequency"].as_f64().unwrap();
+    for gap in [0, 1] {
+        assert!(least(gap, "mean_annual_frequency") <= 4e-4);
+        assert!(
+            frequency > least(gap, "mean_annual_frequency"),
+            "{together}"
+        );
+    }
+    let mut reader = csv::Reader::from_path(folder.path().join("runs.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let place = |begins: &str| {
+        let found = header.iter().position(|name| name.starts_with(begins));
+        found.unwrap_or_else(|| panic!("{begins}: {header:?}"))
+    };
+    let demands = ["isolated_demand: left wall", "isolated_demand: right wall"].map(place);
+    let drifts = [2, 3, 4].map(|storey| place(&format!("peak_drift_ratio: office {storey}")));
+    let isolator = place("peak_drift_ratio: office 1");
+    let (mut closed, mut storeys, mut isolators) = (0, 0, 0);
+    for row in reader.records() {
+        let row = row.unwrap();
+        let number = |column: usize| row[column].parse::<f64>().unwrap();
+        closed += usize::from((0..2).any(|gap| number(demands[gap]) > least(gap, "width")));
+        storeys += usize::from(drifts.iter().any(|column| number(*column) > 0.02));
+        isolators += usize::from(number(isolator) > 0.02);
+    }
+    let reached = |limit: &Value| -> u64 {
+        let counts = limit["counts"].as_array().unwrap().iter();
+        counts.map(|count| count["reached"].as_u64().unwrap()).sum()
+    };
+    assert_eq!(reached(together), closed as u64);
+    let limits = answer["limits"].as_array().unwrap();
+    let named = |name: &str| limits.iter().find(|limit| limit["name"] == name).unwrap();
+    assert_eq!(reached(named("storeys")), storeys as u64);
+    assert_eq!(reached(named("isolators")), isolators as u64);
+    assert!(isolators > storeys);
+}
+
 /// Bad input with place and remedy that only the whole building shows.
 #[test]
 fn isolators_that_cannot_be_are_refused() {

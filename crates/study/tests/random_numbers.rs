@@ -170,6 +170,12 @@ fn wrong_distributions_are_refused() {
     };
     for (of, at, message, help) in [
         (
+            "kind = \"uniform\", lower = 0, upper = 1",
+            "\"uniform\"",
+            "a range of the variable itself",
+            "`from = ...`",
+        ),
+        (
             "kind = \"gumbel\", mean = 1",
             "\"gumbel\"",
             "unknown",

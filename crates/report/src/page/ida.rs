@@ -161,6 +161,15 @@ fn points(answer: Answer<'_>) -> Vec<String> {
         let remark = |r: usize| answer.quote(&at(&format!("minimum/remarks/{r}")));
         points.extend(remarks.map(|r| format!("Gap {name}: {}.", remark(r))));
     }
+    let together = "/least_gaps_together/mean_annual_frequency";
+    if answer.at(together).is_number() {
+        points.push(format!(
+            "With all gaps at these widths one of them closes with {}{} 1/year: a target for all of them together asks \
+             for wider ones.",
+            at_most(answer, "/least_gaps_together/mean_annual_frequency_is"),
+            answer.say(together, 1.0)
+        ));
+    }
     points.push(format!(
         "{} over {} and {}; intensity: {}.",
         counted(answer.number("sum /levels/+/runs", "") as usize, "run"),

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use pounding_case::{Case, Side};
 
-use crate::runs::{Axis, LEVEL_QUANTITIES, Layout};
+use crate::runs::{Axis, LEVEL_QUANTITIES, Layout, Place};
 use crate::study_file::{DemandKind, Limit};
 
 /// The demand that asks the buildings without gaps.
@@ -52,6 +52,7 @@ pub(super) enum Lack {
 
 /// The quantity that rigid impacts do not have.
 const FORCE: &str = "peak_force";
+const DRIFT_RATIO: &str = "peak_drift_ratio";
 /// Those of which rigid impacts are left out.
 const ACCELERATION: &str = "peak_acceleration_absolute";
 const ACCELERATION_ACROSS: &str = "peak_acceleration_across";
@@ -118,10 +119,25 @@ pub(super) fn sides_of_gaps(case: &Case) -> Vec<(String, Vec<String>)> {
     gaps.map(|gap| (gap.name.clone(), sides(gap))).collect()
 }
 
+/// Names of the buildings of a case on isolators.
+pub(super) fn isolated_buildings(case: &Case) -> Vec<String> {
+    let isolated = case.buildings.iter().filter(|b| b.isolator.is_some());
+    isolated.map(|b| b.name.value.clone()).collect()
+}
+
+/// Whether drifts are those of a storey and not of isolators, whose displacement over their height says nothing.
+fn drifts(storey: &Place, isolated: &[String]) -> bool {
+    storey.storeys[0] != 1 || !isolated.contains(&storey.of)
+}
+
 /// Demands of every building and every gap, the worst storey or level of each.
-pub(super) fn usual(layout: &Layout, gaps: &[(String, Vec<String>)]) -> Vec<Demand> {
+pub(super) fn usual(
+    layout: &Layout,
+    gaps: &[(String, Vec<String>)],
+    isolated: &[String],
+) -> Vec<Demand> {
     let mut demands = Vec::new();
-    let groups = |places: &[crate::runs::Place]| {
+    let groups = |places: &[Place]| {
         let mut names: Vec<String> = Vec::new();
         for place in places {
             if !names.contains(&place.of) {
@@ -132,11 +148,14 @@ pub(super) fn usual(layout: &Layout, gaps: &[(String, Vec<String>)]) -> Vec<Dema
     };
     for building in groups(&layout.storeys) {
         let mine = |column: usize| layout.storeys[column].of == building;
-        for (name, unit) in [("peak_drift_ratio", "1"), (ACCELERATION, "m s-2")] {
+        for (name, unit) in [(DRIFT_RATIO, "1"), (ACCELERATION, "m s-2")] {
+            let own = |column: usize| {
+                mine(column) && (name != DRIFT_RATIO || drifts(&layout.storeys[column], isolated))
+            };
             demands.push(Demand {
                 name: format!("{name}: {building}"),
                 unit,
-                columns: chosen(layout.range(name), mine),
+                columns: chosen(layout.range(name), own),
                 isolated: false,
                 needs: match name {
                     ACCELERATION => no_jump(layout, gaps, Some(&building)),
@@ -202,12 +221,13 @@ fn chosen(range: Range<usize>, pick: impl Fn(usize) -> bool) -> Vec<usize> {
 pub(super) fn of_limit(
     layout: &Layout,
     gaps: &[(String, Vec<String>)],
+    isolated: &[String],
     limit: &Limit,
     building: Option<&str>,
 ) -> Demand {
     let (name, unit, axis) = match limit.demand {
         DemandKind::Displacement => ("peak_displacement", "m", Axis::Storey),
-        DemandKind::DriftRatio => ("peak_drift_ratio", "1", Axis::Storey),
+        DemandKind::DriftRatio => (DRIFT_RATIO, "1", Axis::Storey),
         DemandKind::StoreyShear => ("peak_storey_shear", "N", Axis::Storey),
         DemandKind::AccelerationAbsolute => (ACCELERATION, "m s-2", Axis::Storey),
         DemandKind::BaseMoment => ("peak_base_moment", "N m", Axis::Building),
@@ -236,11 +256,14 @@ pub(super) fn of_limit(
             link.is_none_or(|link| layout.link_levels[column].of == *link)
         }
         Axis::Building => building.is_none_or(|b| layout.buildings[column] == b),
-        _ => building.is_none_or(|building| {
+        _ => {
             let storey = &layout.storeys[column];
-            let here = limit.place.is_none_or(|p| storey.storeys[0] == p + 1);
-            storey.of == building && here
-        }),
+            let here = match limit.place {
+                Some(place) => storey.storeys[0] == place + 1,
+                None => limit.demand != DemandKind::DriftRatio || drifts(storey, isolated),
+            };
+            building.is_none_or(|building| storey.of == building) && here
+        }
     };
     Demand {
         name: limit.name.clone(),

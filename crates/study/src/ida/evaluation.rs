@@ -6,7 +6,7 @@ use pounding_case::Dimension;
 use pounding_catalogue::STANDARD_GRAVITY;
 
 use super::bootstrap::{FrequencyBounds, frequency_bounds};
-use super::demands::{Demand, Lack, of_gap, of_limit, sides_of_gaps, usual};
+use super::demands::{Demand, Lack, isolated_buildings, of_gap, of_limit, sides_of_gaps, usual};
 use super::fragility::{Counts, FragilityFit, fit};
 use super::goodness::{self, Capacity, FitRemark, GoodnessOfFit, ShownIntensity};
 use super::hazard::{self, least_frequency, mean_annual_frequency};
@@ -211,6 +211,9 @@ pub struct IdaReport {
     pub limits: Vec<LimitResult>,
     /// Pounding by width, for every gap of the case.
     pub gaps: Vec<PoundingDemand>,
+    /// Pounding at any of several gaps that all have their least width for the target frequency: the target of each
+    /// is none for all of them together.
+    pub least_gaps_together: Option<LimitResult>,
 }
 
 impl IdaReport {
@@ -224,6 +227,9 @@ impl IdaReport {
         }
     }
 }
+
+/// The state in which one of several gaps closes that have their least width each.
+const AT_LEAST_GAPS: &str = "pounding at any gap of least width";
 
 /// What is kept of a run.
 struct Run {
@@ -256,7 +262,8 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     }
     let layout = &result.description.layout;
     let sides = sides_of_gaps(&study.base);
-    let mut shown = usual(layout, &sides);
+    let isolated = isolated_buildings(&study.base);
+    let mut shown = usual(layout, &sides, &isolated);
     let limits: Vec<(Demand, f64)> = settings
         .limits
         .iter()
@@ -264,7 +271,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
             let building = l
                 .building
                 .map(|b| study.base.buildings[b].name.value.as_str());
-            (of_limit(layout, &sides, l, building), l.exceeds)
+            (of_limit(layout, &sides, &isolated, l, building), l.exceeds)
         })
         .collect();
     let gaps: Vec<&str> = study.base.gaps.iter().map(|g| g.name.as_str()).collect();
@@ -327,6 +334,26 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
         results.push(evaluation.limit(&demand.name, &reached)?);
     }
     let variable = &study.variables[settings.intensity];
+    let demanded: Vec<PoundingDemand> = gaps
+        .iter()
+        .enumerate()
+        .map(|(i, g)| evaluation.gap(g, first_gap + i))
+        .collect::<Result<_, _>>()?;
+    let least = demanded.iter().map(|gap| gap.minimum.as_ref()?.width);
+    let least: Option<Vec<f64>> = least.collect();
+    let together = match least.filter(|least| least.len() > 1) {
+        Some(least) => {
+            let closed = |r: &Run| {
+                let demands = &r.demands[first_gap..first_impacts];
+                demands
+                    .iter()
+                    .zip(&least)
+                    .any(|(demand, width)| demand > width)
+            };
+            Some(evaluation.limit(AT_LEAST_GAPS, &closed)?)
+        }
+        None => None,
+    };
     Ok(IdaReport {
         measure: settings.measure.title(),
         unit: variable.unit.clone(),
@@ -339,11 +366,8 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
         levels: evaluation.levels(shown.len()),
         curves: evaluation.curves(shown.len()),
         limits: results,
-        gaps: gaps
-            .iter()
-            .enumerate()
-            .map(|(i, g)| evaluation.gap(g, first_gap + i))
-            .collect::<Result<_, _>>()?,
+        gaps: demanded,
+        least_gaps_together: together,
     })
 }
 

@@ -24,15 +24,25 @@ pub struct Distribution {
     upper: Option<f64>,
 }
 
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Family {
+    Normal,
+    Lognormal,
+}
+
+/// What a study file may call a family.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(
     rename = "distribution",
     rename_all = "snake_case",
     expecting = "a text in quotes"
 )]
-enum Family {
+enum Kind {
     Normal,
     Lognormal,
+    /// Refused: it is a range of the variable itself.
+    #[schemars(skip)]
+    Uniform,
 }
 
 /// Least probability of a number: that of the finest random number is zero.
@@ -106,7 +116,7 @@ impl fmt::Display for Distribution {
 )]
 pub(super) struct DistributionTable {
     /// normal or lognormal; even ones between two numbers are `from` and `to` of the variable
-    kind: Field<Family>,
+    kind: Field<Kind>,
     /// Mean
     mean: Optional<Written>,
     /// Median of a lognormal distribution, in the place of its mean
@@ -154,7 +164,18 @@ impl DistributionTable {
             let x = written.any()?.value;
             AboveZero::check(x).map(|()| x)
         };
-        let family = self.kind.value();
+        let family = match self.kind.located() {
+            None => None,
+            Some(Located { value, span }) => match value {
+                Kind::Normal => Some(Family::Normal),
+                Kind::Lognormal => Some(Family::Lognormal),
+                Kind::Uniform => {
+                    let message = "a uniform distribution is a range of the variable itself";
+                    let help = "write `from = ...` and `to = ...` in the place of `distribution`";
+                    return reader.refuse(span, message, help);
+                }
+            },
+        };
         let mean = one("mean", self.mean, number);
         let median = one("median", self.median, number);
         let lower = one("lower", self.lower, number);

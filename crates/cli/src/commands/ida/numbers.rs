@@ -25,6 +25,8 @@ pub struct Analysis<'a> {
     levels: Vec<Level<'a>>,
     limits: Vec<Limit<'a>>,
     gaps: Vec<Gap<'a>>,
+    /// Pounding at any of several gaps that have their least width each.
+    least_gaps_together: Option<Limit<'a>>,
     /// Points of the hazard curve: intensity and mean annual frequency (1/year).
     hazard: Option<&'a [(f64, f64)]>,
     /// Mean annual frequency of pounding that is aimed at (1/year).
@@ -168,6 +170,8 @@ impl<'a> Analysis<'a> {
             }
         });
         let limits = report.limits.iter().map(|l| Limit::of(l, confidence));
+        let together = report.least_gaps_together.as_ref();
+        let together = together.map(|l| Limit::of(l, confidence));
         let gaps = report.gaps.iter().map(|g| {
             let widths = g.widths.iter().map(|w| Width {
                 limit: Limit::of(&w.result, confidence),
@@ -187,6 +191,7 @@ impl<'a> Analysis<'a> {
             levels: levels.collect(),
             limits: limits.collect(),
             gaps: gaps.collect(),
+            least_gaps_together: together,
             hazard: settings.hazard.as_ref().map(|curve| &*curve.points),
             target_frequency: settings.target_frequency,
             confidence,

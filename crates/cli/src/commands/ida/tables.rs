@@ -38,6 +38,15 @@ pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
     if report.gaps.iter().filter(|g| !g.widths.is_empty()).count() > 1 {
         text.push_str("Widths of each gap of the row as if the others were wide enough: a building that is hit on one side can close the gap on its other side.\n");
     }
+    if let Some(together) = &report.least_gaps_together {
+        let frequency = match together.frequency.is_some() {
+            true => frequency(together, report.shown_intensity()),
+            false => "none that the counts give".to_owned(),
+        };
+        text.push_str(&format!(
+            "All gaps at these least widths: one of them closes with a mean annual frequency of {frequency}. A target for all of them together asks for wider ones.\n"
+        ));
+    }
     text
 }
 

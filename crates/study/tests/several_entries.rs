@@ -278,6 +278,30 @@ fn unusual_structures_are_said_of_their_values() {
     // Rows of a list are runs, other combinations none.
     let list = "[[variable]]\nname = \"m\"\npath = \"building.light.mass\"\nvalues = [2.5e3, 2.5e6]\n[[variable]]\nname = \"k\"\npath = \"building.light.stiffness\"\nvalues = [3.46e5, 3.46e8]\n[[variable]]\nname = \"contact\"\npath = \"gap.0.stiffness\"\nvalues = [2.75e9, 2.75e11]\n[design]\nkind = \"list\"\n";
     assert_eq!(told(list), Vec::<String>::new());
+    // Of many rows those of the ends.
+    let row = |i: usize| {
+        if i == 77 {
+            30.0
+        } else {
+            0.02 + 1e-5 * i as f64
+        }
+    };
+    let widths: Vec<String> = (0..100).map(|i| row(i).to_string()).collect();
+    let scales: Vec<String> = (0..100)
+        .map(|i| (1.0 - 0.001 * f64::from(i)).to_string())
+        .collect();
+    let many = told(&format!(
+        "{gap}values = [{}]\n[[variable]]\nname = \"scale\"\npath = \"ground_motion.scale\"\nvalues = [{}]\n[design]\nkind = \"list\"\n",
+        widths.join(", "),
+        scales.join(", ")
+    ));
+    assert!(
+        of(
+            &many,
+            "with gap = 30 m, scale = 0.923: gap light-heavy: a width of 30 m"
+        ),
+        "{many:?}"
+    );
     let model = "[[variable]]\nname = \"model\"\npath = \"gap.0.model\"\nvalues = [{ label = \"soft\", model = \"linear_elastic\", stiffness = 2e3 }, { model = \"linear_elastic\", stiffness = 1e8 }]\n";
     let soft = told(model);
     assert!(

@@ -76,6 +76,15 @@ fn sweep_of_the_three_storey_pair() {
     );
 }
 
+/// The names of the columns and the rows that a command writes into `out.csv`.
+fn runs_of(bench: &Bench, command: &str) -> (csv::StringRecord, Vec<csv::StringRecord>) {
+    bench.text(command);
+    let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
+    let header = reader.headers().unwrap().clone();
+    let rows = reader.records().map(Result::unwrap).collect();
+    (header, rows)
+}
+
 /// The headline of the study of one gap for a whole row. Its run of the widest gap that is hit hardest is
 /// that of another method, by itself.
 #[test]
@@ -83,10 +92,7 @@ fn common_gap_of_the_row() {
     let bench = Bench::new("");
     let study = root().join("examples/row_of_five/common_gap.toml");
     let study = study.display();
-    bench.text(&format!("sweep {study} -o out.h5 --csv out.csv"));
-    let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
-    let header = reader.headers().unwrap().clone();
-    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    let (header, rows) = runs_of(&bench, &format!("sweep {study} -o out.h5 --csv out.csv"));
     assert_eq!(rows.len(), 30);
     let of = |gap: f64, stiffness: f64| {
         let column = |name: &str| header.iter().position(|h| h == name).unwrap();
@@ -156,10 +162,7 @@ fn uncertain_pair() {
     let bench = Bench::new("");
     let study = root().join("examples/sweep_three_storey_pair/uncertain.toml");
     let study = study.display();
-    bench.text(&format!("sweep {study} -o out.h5 --csv out.csv"));
-    let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
-    let header = reader.headers().unwrap().clone();
-    let rows: Vec<csv::StringRecord> = reader.records().map(Result::unwrap).collect();
+    let (header, rows) = runs_of(&bench, &format!("sweep {study} -o out.h5 --csv out.csv"));
     assert_eq!(rows.len(), 2000);
     let most = |row: &csv::StringRecord, quantity: &str| {
         let of = header

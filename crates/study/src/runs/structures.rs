@@ -85,7 +85,12 @@ fn tried(study: &Study) -> Vec<Tried> {
             let edits = values.iter().flat_map(|(v, x)| v.target.edits(x));
             (said.join(", "), edits.collect())
         };
-        return vec![(0..(*runs).min(MOST_CHOICES)).map(row).collect()];
+        return vec![
+            rows_looked_at(*runs, &study.variables)
+                .into_iter()
+                .map(row)
+                .collect(),
+        ];
     }
     let of_variable = |v: &Variable| {
         let values = looked_at(&v.values).into_iter();
@@ -97,6 +102,27 @@ fn tried(study: &Study) -> Vec<Tried> {
         .filter(changes)
         .map(of_variable)
         .collect()
+}
+
+/// The rows of a list that are looked at: all, if they are not too many, else those with the least and the greatest
+/// number of each variable.
+fn rows_looked_at(runs: usize, variables: &[Variable]) -> Vec<usize> {
+    if runs <= MOST_CHOICES {
+        return (0..runs).collect();
+    }
+    let ends = variables.iter().flat_map(|v| {
+        let number = |run: &usize| match v.values.at(*run) {
+            Value::Number(x) => x,
+            Value::Choice(_) => 0.0,
+        };
+        let by_number = |a: &usize, b: &usize| number(a).total_cmp(&number(b));
+        let ends = [(0..runs).min_by(by_number), (0..runs).max_by(by_number)];
+        ends.into_iter().flatten()
+    });
+    let mut rows: Vec<usize> = ends.collect();
+    rows.sort_unstable();
+    rows.dedup();
+    rows
 }
 
 /// The values that are looked at: all of a list, if they are not too many, else the least and the greatest; of random

@@ -151,11 +151,16 @@ pub(crate) fn behind_rate(lower: &str) -> Option<&str> {
 pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
     let plain = entry.words();
     let plain = plain.as_str();
+    let is = |keys: &[&str]| keys.contains(&plain);
+    // `Max. acceleration`, of which no word is of another record.
+    let words: Vec<&str> = plain.split([' ', '.']).filter(|w| !w.is_empty()).collect();
+    if PEAKS.contains(&words.join(" ").as_str()) {
+        return Some(Meaning::Peak);
+    }
     // `Original dt` is that of another record.
     if is_of_another(entry.key) {
         return None;
     }
-    let is = |keys: &[&str]| keys.contains(&plain);
     // Behind a blank, a line of words may end in the key.
     let ends = |keys: &[&str]| match entry.parted {
         true => keys.iter().any(|k| ends_in(plain, k)),
@@ -173,8 +178,6 @@ pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
         Meaning::Count
     } else if is(&DURATIONS) {
         Meaning::Duration
-    } else if is(&PEAKS) {
-        Meaning::Peak
     } else if is(&QUANTITIES) {
         Meaning::Quantity
     } else if is(&FACTORS) {
@@ -434,9 +437,14 @@ fn is_count(key: &str) -> bool {
     if ends_in(key, "npts") {
         return true;
     }
+    // `Numero de muestras del registro`.
+    let key = ["del registro", "do registro", "totales", "totais"]
+        .iter()
+        .find_map(|of| key.strip_suffix(of)?.strip_suffix(' '))
+        .unwrap_or(key);
     let mut words: Vec<&str> = key
         .split([' ', '.', '_', '\''])
-        .filter(|w| !w.is_empty())
+        .filter(|w| !w.is_empty() && !["\u{b0}", "\u{ba}"].contains(w))
         .collect();
     // `Total No. of Points`.
     if words.len() > 2 && words[0] == "total" {

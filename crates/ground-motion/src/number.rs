@@ -307,17 +307,6 @@ pub(crate) fn step_or_rate(text: &str, bare: Bare) -> Result<Option<f64>, String
 /// digit: `200 samples/sec`, `100 pts/sec`, `200 sps`; in a text on sampling `200 Hz` and
 /// `200/sec` as well, unless the words before it are of a filter or an instrument.
 pub(crate) fn rates(text: &str) -> Vec<(f64, f64)> {
-    const OF_FILTERS: [&str; 9] = [
-        " filter",
-        "corner",
-        "cut",
-        "natural",
-        "pass",
-        "nyquist",
-        "alias",
-        "corte",
-        "bandwidth",
-    ];
     let lower = text.to_ascii_lowercase();
     let on_sampling = lower.contains("sampl");
     let number = |c: char| c.is_ascii_digit() || c == '.';
@@ -344,9 +333,7 @@ pub(crate) fn rates(text: &str) -> Vec<(f64, f64)> {
                     .any(|p| after.starts_with(p))
             });
         let hertz = unit.starts_with("hz") || unit.starts_with("/s");
-        // `filtered, resampled at 200 Hz`.
-        let last = words.rfind("sampl").unwrap_or(0);
-        let of_filter = OF_FILTERS.iter().any(|word| words[last..].contains(word));
+        let of_filter = is_of_filter(&words);
         let plain = on_sampling && hertz && !of_filter;
         if hertz || per {
             words.clear();
@@ -361,6 +348,40 @@ pub(crate) fn rates(text: &str) -> Vec<(f64, f64)> {
         }
     }
     found
+}
+
+/// Whether the words before a rate are of a filter or of the instrument rather than of sampling.
+fn is_of_filter(words: &str) -> bool {
+    const OF_FILTERS: [&str; 9] = [
+        " filter",
+        "corner",
+        "cut",
+        "natural",
+        "pass",
+        "nyquist",
+        "alias",
+        "corte",
+        "bandwidth",
+    ];
+    const OF_INSTRUMENTS: [&str; 6] = [
+        "frequency of instrument",
+        "frequency of the instrument",
+        "frequency of sensor",
+        "frequency of the sensor",
+        "instrument frequency",
+        "sensor frequency",
+    ];
+    let is_in = |of: &[&str], text: &str| of.iter().any(|word| text.contains(word));
+    let Some(last) = words.rfind("sampl") else {
+        return is_in(&OF_FILTERS, words) || is_in(&OF_INSTRUMENTS, words);
+    };
+    // `filtered, resampled at 200 Hz`, but `corner before resampling: 80 Hz`.
+    let before = words[..last].trim_end_matches(|c: char| c.is_alphabetic() || c == '-');
+    let goes_on = [" of ", " for ", " before "]
+        .iter()
+        .any(|word| before.ends_with(word))
+        && !words[last..].contains(" at ");
+    is_in(&OF_FILTERS, &words[if goes_on { 0 } else { last }..])
 }
 
 #[cfg(test)]

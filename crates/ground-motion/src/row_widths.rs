@@ -39,6 +39,14 @@ impl RowWidths {
         self.rows.entry(values).or_insert((0, line)).0 += 1;
     }
 
+    /// The number of values that each row has, if there are so many rows and more than one value in each.
+    pub(crate) fn are_all(&self, rows: usize) -> Option<usize> {
+        let (_, last) = self.last?;
+        let all: usize = self.rows.values().map(|(count, _)| count).sum();
+        let only = self.rows.len() == 1 && self.rows.contains_key(&last);
+        (only && last > 1 && all + 1 == rows).then_some(last)
+    }
+
     /// The first row that is damaged: a few have another number of values than all others. Where
     /// many do, the rows are free. The last one may be shorter.
     pub(crate) fn odd(mut self) -> Option<OddRow> {

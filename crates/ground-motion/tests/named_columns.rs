@@ -651,3 +651,33 @@ fn a_layout_against_its_header() {
     }
     assert!(with("time (s),acc (g),vel (cm/s)", "t,a,-", None).is_ok());
 }
+
+/// Ordinates of spectra by a mean, a damping or a component in any order; a name of a floor is none.
+#[test]
+fn ordinates_of_means_and_dampings() {
+    let rows: String = (0..ROWS)
+        .map(|i| format!("{:.2},{:.4}\n", 0.01 * i as f64, value(i)))
+        .collect();
+    let read = |name: &str| read_bytes("f", format!("t,{name}\n{rows}").as_bytes(), &in_g());
+    for name in [
+        "Sa_avg_g",
+        "Sa_geomean_g",
+        "Sa_median",
+        "Sa_g_X",
+        "Sa_g_5pct",
+        "PSA_RotD50_g",
+        "PSA_5pct_X_g",
+        "PSA_X_5pct_m_s2",
+        "Sa_5_pct_g",
+        "PSA_xi5_g",
+        "Sa_damp5_g",
+        "SaX_g",
+        "SaNS",
+    ] {
+        let said = read(name).unwrap_err().to_string();
+        assert!(said.contains("that of a spectrum"), "{name}: {said}");
+    }
+    for name in ["sa_roof_g", "sa1", "SAX", "acc_x_g", "a_X_g"] {
+        read(name).unwrap_or_else(|e| panic!("{name}: {e}"));
+    }
+}

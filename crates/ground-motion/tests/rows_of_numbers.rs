@@ -155,6 +155,82 @@ fn components_without_times_are_not_one_series() {
     }
 }
 
+/// Rows of more values whose columns go on from row to row are as many series, whatever their number; with a count
+/// of all numbers they are one.
+#[test]
+fn values_that_go_on_down_the_columns_are_no_series_along_the_rows() {
+    let columns = |width: usize| -> String {
+        let row = |i: usize| {
+            let at = |k: usize| (0.35 * i as f64 + 2.0 * k as f64).sin();
+            let values: Vec<_> = (0..width).map(|k| format!("{:.5}", at(k))).collect();
+            values.join(" ") + "\n"
+        };
+        (0..40).map(row).collect()
+    };
+    let title = "Acceleration (cm/s2)\ndt = 0.02 s\n";
+    let read = |text: &str| read_bytes("f", text.as_bytes(), &ReadOptions::default());
+    for width in [4, 5, 6, 8] {
+        let asked = read(&(title.to_owned() + &columns(width))).unwrap_err();
+        let place = format!("f:3:1: rows of {width} values");
+        assert!(asked.to_string().starts_with(&place), "{asked}");
+        let bare = columns(width);
+        let asked = read_bytes("f", bare.as_bytes(), &options(None, Some(0.02))).unwrap_err();
+        assert!(asked.to_string().contains("beside one another"), "{asked}");
+        let counted = format!("{title}Samples: {}\n{}", 40 * width, columns(width));
+        assert_eq!(read(&counted).unwrap().samples().len(), 40 * width);
+        let said = options(Some("a"), Some(0.02));
+        let along = read_bytes("f", bare.as_bytes(), &said).unwrap();
+        assert_eq!(along.samples().len(), 40 * width);
+        // One series along the rows stays one, noise too.
+        let noise = |n: usize| ((n * n * 7919) % 10_007) as f64 - 5000.0;
+        for series in [
+            &|n: usize| 100.0 * (0.3 * n as f64).sin(),
+            &noise as &dyn Fn(usize) -> f64,
+        ] {
+            let row = |i: usize| {
+                let values: Vec<_> = (0..width)
+                    .map(|k| format!("{:.5}", series(width * i + k)))
+                    .collect();
+                values.join(" ") + "\n"
+            };
+            let text = title.to_owned() + &(0..40).map(row).collect::<String>();
+            assert_eq!(read(&text).unwrap().samples().len(), 40 * width, "{width}");
+        }
+    }
+}
+
+/// As many rows as the header counts samples are those of components, in a header of AT2 too.
+#[test]
+fn a_count_of_rows_is_that_of_components() {
+    let rows = |width: usize| -> String {
+        (0..40)
+            .map(|i| format!("{:.4} ", value(i)).repeat(width) + "\n")
+            .collect()
+    };
+    let title = "Acceleration (g)\nNPTS: 40, DT: 0.02 s\n";
+    for width in [2, 3, 5] {
+        for lenient in [false, true] {
+            let given = ReadOptions {
+                lenient,
+                ..ReadOptions::default()
+            };
+            let text = title.to_owned() + &rows(width);
+            let error = read_bytes("f", text.as_bytes(), &given).unwrap_err();
+            let told = format!(
+                "f:3:1: the header says 40 samples, and there are as many rows, of {width} values"
+            );
+            assert!(error.to_string().starts_with(&told), "{error}");
+            assert!(
+                error.help().unwrap().contains("`skip_lines = 2`"),
+                "{error}"
+            );
+        }
+    }
+    let one = title.to_owned() + &rows(1);
+    let read = read_bytes("f", one.as_bytes(), &ReadOptions::default()).unwrap();
+    assert_eq!(read.samples().len(), 40);
+}
+
 /// Fortran's input: digits without a point are decimals as the format says.
 #[test]
 fn fortran_formats_with_implied_decimals() {

@@ -358,6 +358,12 @@ fn one_of_several_numbers() {
         ("Filtered 0.1-25 Hz, 200 Hz sampling", Some(0.005)),
         ("Filtered and resampled at 200 Hz", Some(0.005)),
         ("Unfiltered, 200 samples/sec", Some(0.005)),
+        ("Anti-alias filter of sampling: 50 Hz", None),
+        ("Low-pass corner before resampling: 80 Hz", None),
+        ("Filtered before sampling at 200 Hz", Some(0.005)),
+        ("Frequency of instrument 50 Hz, sampled digitally", None),
+        ("Frequency of instrument 200 Hz", None),
+        ("Filter 0.1-25 Hz", None),
         ("Low-pass corner: 50 Hz", None),
         ("Frecuencia de corte: 25 Hz", None),
         ("Natural frequency 200 Hz", None),
@@ -440,6 +446,24 @@ fn counts() {
         ("Anzahl Messwerte: 41", "Anzahl Messwerte: 40"),
         ("Veri say\u{131}s\u{131}: 41", "Veri say\u{131}s\u{131}: 40"),
         ("Toplam veri sayisi = 41", "Toplam veri sayisi = 40"),
+        ("Nro. de puntos: 41", "Nro. de puntos: 40"),
+        ("N\u{ba} de datos: 41", "N\u{ba} de datos: 40"),
+        ("N.\u{ba} de amostras: 41", "N.\u{ba} de amostras: 40"),
+        (
+            "N\u{fa}mero de muestras del registro: 41",
+            "N\u{fa}mero de muestras del registro: 40",
+        ),
+        ("Numero de muestras (N): 41", "Numero de muestras (N): 40"),
+        ("Numero de valores: 41", "Numero de valores: 40"),
+        ("N. campioni: 41", "N. campioni: 40"),
+        ("Numero di valori: 41", "Numero di valori: 40"),
+        ("Nb de points: 41", "Nb de points: 40"),
+        ("Nombre de valeurs: 41", "Nombre de valeurs: 40"),
+        (
+            "Anzahl der St\u{fc}tzstellen: 41",
+            "Anzahl der St\u{fc}tzstellen: 40",
+        ),
+        ("Datenanzahl: 41", "Datenanzahl: 40"),
     ] {
         refused(&of(count), "41 samples, the series ends after 40");
         is_read(&of(right), 0.01, "g");
@@ -449,6 +473,9 @@ fn counts() {
         "Numero de registro: 35",
         "Anzahl Kan\u{e4}le: 3",
         "Datos: 7",
+        "Valori: 7",
+        "N. registro: 7",
+        "Nro. de registro: 35",
     ] {
         is_read(&of(other), 0.01, "g");
     }
@@ -478,6 +505,17 @@ fn peaks() {
         "Maximale Beschleunigung",
         "Maximalwert",
         "En b\u{fc}y\u{fc}k ivme",
+        "Acel. m\u{e1}x.",
+        "M\u{e1}x. aceleraci\u{f3}n",
+        "Aceleraci\u{f3}n m\u{e1}xima absoluta",
+        "Pico de acelera\u{e7}\u{e3}o",
+        "Massima accelerazione",
+        "Acc\u{e9}l\u{e9}ration maximum",
+        "Max. Beschleunigung",
+        "Gr\u{f6}\u{df}te Beschleunigung",
+        "Maks. ivme",
+        "Maximum acceleration",
+        "Max. acceleration",
     ] {
         refused(&of(&format!("{peak}: 999 gal")), "the header's peak is");
         refused(&of(&format!("{peak} (m/s2): 9.99")), "the header's peak is");

@@ -170,6 +170,20 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         false => drop(samples.pop()),
     }
     are_no_pairs(source, &samples, (header.count, first))?;
+    if let Some(width) = widths.are_all(header.count) {
+        return Err(source.error(
+            first,
+            0,
+            format!(
+                "the header says {} samples, and there are as many rows, of {width} values each: {width} components beside one another",
+                header.count
+            ),
+            &format!(
+                "this format has one series along the rows: read them as `format = \"plain_columns\"`, `skip_lines = {}` and `layout` with a name for each column, such as \"ns,ew\" or \"ns,ew,ud\" (`-` passes one over), and choose one by `component`; give `time_step` and `unit` of the header (`--format plain_columns --skip-lines {0}` and so on with `pounding motion`)",
+                first - 1
+            ),
+        ));
+    }
     widths.are_even(source)?;
     let mut draft = Draft::new(samples, unit, (header.line, first, lines.number()));
     let rates = rates(&header);

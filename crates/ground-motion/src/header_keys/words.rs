@@ -97,7 +97,7 @@ pub(super) const RATES: [&str; 29] = [
     "ornekleme hizi",
 ];
 /// Keys of a count.
-pub(super) const COUNTS: [&str; 35] = [
+pub(super) const COUNTS: [&str; 40] = [
     "npts",
     "count",
     "ndata",
@@ -136,13 +136,18 @@ pub(super) const COUNTS: [&str; 35] = [
     "toplam veri",
     "veri adedi",
     "nokta adedi",
+    "valores",
+    "valori",
+    "valeurs",
+    "stutzstellen",
+    "datenanzahl",
 ];
 /// Keys of a count that alone are a heading.
-pub(super) const HEADINGS: [&str; 7] = [
-    "data", "values", "datos", "dados", "dati", "donnees", "werte",
+pub(super) const HEADINGS: [&str; 10] = [
+    "data", "values", "datos", "dados", "dati", "donnees", "werte", "valores", "valori", "valeurs",
 ];
 /// Words before what is counted.
-pub(super) const NUMBERS_OF: [&str; 12] = [
+pub(super) const NUMBERS_OF: [&str; 16] = [
     "number",
     "no",
     "num",
@@ -155,9 +160,13 @@ pub(super) const NUMBERS_OF: [&str; 12] = [
     "nombre",
     "anzahl",
     "zahl",
+    "n",
+    "nro",
+    "nb",
+    "nbre",
 ];
 /// Words between `number` and what is counted.
-pub(super) const OF_ALL: [&str; 17] = [
+pub(super) const OF_ALL: [&str; 19] = [
     "of",
     "the",
     "data",
@@ -175,6 +184,8 @@ pub(super) const OF_ALL: [&str; 17] = [
     "d",
     "der",
     "totale",
+    "do",
+    "des",
 ];
 /// Keys of a rate, unless it is of something slow.
 pub(super) const FREQUENCIES: [&str; 5] = ["frequency", "freq", "frecuencia", "frequenza", "rate"];
@@ -188,7 +199,7 @@ pub(super) const DURATIONS: [&str; 6] = [
     "length of record",
 ];
 /// Keys of a largest acceleration.
-pub(super) const PEAKS: [&str; 33] = [
+pub(super) const PEAKS: [&str; 54] = [
     "amax",
     "acc max",
     "pga",
@@ -227,6 +238,27 @@ pub(super) const PEAKS: [&str; 33] = [
     "en buyuk ivme",
     "maksimum ivme",
     "pik ivme",
+    "aceleracion max",
+    "aceleracion maxima absoluta",
+    "aceleracion maxima del terreno",
+    "max aceleracion",
+    "acel max",
+    "acel maxima",
+    "pico de aceleracion",
+    "valor pico",
+    "aceleracao max",
+    "max aceleracao",
+    "pico de aceleracao",
+    "accelerazione max",
+    "massima accelerazione",
+    "acceleration de pointe",
+    "max beschleunigung",
+    "groste beschleunigung",
+    "gro\u{df}te beschleunigung",
+    "spitzenwert",
+    "maks ivme",
+    "max ivme",
+    "en yuksek ivme",
 ];
 /// Keys of what the values are.
 pub(super) const QUANTITIES: [&str; 7] = [

@@ -339,27 +339,58 @@ pub(super) fn is_spectral(cell: &str) -> bool {
         let digits = behind.bytes().take_while(u8::is_ascii_digit).count();
         digits > 0 && !behind[digits..].starts_with(char::is_alphanumeric)
     });
-    // `Sa_X_ft_s2`, `PSA_5pct_g`: of a component or a damping.
-    let of_one = |words: &[&str]| match words {
-        [name, of, unit @ ..] => {
-            let ordinate = ["sa", "spa", "psa", "sv", "psv", "sd"].contains(name);
-            let percent = of.trim_start_matches(|c: char| c.is_ascii_digit());
-            let damping =
-                percent.len() < of.len() && ["", "%", "pct", "percent"].contains(&percent);
-            ordinate
-                && (damping
-                    || is_component(of)
-                    || ["x", "y", "z", "n", "e", "u", "h", "v"].contains(of))
-                && (unit.is_empty() || is_unit(&unit.join("_")))
-        }
-        _ => false,
-    };
+    // `Sa_X_ft_s2`, `PSA_5pct_g`, `Sa_geomean`, `SaX_g`: of a component, a damping or a mean.
+    let joined = name.split(['_', ' ']).next().is_some_and(has_component);
+    let of_one = (joined || ORDINATES.contains(&words[0]) && words.len() > 1)
+        && are_of_ordinate(&words[1..], &is_unit);
     named(words.len())
         || of_damping
-        || of_one(&words)
+        || of_one
         || (1..words.len()).any(with_unit)
         || starts.iter().any(|start| known.starts_with(start))
             && (words.len() == 1 || motions.iter().any(|motion| words.contains(motion)))
+}
+
+/// Ordinates of spectra that have a component, a damping or a mean behind them.
+const ORDINATES: [&str; 6] = ["sa", "spa", "psa", "sv", "psv", "sd"];
+
+/// Whether a component stands behind an ordinate without a sign between them, told by its capitals: `SaX`, `PSaNS`.
+fn has_component(word: &str) -> bool {
+    let ordinates = ["PSa", "Sa", "Sv", "Sd"];
+    let component = ordinates.iter().find_map(|name| word.strip_prefix(name));
+    let known = ["X", "Y", "Z", "H", "V", "H1", "H2", "NS", "EW", "UD"];
+    component.is_some_and(|component| known.contains(&component))
+}
+
+/// Whether words behind an ordinate of a spectrum are components, dampings, means and units alone.
+fn are_of_ordinate(words: &[&str], is_unit: &dyn Fn(&str) -> bool) -> bool {
+    const PARTS: [&str; 21] = [
+        "avg", "mean", "median", "geomean", "gm", "srss", "max", "larger", "env", "envelope",
+        "target", "design", "elastic", "h", "v", "x", "y", "z", "n", "e", "u",
+    ];
+    let [first, rest @ ..] = words else {
+        return true;
+    };
+    let is_of_unit = |count: usize| {
+        is_unit(&words[..count].join("_")) && are_of_ordinate(&words[count..], is_unit)
+    };
+    if (1..=words.len().min(3)).any(is_of_unit) {
+        return true;
+    }
+    // `5pct`, `xi5`, `rotd50`.
+    let marks = [
+        "damp", "xi", "zeta", "rotd", "rotdn", "gmroti", "gmrotd", "",
+    ];
+    let ends = ["", "%", "pct", "percent"];
+    let is_numbered = marks.iter().any(|mark| {
+        let behind = first.strip_prefix(mark).unwrap_or_default();
+        let end = behind.trim_start_matches(|c: char| c.is_ascii_digit() || c == '.');
+        end.len() < behind.len() && ends.contains(&end)
+    });
+    // `5_pct`.
+    let is_part =
+        is_numbered || ends[1..].contains(first) || PARTS.contains(first) || is_component(first);
+    is_part && are_of_ordinate(rest, is_unit)
 }
 
 /// A cell without quotes and blanks around it.

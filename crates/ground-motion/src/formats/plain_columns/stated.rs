@@ -308,6 +308,7 @@ impl Stated {
                     if found >= 2.0
                         && found.fract() == 0.0
                         && (["", "points", "samples", "values", "pts"].contains(&unit)
+                            || behind.is_empty() && ["n", "npts", "-", "#"].contains(&unit)
                             || begins_next(unit)) =>
                 {
                     let value = found as usize;

@@ -21,6 +21,11 @@ const EVEN_BESIDE_NUMBERS: usize = 8;
 const TIME_AMONG: usize = 16;
 /// Values of a row that may be components: agencies print more of one series.
 const COMPONENTS: std::ops::RangeInclusive<usize> = 2..=3;
+/// Rows from which on values show whether they go on down the columns rather than along the rows.
+const SHOWING_ROWS: usize = 20;
+/// Part of the mean square of differences along the rows below which those down the columns are of several series.
+/// Of one series the next value is no farther than that in the row below, but where its period is a row.
+const DOWN_COLUMNS: f64 = 0.1;
 
 /// How the numbers are arranged.
 pub(super) enum Arrangement {
@@ -356,25 +361,59 @@ impl Survey {
         Ok(Arrangement::Wrapped)
     }
 
-    /// Refuses rows of two or three values, which may be as many components, unless a count of samples says that
-    /// they are one series along the rows.
+    /// Refuses rows of two or three values, which may be as many components, and rows of more that go on down the
+    /// columns, unless a count of samples says that they are one series along the rows.
     pub(super) fn is_one_series(
         &self,
         source: &Source<'_>,
         counts_stated: &[usize],
     ) -> Result<(), GroundMotionError> {
         let width = self.second_length;
-        let many = COMPONENTS.contains(&width) && self.rows > EVEN_ROWS;
+        let may = width > 1 && self.rows > EVEN_ROWS;
         // Zeros may fill the last row.
         let all = self.numbers + 1 - width.min(self.numbers)..=self.numbers;
-        if !many || counts_stated.iter().any(|count| all.contains(count)) {
+        if !may || counts_stated.iter().any(|count| all.contains(count)) {
             return Ok(());
         }
+        if !COMPONENTS.contains(&width) && !self.goes_down(source, width)? {
+            return Ok(());
+        }
+        none_touch(source)?;
         let counted = match counts_stated.contains(&self.rows) {
             true => "; as many rows as the header counts samples are those of components",
             false => "",
         };
         Err(self.asks(source, width, counted, ""))
+    }
+
+    /// Whether the values go on down the columns rather than along the rows, as those of as many series do.
+    fn goes_down(&self, source: &Source<'_>, width: usize) -> Result<bool, GroundMotionError> {
+        if self.rows < SHOWING_ROWS || self.first_length != width {
+            return Ok(false);
+        }
+        let mut above = Vec::with_capacity(width);
+        let mut row = Vec::with_capacity(width);
+        let (mut along, mut down) = (0.0, 0.0);
+        for line in rows(source) {
+            row.clear();
+            for (column, field) in line.fields() {
+                row.push(source.number(line, column + source.options.skip_columns, field)?);
+            }
+            // From the end of the row above to the start of this one it goes on along the rows.
+            let before = above.last().copied().into_iter().chain(row.iter().copied());
+            let behind = row.iter().skip(usize::from(above.is_empty()));
+            along += before
+                .zip(behind)
+                .map(|(a, b): (f64, &f64)| (b - a).powi(2))
+                .sum::<f64>();
+            down += above
+                .iter()
+                .zip(&row)
+                .map(|(a, b): (&f64, &f64)| (b - a).powi(2))
+                .sum::<f64>();
+            std::mem::swap(&mut above, &mut row);
+        }
+        Ok(down < DOWN_COLUMNS * along)
     }
 
     /// The question what the values of a row are.

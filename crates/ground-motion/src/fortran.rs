@@ -178,6 +178,29 @@ impl Layout {
     }
 }
 
+/// The format of a row of numbers that all have as many decimals, from where their decimal points stand:
+/// `5E14.7`, `1X,8F9.5`; `None` where the points are not even.
+pub(crate) fn format_of(row: &[u8]) -> Option<String> {
+    let points: Vec<usize> = (0..row.len()).filter(|i| row[*i] == b'.').collect();
+    let (first, second) = (*points.first()?, *points.get(1)?);
+    let width = second - first;
+    let behind = &row[*points.last()? + 1..];
+    let decimals = behind.iter().take_while(|b| b.is_ascii_digit()).count();
+    let exponent = &behind[decimals..];
+    let of_exponent = |b: &u8| b.is_ascii_digit() || b"eEdD+-".contains(b);
+    let margin = (first + 1 + behind.len()).checked_sub(width)?;
+    let is_even = points.windows(2).all(|p| p[1] - p[0] == width)
+        && exponent.iter().all(of_exponent)
+        && row[..margin].iter().all(|b| *b == b' ');
+    let kind = if exponent.is_empty() { 'F' } else { 'E' };
+    let format = format!("{}{kind}{width}.{decimals}", points.len());
+    let format = match margin {
+        0 => format,
+        margin => format!("{margin}X,{format}"),
+    };
+    Layout::parse(&format).filter(|_| is_even).map(|_| format)
+}
+
 fn leading_number(rest: &mut &str) -> Option<usize> {
     let end = rest
         .bytes()

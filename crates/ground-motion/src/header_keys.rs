@@ -366,7 +366,7 @@ fn before_numbers(lower: &str) -> Vec<Entry<'_>> {
         return Vec::new();
     };
     let (key, value) = (bare[..at].trim_end(), bare[at..].trim_start());
-    let in_key = |c: char| c.is_alphabetic() || " _-()[]./".contains(c);
+    let in_key = |c: char| c.is_alphabetic() || " _-()[]./'\u{2019}\u{b0}\u{ba}".contains(c);
     let is_one = key.chars().all(in_key) && value.split_whitespace().count() <= 2;
     is_one.then(|| entry(key, value)).into_iter().collect()
 }
@@ -447,7 +447,7 @@ fn is_count(key: &str) -> bool {
         .filter(|w| !w.is_empty() && !["\u{b0}", "\u{ba}"].contains(w))
         .collect();
     // `Total No. of Points`.
-    if words.len() > 2 && words[0] == "total" {
+    if words.len() > 1 && words[0] == "total" {
         words.remove(0);
     }
     let of_all = |words: &[&str]| {

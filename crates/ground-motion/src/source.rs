@@ -6,7 +6,7 @@ use std::path::Path;
 use crate::cut_numbers::Forms;
 use crate::draft::Printed;
 use crate::error::GroundMotionError;
-use crate::fortran::Layout;
+use crate::fortran::{Layout, format_of};
 use crate::number::{self, Bare};
 use crate::options::ReadOptions;
 use crate::quantity::SeriesUnit;
@@ -20,7 +20,17 @@ const HEAD: usize = 30;
 const FREE_SERIES: usize = 12;
 const BYTES_A_SERIES: usize = 256;
 const REMEDY_VALUE: &str = "correct the value, or get the record again: no sample may be missing";
-const REMEDY_TOUCHING: &str = "put a blank between the numbers; or in plain columns that hold one series along rows of fixed width give their Fortran format, e.g. `layout = \"8I6\"` for eight numbers of six characters a row";
+
+/// What to do about numbers of a row that touch.
+fn touching_remedy(row: &[u8]) -> String {
+    let example = match format_of(row) {
+        Some(format) => format!("here `layout = \"{format}\"`"),
+        None => "e.g. `layout = \"8I6\"` for eight numbers of six characters a row".to_owned(),
+    };
+    format!(
+        "put a blank between the numbers; or in plain columns that hold one series along rows of fixed width give their Fortran format, {example}"
+    )
+}
 
 /// A file's bytes with what is needed to point into them.
 pub(crate) struct Source<'a> {
@@ -289,10 +299,10 @@ impl<'a> Source<'a> {
     ) -> Result<f64, GroundMotionError> {
         number::parse(field).map_err(|message| {
             let remedy = match number::touching(field) {
-                true => REMEDY_TOUCHING,
-                false => REMEDY_VALUE,
+                true => touching_remedy(line.bytes),
+                false => REMEDY_VALUE.to_owned(),
             };
-            self.error(line.number, column, message, remedy)
+            self.error(line.number, column, message, &remedy)
         })
     }
 

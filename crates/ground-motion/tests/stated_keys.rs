@@ -464,6 +464,18 @@ fn counts() {
             "Anzahl der St\u{fc}tzstellen: 40",
         ),
         ("Datenanzahl: 41", "Datenanzahl: 40"),
+        ("Total datos: 41", "Total datos: 40"),
+        ("Numero dei dati: 41", "Numero dei dati: 40"),
+        (
+            "\u{d6}rnekleme say\u{131}s\u{131}: 41",
+            "\u{d6}rnekleme say\u{131}s\u{131}: 40",
+        ),
+        ("Werteanzahl: 41", "Werteanzahl: 40"),
+        (
+            "Nombre d'\u{e9}chantillons 41",
+            "Nombre d'\u{e9}chantillons 40",
+        ),
+        ("N\u{b0} de puntos 41", "N\u{b0} de puntos 40"),
     ] {
         refused(&of(count), "41 samples, the series ends after 40");
         is_read(&of(right), 0.01, "g");
@@ -516,6 +528,8 @@ fn peaks() {
         "Maks. ivme",
         "Maximum acceleration",
         "Max. acceleration",
+        "Maximum value",
+        "Acc. massima",
     ] {
         refused(&of(&format!("{peak}: 999 gal")), "the header's peak is");
         refused(&of(&format!("{peak} (m/s2): 9.99")), "the header's peak is");
@@ -531,6 +545,28 @@ fn peaks() {
     assert_eq!(series.len(), 2);
     // Without a unit of its own it says nothing.
     is_read(&of("PGA: 2.94"), 0.01, "g");
+}
+
+/// What lines state above rows that begin with text is known, and no row, however many characters of them are passed over.
+#[test]
+fn keys_above_rows_behind_text() {
+    for columns in [4, 8, 10, 12, 14, 15] {
+        let prefix = "ACC ".to_owned() + &" ".repeat(columns - 4);
+        let rows: String = table("", 1, " ")
+            .trim_start()
+            .lines()
+            .map(|row| format!("{prefix}{}\n", row.split_whitespace().last().unwrap()))
+            .collect();
+        let text = format!("Time step (s): 0.01\nunits: gal\nNPTS 40\n{rows}");
+        let options = ReadOptions {
+            skip_columns: columns,
+            ..ReadOptions::default()
+        };
+        let series = read_with(&text, &options).unwrap_or_else(|e| panic!("{text}: {e}"));
+        assert_eq!((series.len(), series[0].samples.len()), (1, 40), "{text}");
+        assert_eq!(series[0].unit, "cm/s2");
+        assert_eq!(series[0].sampling.median_step(), 0.01);
+    }
 }
 
 #[test]
@@ -908,6 +944,9 @@ fn formats_are_no_units() {
         "Acceleration in gal (5E14.7)\ndt: 0.01",
         "Acceleration data, format (1P5E14.6), in cm/s2\ndt: 0.01",
         "(8F9.6)\ndt: 0.01\nunits: gal",
+        "Acceleration [8F9.6] (cm/s2)\ndt: 0.01",
+        "Acceleration (8(F9.6)) (cm/s2)\ndt: 0.01",
+        "Acceleration (format: 5E14.7), cm/s2\ndt: 0.01",
     ] {
         is_read(header, 0.01, "cm/s2");
     }
@@ -917,7 +956,12 @@ fn formats_are_no_units() {
 /// A value of something else hides neither what is stated nor what is missing.
 #[test]
 fn values_of_something_else_are_no_columns() {
-    for line in ["Altitude (m) : 130", "Depth (km) : 12", "Vs30 (m/s) = 350"] {
+    for line in [
+        "Altitude (m) : 130",
+        "Depth (km): 12",
+        "Distance (km)=35",
+        "Vs30 (m/s) = 350",
+    ] {
         let header = format!("Acceleration (cm/s2)\n{line}");
         refused(&header, "does not state its time step");
         is_read(&format!("{header}\ndt: 0.01"), 0.01, "cm/s2");
@@ -939,6 +983,21 @@ fn names_of_several_words_between_blanks() {
         ),
         (
             "time (s)\tRoof acc (g)\tBase acc (g)",
+            ["Roof acc", "Base acc"],
+        ),
+        ("Time  Roof acc (g)  Base acc (g)", ["Roof acc", "Base acc"]),
+        ("Time Acc X (g) Acc Y (g)", ["Acc X", "Acc Y"]),
+        ("Time    Acc X (g)    Acc Y (g)", ["Acc X", "Acc Y"]),
+        (
+            "Time, s   Roof acc, g   Base acc, g",
+            ["Roof acc", "Base acc"],
+        ),
+        (
+            "Time   Roof acc   Base acc\n(s)   (g)   (g)",
+            ["Roof acc", "Base acc"],
+        ),
+        (
+            "# Time (F8.3)   Roof acc   Base acc\n# (s)   (g)   (g)",
             ["Roof acc", "Base acc"],
         ),
     ] {

@@ -63,3 +63,28 @@ fn exponents_without_their_letter_are_read() {
         assert!((a / value - 1.0).abs() < 1e-12, "{a} {value}");
     }
 }
+
+/// The remedy names the format of the row, which reads it.
+#[test]
+fn the_format_of_rows_that_touch_is_named() {
+    for (text, format) in [
+        (
+            " 1.2345678E-01-2.3456789E+00\n-3.4567890E-01-4.5678901E+00\n",
+            "2E14.7",
+        ),
+        (
+            "   1.250  -2.500-100.250\n   1.000   2.000   3.000\n",
+            "3F8.3",
+        ),
+        (
+            "    1.25  -2.50-100.25\n    1.00   2.00   3.00\n",
+            "1X,3F7.2",
+        ),
+    ] {
+        let error = read_bytes("f", text.as_bytes(), &options(Some("a"))).unwrap_err();
+        let named = format!("here `layout = \"{format}\"`");
+        assert!(error.help().unwrap().contains(&named), "{error:?}");
+        let record = read_bytes("f", text.as_bytes(), &options(Some(format))).unwrap();
+        assert_eq!(record.samples().len(), text.matches('.').count());
+    }
+}

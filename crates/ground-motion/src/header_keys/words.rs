@@ -97,7 +97,7 @@ pub(super) const RATES: [&str; 29] = [
     "ornekleme hizi",
 ];
 /// Keys of a count.
-pub(super) const COUNTS: [&str; 40] = [
+pub(super) const COUNTS: [&str; 44] = [
     "npts",
     "count",
     "ndata",
@@ -141,6 +141,10 @@ pub(super) const COUNTS: [&str; 40] = [
     "valeurs",
     "stutzstellen",
     "datenanzahl",
+    "ornekleme sayisi",
+    "werteanzahl",
+    "punktanzahl",
+    "punkteanzahl",
 ];
 /// Keys of a count that alone are a heading.
 pub(super) const HEADINGS: [&str; 10] = [
@@ -166,7 +170,7 @@ pub(super) const NUMBERS_OF: [&str; 16] = [
     "nbre",
 ];
 /// Words between `number` and what is counted.
-pub(super) const OF_ALL: [&str; 19] = [
+pub(super) const OF_ALL: [&str; 22] = [
     "of",
     "the",
     "data",
@@ -186,6 +190,9 @@ pub(super) const OF_ALL: [&str; 19] = [
     "totale",
     "do",
     "des",
+    "dei",
+    "degli",
+    "delle",
 ];
 /// Keys of a rate, unless it is of something slow.
 pub(super) const FREQUENCIES: [&str; 5] = ["frequency", "freq", "frecuencia", "frequenza", "rate"];
@@ -199,7 +206,7 @@ pub(super) const DURATIONS: [&str; 6] = [
     "length of record",
 ];
 /// Keys of a largest acceleration.
-pub(super) const PEAKS: [&str; 54] = [
+pub(super) const PEAKS: [&str; 59] = [
     "amax",
     "acc max",
     "pga",
@@ -259,6 +266,11 @@ pub(super) const PEAKS: [&str; 54] = [
     "maks ivme",
     "max ivme",
     "en yuksek ivme",
+    "maximum value",
+    "max value",
+    "acc massima",
+    "acc maxima",
+    "acel maxima del terreno",
 ];
 /// Keys of what the values are.
 pub(super) const QUANTITIES: [&str; 7] = [

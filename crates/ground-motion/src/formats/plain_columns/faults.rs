@@ -102,6 +102,10 @@ pub(super) fn fault_of(cells: &Cells) -> Option<(String, Fault)> {
 /// number of a row or no motion at all.
 pub(super) fn of_no_acceleration(cells: &Cells) -> Option<Fault> {
     let names = &cells.names;
+    // `Distance (km)=35` is a key with its value.
+    if cells.separator.is_none() && has_value(cells) {
+        return None;
+    }
     // A letter alone may be a direction.
     let moves = |name: &&String| {
         let is_word = unquoted(name).chars().count() > 1;
@@ -140,14 +144,17 @@ fn of_factor(cells: &Cells) -> Option<Fault> {
         .map(|name| Fault::Factor(name.to_owned()))
 }
 
+/// Whether a number stands under a key of the line.
+fn has_value(cells: &Cells) -> bool {
+    let lower = cells.text.to_lowercase();
+    keyed(&lower).iter().any(Entry::has_number)
+}
+
 /// The columns of a spectrum, or of times beside what is no motion.
 fn of_spectrum(cells: &Cells) -> Option<Fault> {
     let names = &cells.names;
     // `Frequency (Hz): 200` is a key with its value.
-    if keyed(&cells.text.to_lowercase())
-        .iter()
-        .any(Entry::has_number)
-    {
+    if has_value(cells) {
         return None;
     }
     if are_of_spectrum(names, cells.separator) {

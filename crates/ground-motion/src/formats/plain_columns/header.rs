@@ -8,6 +8,7 @@ use super::names::{
 };
 use super::{OTHERS, stated};
 use crate::error::GroundMotionError;
+use crate::fortran::Layout;
 use crate::header_keys::{Entry, keyed};
 use crate::quantity::{Quantity, SeriesUnit, is_of_no_record};
 use crate::source::Source;
@@ -63,6 +64,12 @@ pub(super) fn cells(line: &Line<'_>) -> Option<Cells> {
     };
     // What programs write before a header that others should pass over.
     let bare = text.trim_start_matches(COMMENT);
+    let plain = without_formats(bare);
+    let bare = if plain.is_empty() {
+        bare
+    } else {
+        plain.as_str()
+    };
     let separator = ['|', ';', '\t', ',']
         .into_iter()
         .find(|s| bare.contains(*s));
@@ -81,6 +88,47 @@ pub(super) fn cells(line: &Line<'_>) -> Option<Cells> {
         names,
         separator,
     })
+}
+
+/// A line without Fortran formats in brackets, `(8F9.6)`, `[8(F9.6)]`, `(format: 5E14.7)`, which are no units.
+pub(super) fn without_formats(text: &str) -> String {
+    let mut kept = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find(['(', '[']) {
+        let mut depth = 0_usize;
+        let end = rest[at..].char_indices().find(|(_, c)| {
+            match c {
+                '(' | '[' => depth += 1,
+                ')' | ']' => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            depth == 0
+        });
+        let Some((length, _)) = end else {
+            break;
+        };
+        let (before, inside) = (&rest[..at], &rest[at + 1..at + length]);
+        match is_format(inside) {
+            true => kept.push_str(before.trim_end()),
+            false => kept.push_str(&rest[..=at + length]),
+        }
+        rest = &rest[at + length + 1..];
+    }
+    kept + rest
+}
+
+/// Whether what stands in brackets is a Fortran format of numbers.
+fn is_format(inside: &str) -> bool {
+    let lower = inside.trim().to_ascii_lowercase();
+    let named = ["fortran format", "format", "fmt"];
+    let named = named.iter().find_map(|name| lower.strip_prefix(name));
+    let format = named.map_or(lower.as_str(), |rest| {
+        rest.trim_start_matches([':', '=', ' ', '\t'])
+    });
+    // `(D5-95)` is none, and `(E100)` may be a direction.
+    let of_format = |c: char| c.is_ascii_digit() || " .,/()efgdipxsn".contains(c);
+    let is_sure = format.contains('.') || format.starts_with(|c: char| c.is_ascii_digit());
+    is_sure && format.chars().all(of_format) && Layout::parse(format).is_some()
 }
 
 /// The header, if every cell of the line names a column and one is an acceleration.
@@ -196,8 +244,8 @@ impl Cells {
     /// The header of rows like the first one: every cell names a column, or one is that of times,
     /// and the names need no units.
     pub(super) fn header_of(&self, row: &Line<'_>) -> Option<Header> {
-        if let Some(names) = self.up_to_brackets().filter(|names| names.fits(row))
-            && !self.fits(row)
+        if !self.fits(row)
+            && let Some(names) = self.several_words().find(|names| names.fits(row))
         {
             return names.header_of(row);
         }
@@ -208,22 +256,52 @@ impl Cells {
         })
     }
 
-    /// The same between blanks, where names have several words and each ends in brackets: `Time (s) Roof acc (g)`.
-    fn up_to_brackets(&self) -> Option<Self> {
+    /// The same names where they may have several words: each ends in brackets, `Time (s) Roof acc (g)`, but for the
+    /// first, `Time Roof acc (g)`; or they stand more than a blank apart, `Time   Roof acc   Base acc`.
+    fn several_words(&self) -> impl Iterator<Item = Self> {
         let ends = |word: &str| word.ends_with([')', ']']);
         let is_key = self.text.contains([':', '=']);
-        let last = self.names.last();
-        if self.separator.is_some() || is_key || !last.is_some_and(|last| ends(last)) {
-            return None;
+        let last = self.names.last().is_some_and(|last| ends(last));
+        let between = |names: &[String]| -> Vec<String> {
+            let names = names.split_inclusive(|name| ends(name));
+            names.map(|words| words.join(" ")).collect()
+        };
+        let mut found = Vec::new();
+        if self.separator.is_none() && last {
+            found.push(between(&self.names));
+            if let Some((first, rest)) = self.names.split_first()
+                && (TIME.contains(&plain(first).as_str())
+                    || COUNTER.contains(&plain(first).as_str()))
+            {
+                found.push([vec![first.clone()], between(rest)].concat());
+            }
         }
-        let names = self.names.split_inclusive(|name| ends(name));
-        let names: Vec<String> = names.map(|words| words.join(" ")).collect();
-        (names.len() < self.names.len()).then(|| Self {
+        if self.separator.is_none_or(|separator| separator == ',') {
+            found.push(self.between_gaps());
+        }
+        let names = found
+            .into_iter()
+            .filter(move |names| !is_key && names.len() > 1);
+        names.map(|names| Self {
             line: self.line,
             text: self.text.clone(),
             names,
             separator: None,
         })
+    }
+
+    /// What stands more than a blank apart on the line, with units behind commas in brackets: `Roof acc, g`.
+    fn between_gaps(&self) -> Vec<String> {
+        let text = without_formats(self.text.trim_start_matches(COMMENT));
+        let names = text
+            .split("  ")
+            .map(str::trim)
+            .filter(|name| !name.is_empty());
+        let with_unit = |name: &str| match name.rsplit_once(',') {
+            Some((name, unit)) => format!("{} ({})", name.trim(), unit.trim()),
+            None => name.to_owned(),
+        };
+        names.map(with_unit).collect()
     }
 
     /// The same names where units stand in cells of their own behind them: `Time, s,Acceleration, g`.
@@ -339,6 +417,20 @@ impl Cells {
             Some(_) => below.names.iter().map(|unit| bare_unit(unit)).collect(),
             None => fields(),
         };
+        // `Time   Roof acc   Base acc` above `(s)   (g)   (g)`.
+        if self.separator.is_none() && units.len() < self.names.len() {
+            let names = self.between_gaps();
+            if names.len() != units.len() {
+                return None;
+            }
+            let apart = Self {
+                line: self.line,
+                text: self.text.clone(),
+                names,
+                separator: None,
+            };
+            return apart.with_units(below);
+        }
         let is_unit = |unit: &&String| time_unit(unit).is_some() || motion_unit(unit).is_some();
         let known = units.iter().filter(is_unit).count();
         let named = |name: &&String| {

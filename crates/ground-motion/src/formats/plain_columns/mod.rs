@@ -8,7 +8,7 @@ use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::fortran::Layout;
-use crate::header_keys::{Entry, keyed};
+use crate::header_keys::{Entry, keyed, meaning};
 use crate::recording::Series;
 use crate::row_widths;
 use crate::source::Source;
@@ -69,18 +69,34 @@ fn starts_a_number(field: &[u8]) -> bool {
 /// each with the characters cut off that the user wants cut off.
 fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
     let columns = source.options.skip_columns;
+    let cut = move |l: &Line<'a>| Line {
+        number: l.number,
+        bytes: l.bytes.get(columns..).unwrap_or(&[]),
+    };
     source
         .all_lines()
         .skip(source.options.skip_lines)
-        .map(move |l| Line {
-            number: l.number,
-            bytes: l.bytes.get(columns..).unwrap_or(&[]),
-        })
-        .filter(|l| !l.is_blank() && l.fields().next().is_some() && !is_comment(l))
-        .skip_while(|l| {
+        .map(move |l| (l, cut(&l)))
+        .filter(|(_, l)| !l.is_blank() && l.fields().next().is_some() && !is_comment(l))
+        .skip_while(move |(whole, l)| {
             let words = !l.fields().any(|(_, field)| starts_a_number(field));
-            words || l.is_text() || is_key(l) || is_letter_n(l) || header::parse(l).is_some()
+            let is_stated = || columns > 0 && states_something(whole);
+            words
+                || l.is_text()
+                || is_key(l)
+                || is_letter_n(l)
+                || is_stated()
+                || header::parse(l).is_some()
         })
+        .map(|(_, l)| l)
+}
+
+/// Whether a number stands under a key of a line that is known, `Time step (s): 0.005`.
+fn states_something(line: &Line<'_>) -> bool {
+    let lower = line.lower();
+    keyed(&lower)
+        .iter()
+        .any(|entry| meaning(entry).is_some() && entry.has_number())
 }
 
 /// Whether a line is a symbol with its value, `\u{394}t = 0.01 s`.

@@ -7,7 +7,6 @@ use crate::draft::{
     Draft, DraftPeak, NamedQuantity, Printed, StatedDuration, decimated, not_applied,
 };
 use crate::error::{GroundMotionError, bound};
-use crate::fortran::Layout;
 use crate::header_keys::{self, Entry, Meaning, is_of_rate, keyed, meaning, unit_words};
 use crate::number;
 use crate::quantity::{Multiple, Quantity, SeriesUnit, named_with_unit, of_something_else};
@@ -104,7 +103,7 @@ impl Stated {
             if line.bytes.len() > header::LONGEST {
                 continue;
             }
-            let lower = without_formats(without_cells(lower(&line)));
+            let lower = header::without_formats(&without_cells(lower(&line)));
             if is_history(&lower) {
                 continue;
             }
@@ -712,24 +711,6 @@ fn without_cells(lower: String) -> String {
         text.replace(end, &format!("{} ", &end[..1]))
     });
     joined.replace('"', " ")
-}
-
-/// A line in lower case without Fortran formats in brackets, `(8f9.6)`, which are no units.
-fn without_formats(lower: String) -> String {
-    let Some((before, rest)) = lower.split_once('(') else {
-        return lower;
-    };
-    let Some((inside, behind)) = rest.split_once(')') else {
-        return lower;
-    };
-    let behind = without_formats(behind.to_owned());
-    // `(D5-95)` is none.
-    let of_format = |c: char| c.is_ascii_digit() || " .,efgdipxsn".contains(c);
-    let format = Layout::parse(inside).filter(|_| inside.chars().all(of_format));
-    match format {
-        Some(_) => format!("{}{behind}", before.trim_end()),
-        None => format!("{before}({inside}){behind}"),
-    }
 }
 
 /// Whether a line begins with a peak under this key, and names nothing but the values of which it may be: no other

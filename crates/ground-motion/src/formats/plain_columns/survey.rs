@@ -375,11 +375,12 @@ impl Survey {
         if !may || counts_stated.iter().any(|count| all.contains(count)) {
             return Ok(());
         }
-        if !COMPONENTS.contains(&width) && !self.goes_down(source, width)? {
+        let as_many_rows = counts_stated.contains(&self.rows);
+        if !COMPONENTS.contains(&width) && !as_many_rows && !self.goes_down(source, width)? {
             return Ok(());
         }
         none_touch(source)?;
-        let counted = match counts_stated.contains(&self.rows) {
+        let counted = match as_many_rows {
             true => "; as many rows as the header counts samples are those of components",
             false => "",
         };

@@ -98,6 +98,153 @@ fn seeds_and_runs_give_numbers_of_their_own() {
     assert!((product / 500.0).abs() < 5.0 / 500.0_f64.sqrt());
 }
 
+const RECORDS: &str = "name = \"record\"\nrecords = [\"a.csv\", { name = \"b\", file = \"a.csv\" }, { name = \"c\", file = \"a.csv\" }]";
+
+/// A record of twenty values.
+fn record(folder: &std::path::Path) {
+    let rows: Vec<String> = (0..20)
+        .map(|i| format!("{},{}", 0.01 * f64::from(i), i % 3 - 1))
+        .collect();
+    let record = "t (s),a (m/s2)\n".to_owned() + &rows.join("\n") + "\n";
+    std::fs::write(folder.join("a.csv"), record).unwrap();
+}
+
+/// A grid with samples is a grid of its variables with values; in each of its points random variables have the same
+/// sets, which are those of a Latin hypercube over all records, each with sets of its own.
+#[test]
+fn grids_have_the_same_random_sets_at_every_point() {
+    let place = tempfile::tempdir().unwrap();
+    record(place.path());
+    let width = "path = \"gap.0.width\"\nvalues = [\"10 mm\", \"20 mm\"]";
+    let even = "name = \"damping\"\npath = \"building.light.damping.stiffness_proportional\"\nfrom = 0.02\nto = 0.06";
+    let variables = [RECORDS, FACTOR, width, even];
+    let study = parsed(place.path(), &variables, "samples = 50\nseed = 4").unwrap();
+    assert_eq!(study.runs(), 3 * 50 * 2);
+    let number = |run: usize, variable: usize| match study.point(run)[variable] {
+        Value::Number(x) => x,
+        Value::Choice(i) => i as f64,
+    };
+    let mut sets = Vec::new();
+    for record in 0..3 {
+        for set in 0..50 {
+            // The last variable with values runs fastest, and the sets stand where the first random variable does.
+            let run = (record * 50 + set) * 2;
+            assert_eq!([number(run, 0), number(run, 2)], [record as f64, 0.01]);
+            assert_eq!(
+                [number(run + 1, 0), number(run + 1, 2)],
+                [record as f64, 0.02]
+            );
+            let of = |run| [number(run, 1), number(run, 3)];
+            assert_eq!(of(run), of(run + 1));
+            sets.push(of(run));
+        }
+    }
+    // One in every equal share of the range, over the sets of all records.
+    let mut shares: Vec<usize> = sets
+        .iter()
+        .map(|[_, damping]| ((damping - 0.02) / 0.04 * 150.0) as usize)
+        .collect();
+    shares.sort_unstable();
+    assert_eq!(shares, (0..150).collect::<Vec<_>>());
+    let factors: Vec<f64> = sets.iter().map(|[factor, _]| *factor).collect();
+    let [mean, deviation] = moments(&factors);
+    assert!((mean - 1.1).abs() < 0.01 && (deviation - 0.275).abs() < 0.02);
+    // Without records the sets are those of all points; and the order of variables is that of runs.
+    let study = parsed(
+        place.path(),
+        &[width, FACTOR],
+        "kind = \"grid\"\nsamples = 7",
+    )
+    .unwrap();
+    let all = numbers(&study, 1);
+    assert_eq!(all.len(), 14);
+    assert_eq!(all[..7], all[7..]);
+    // A single random variable is a grid of its samples.
+    let study = parsed(place.path(), &[GAP], "samples = 400").unwrap();
+    let [mean, deviation] = moments(&numbers(&study, 0));
+    assert!((mean - 0.03).abs() < 1e-5 && (deviation - 0.004).abs() < 1e-4);
+}
+
+/// `samples` without a random variable, and in designs that sample all variables; an incremental dynamic analysis with a
+/// third variable that has values.
+#[test]
+fn samples_that_mean_nothing_are_refused() {
+    let place = tempfile::tempdir().unwrap();
+    record(place.path());
+    let width = "path = \"gap.0.width\"\nvalues = [\"10 mm\", \"20 mm\"]";
+    let intensity = "intensity = \"peak_ground_acceleration\"\nvalues = [1, 2]";
+    let ida = "samples = 2\n[ida]";
+    for (variables, design, message, help) in [
+        (
+            vec![width],
+            "samples = 3",
+            "no variable has a `distribution`",
+            "remove `samples`",
+        ),
+        (
+            vec![width],
+            "seed = 3",
+            "`seed` has no meaning for grid",
+            "remove",
+        ),
+        (
+            vec![width],
+            "kind = \"list\"\nsamples = 3",
+            "`samples` has no meaning for list",
+            "remove",
+        ),
+        (
+            vec![GAP],
+            "kind = \"latin_hypercube\"\nruns = 3\nsamples = 3",
+            "`samples` has no meaning for latin_hypercube",
+            "remove",
+        ),
+        (
+            vec![GAP],
+            "samples = 3\nruns = 3",
+            "`runs` has no meaning for grid",
+            "remove",
+        ),
+        (
+            vec![GAP],
+            "seed = 3",
+            "a grid without `samples`",
+            "samples = ...",
+        ),
+        (vec![GAP], "samples = 0", "", ""),
+        (
+            vec![RECORDS, width, intensity, FACTOR],
+            ida,
+            "a fragility of its own",
+            "make a study of each value",
+        ),
+        (
+            vec![RECORDS, FACTOR],
+            ida,
+            "two variables: `records` and `intensity`",
+            "give both",
+        ),
+        (
+            vec![RECORDS, intensity, FACTOR],
+            "kind = \"latin_hypercube\"\nruns = 5\n[ida]",
+            "every record at every intensity",
+            "which with `samples` has random numbers",
+        ),
+    ] {
+        let error = parsed(place.path(), &variables, design).unwrap_err();
+        let StudyError::Text { error, .. } = error else {
+            panic!("{error}");
+        };
+        let (said, remedy) = (error.message, error.help.unwrap_or_default());
+        assert!(
+            said.contains(message) && remedy.contains(help),
+            "{variables:?} {design}: {said}: {remedy}"
+        );
+    }
+    let study = parsed(place.path(), &[RECORDS, intensity, FACTOR], ida).unwrap();
+    assert_eq!(study.runs(), 3 * 2 * 2);
+}
+
 /// The bounds of a distribution hold in every run, and a run that is shown has the numbers of the study to the last
 /// bit.
 #[test]
@@ -153,11 +300,7 @@ fn intensities_may_be_random() {
 #[test]
 fn wrong_distributions_are_refused() {
     let place = tempfile::tempdir().unwrap();
-    let rows: Vec<String> = (0..20)
-        .map(|i| format!("{},{}", 0.01 * f64::from(i), i % 3 - 1))
-        .collect();
-    let record = "t (s),a (m/s2)\n".to_owned() + &rows.join("\n") + "\n";
-    std::fs::write(place.path().join("a.csv"), record).unwrap();
+    record(place.path());
     let sampled = "kind = \"latin_hypercube\"\nruns = 50";
     let random = |of: &str| format!("path = \"gap.0.width\"\ndistribution = {{ {of} }}");
     let refused = |variable: &str, design: &str| {
@@ -306,7 +449,7 @@ fn wrong_distributions_are_refused() {
     for (variable, design, message, help) in [
         (normal.clone() + "\nvalues = [1]", sampled, "`values` and `distribution`", "remove"),
         (normal.clone() + "\nfrom = 1", sampled, "`from` and `distribution`", "remove"),
-        (normal.clone(), "kind = \"grid\"", "a grid takes no samples", "latin_hypercube"),
+        (normal.clone(), "kind = \"grid\"", "a grid without `samples` takes no samples", "samples = ..."),
         (normal.clone(), "kind = \"list\"", "a list takes no samples", "latin_hypercube"),
         (normal.clone(), "kind = \"sobol\"\nruns = 8", "without `seed`", "seed = 1"),
         (

@@ -20,6 +20,7 @@ mod shards;
 mod shared_records;
 mod shown;
 mod status;
+mod structures_and_stripes;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

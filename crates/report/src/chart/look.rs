@@ -108,6 +108,16 @@ impl Look {
         }
     }
 
+    /// Many points, of which none is to be told from the others.
+    pub fn points_of_many() -> Self {
+        Self {
+            dash: None,
+            marker: Marker::Shape(0),
+            few_markers: false,
+            ..Self::one_of_many()
+        }
+    }
+
     /// What stands for many lines.
     pub fn summary(dash: &'static str) -> Self {
         Self {

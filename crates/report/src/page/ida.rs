@@ -170,8 +170,15 @@ fn points(answer: Answer<'_>) -> Vec<String> {
             answer.say(together, 1.0)
         ));
     }
+    let structures = match answer.at("/structures").is_number() {
+        true => format!(
+            ", {}",
+            counted(answer.number("/structures", "") as usize, "structure")
+        ),
+        false => String::new(),
+    };
     points.push(format!(
-        "{} over {} and {}; intensity: {}.",
+        "{} over {}{structures} and {}; intensity: {}.",
         counted(answer.number("sum /levels/+/runs", "") as usize, "run"),
         counted(answer.number("/records", "") as usize, "record"),
         match answer.list("/levels").len() {

@@ -50,17 +50,42 @@ fn curves(report: &IdaReport) -> Vec<Plot> {
             let points = values.zip(levels).map(|(d, i)| (100.0 * d, i));
             std::iter::once((0.0, 0.0)).chain(points).collect()
         };
-        let records = report.curves[index].iter().enumerate();
-        let mut series: Vec<Series> = records
-            .map(|(number, values)| Series {
-                name: match number {
-                    0 => format!("{} records, with pounding", report.curves[index].len()),
-                    _ => String::new(),
-                },
-                points: line(&mut values.iter().copied()),
-                look: Look::one_of_many(),
-            })
-            .collect();
+        let all = &report.curves[index];
+        let made = |values: &Vec<f64>| values.iter().filter(|x| !x.is_nan()).count();
+        // Of stripes, whose records have one intensity each, there are no curves.
+        let mut series: Vec<Series> = match all.iter().all(|values| made(values) < 2) {
+            true => {
+                let points = all
+                    .iter()
+                    .flat_map(|values| line(&mut values.iter().copied()));
+                let points: Vec<(f64, f64)> = points
+                    .filter(|(d, i): &(f64, f64)| *i > 0.0 && !d.is_nan())
+                    .collect();
+                vec![Series {
+                    name: format!("{} runs, with pounding", points.len()),
+                    points,
+                    look: Look::points_of_many(),
+                }]
+            }
+            false => {
+                let lines = all.iter().enumerate().map(|(number, values)| Series {
+                    name: match number {
+                        0 => format!(
+                            "{} records{}, with pounding",
+                            all.len(),
+                            match report.structures {
+                                Some(_) => " with a structure",
+                                None => "",
+                            }
+                        ),
+                        _ => String::new(),
+                    },
+                    points: line(&mut values.iter().copied()),
+                    look: Look::one_of_many(),
+                });
+                lines.collect()
+            }
+        };
         for (fractile, (name, dash)) in [("16 %", "1.5 1.5"), ("median", ""), ("84 %", "6 2")]
             .into_iter()
             .enumerate()

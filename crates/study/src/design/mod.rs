@@ -5,7 +5,7 @@ mod latin_hypercube;
 pub(crate) mod mixing;
 mod sobol;
 
-use crate::study_file::{Value, Variable};
+use crate::study_file::{Target, Value, Values, Variable};
 
 pub use sobol::MOST_DIMENSIONS;
 
@@ -17,6 +17,8 @@ pub enum Design {
         /// Values of each variable.
         sizes: Vec<usize>,
     },
+    /// Every combination of the variables with values, and sets of random numbers of the others in each.
+    SampledGrid(SampledGrid),
     /// The first values of all variables, then the second, ...
     List {
         /// Number of runs.
@@ -47,6 +49,89 @@ pub enum Design {
     },
 }
 
+/// Every combination of the variables with values, each with so many sets of random numbers of the others: a Latin
+/// hypercube, whose sets are the same in all combinations but of other records, of which each has sets of its own. The
+/// sets stand in the place of the first random variable; the last variable runs fastest.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct SampledGrid {
+    /// Values of each variable: of the first random one the sets for a record, of the others of them one.
+    sizes: Vec<usize>,
+    /// The first random variable.
+    random: usize,
+    /// The variable that chooses the record, if one does.
+    record: Option<usize>,
+    /// Sets for each record.
+    samples: usize,
+    /// Seed.
+    seed: u64,
+}
+
+impl SampledGrid {
+    /// The grid of these variables with so many random sets for each record; `None` if none is random.
+    pub(crate) fn new(variables: &[Variable], samples: usize, seed: u64) -> Option<Self> {
+        let random = variables.iter().position(|v| is_random(&v.values))?;
+        let sizes = variables.iter().enumerate().map(|(i, v)| match i {
+            _ if i == random => samples,
+            _ => v.values.count().unwrap_or(1),
+        });
+        let is_record = |v: &Variable| matches!(v.target, Target::Record);
+        Some(Self {
+            sizes: sizes.collect(),
+            random,
+            record: variables.iter().position(is_record),
+            samples,
+            seed,
+        })
+    }
+
+    /// Values of each variable.
+    pub(crate) fn sizes(&self) -> &[usize] {
+        &self.sizes
+    }
+
+    /// Sets of random numbers of all records.
+    fn sets(&self) -> usize {
+        self.samples * self.record.map_or(1, |record| self.sizes[record])
+    }
+
+    fn point(&self, run: usize, variables: &[Variable]) -> Vec<Value> {
+        let places = places(run, &self.sizes);
+        let record = self.record.map_or(0, |record| places[record]);
+        let set = record * self.samples + places[self.random];
+        let numbered = variables.iter().zip(places).enumerate();
+        numbered
+            .map(|(d, (variable, place))| match is_random(&variable.values) {
+                true => variable.values.sample(latin_hypercube::coordinate(
+                    set as u64,
+                    d as u64,
+                    self.sets() as u64,
+                    self.seed,
+                )),
+                false => variable.values.at(place),
+            })
+            .collect()
+    }
+}
+
+/// Whether a variable of a grid with samples takes random numbers: those of a distribution, or even ones of a range
+/// without a count.
+pub(crate) fn is_random(values: &Values) -> bool {
+    values.count().is_none()
+}
+
+/// Which value each variable of a grid has in a run.
+fn places(run: usize, sizes: &[usize]) -> Vec<usize> {
+    let mut rest = run;
+    let place = |size: &usize| {
+        let place = rest % size;
+        rest /= size;
+        place
+    };
+    let mut places: Vec<usize> = sizes.iter().rev().map(place).collect();
+    places.reverse();
+    places
+}
+
 impl Design {
     /// A Sobol design, or why there is none.
     pub(crate) fn sobol(runs: usize, seed: Option<u64>, dimensions: usize) -> Result<Self, String> {
@@ -65,7 +150,9 @@ impl Design {
     #[must_use]
     pub fn runs(&self) -> usize {
         match self {
-            Self::Grid { sizes } => sizes.iter().product(),
+            Self::Grid { sizes } | Self::SampledGrid(SampledGrid { sizes, .. }) => {
+                sizes.iter().product()
+            }
             Self::List { runs }
             | Self::LatinHypercube { runs, .. }
             | Self::MonteCarlo { runs, .. }
@@ -73,24 +160,23 @@ impl Design {
         }
     }
 
+    /// Sets of random numbers that differ.
+    pub(crate) fn samples(&self) -> usize {
+        match self {
+            Self::SampledGrid(grid) => grid.sets(),
+            _ => self.runs(),
+        }
+    }
+
     /// Values of the variables in a run.
     pub(crate) fn point(&self, run: usize, variables: &[Variable]) -> Vec<Value> {
         match self {
             Self::Grid { sizes } => {
-                let mut rest = run;
-                let mut values: Vec<Value> = variables
-                    .iter()
-                    .zip(sizes)
-                    .rev()
-                    .map(|(variable, size)| {
-                        let value = variable.values.at(rest % size);
-                        rest /= size;
-                        value
-                    })
-                    .collect();
-                values.reverse();
-                values
+                let places = places(run, sizes).into_iter();
+                let values = variables.iter().zip(places);
+                values.map(|(v, place)| v.values.at(place)).collect()
             }
+            Self::SampledGrid(grid) => grid.point(run, variables),
             Self::List { .. } => variables.iter().map(|v| v.values.at(run)).collect(),
             Self::LatinHypercube { runs, seed } => sampled(variables, |d| {
                 latin_hypercube::coordinate(run as u64, d as u64, *runs as u64, *seed)

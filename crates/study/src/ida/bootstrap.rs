@@ -54,22 +54,36 @@ impl Drawn {
 /// Runs of one record: at each intensity how many were made and how many reached the state.
 pub(super) type RecordCounts = Vec<(usize, usize)>;
 
+/// Records of a group from which on groups are drawn by themselves.
+const LEAST_GROUP: usize = 5;
+
 /// Two-sided bounds of the mean annual frequency by percentiles of the bootstrap (Efron 1979,
 /// Annals of Statistics 7, 1) over records: so many records are drawn with replacement from
 /// them, with all their runs, since runs of one record at different intensities depend on one
-/// another. The hazard is taken as known. A set that leaves a step between two intensities counts
+/// another. Groups of records that have runs at the same intensities, as those of one stripe, are drawn by
+/// themselves, which keeps the number of runs at each intensity; unless one of them is small. The hazard is taken as
+/// known. A set that leaves a step between two intensities counts
 /// with their geometric mean; one of which some or all records reach the state at the lowest
 /// intensity counts as above all others, and one without a fragility at both ends. `None` with
 /// fewer than two records.
 pub(super) fn frequency_bounds(
     intensities: &[f64],
-    records: &[RecordCounts],
+    groups: &[Vec<RecordCounts>],
     hazard: &HazardCurve,
     confidence: f64,
 ) -> Option<FrequencyBounds> {
+    let records = groups.concat();
     if records.len() < 2 {
         return None;
     }
+    let large = groups.iter().all(|group| group.len() >= LEAST_GROUP);
+    // Of every draw the records that it is made from: first and number.
+    let mut sources = Vec::with_capacity(records.len());
+    for group in groups.iter().filter(|_| large) {
+        let first = sources.len();
+        sources.resize(first + group.len(), (first, group.len()));
+    }
+    sources.resize(records.len(), (0, records.len()));
     let drawn = |set: usize| {
         let mut counts: Vec<Counts> = intensities
             .iter()
@@ -79,9 +93,9 @@ pub(super) fn frequency_bounds(
                 reached: 0,
             })
             .collect();
-        for draw in 0..records.len() {
+        for (draw, (first, count)) in sources.iter().enumerate() {
             let random = unit(&[SEED, set as u64, draw as u64]);
-            let record = ((random * records.len() as f64) as usize).min(records.len() - 1);
+            let record = first + ((random * *count as f64) as usize).min(count - 1);
             for (count, (runs, reached)) in counts.iter_mut().zip(&records[record]) {
                 count.runs += runs;
                 count.reached += reached;
@@ -151,7 +165,7 @@ mod tests {
                 reached.collect()
             })
             .collect();
-        let bounds = frequency_bounds(&intensities, &records, &hazard, 0.9).unwrap();
+        let bounds = frequency_bounds(&intensities, &[records.clone()], &hazard, 0.9).unwrap();
         let exact = 1e-4 * median.powf(-k) * (0.5 * k * k * beta * beta).exp();
         let deviation = (k * k * beta * beta / n as f64 * (1.0 + 0.5 * k * k * beta * beta)).sqrt();
         let reach = 1.644_853_6 * deviation;
@@ -160,17 +174,57 @@ mod tests {
         let found = 0.5 * (high / low).ln();
         assert!((found / reach - 1.0).abs() < 0.15, "{found} {reach}");
         // Same input, same bits.
-        let again = frequency_bounds(&intensities, &records, &hazard, 0.9);
+        let again = frequency_bounds(&intensities, &[records.clone()], &hazard, 0.9);
         assert_eq!(again, Some(bounds));
+    }
+
+    /// Stripes of records of their own: each is drawn by itself, so that the counts of every set have as many runs as the
+    /// analysis; then the standard deviation of the logarithm of the median is that of the observed information, where the
+    /// frequency is a power of the median.
+    #[test]
+    fn stripes_are_drawn_by_themselves() {
+        let intensities: Vec<f64> = (0..6).map(|i| 0.3 * 1.35_f64.powi(i)).collect();
+        let points = [(0.01, 1e2), (100.0, 1e-2)];
+        let hazard = HazardCurve::new(points.to_vec()).unwrap();
+        let curve = |x: f64| {
+            pounding_ground_motion::distributions::normal_distribution((x / 0.6).ln() / 0.4)
+        };
+        let stripe = |level: usize| -> Vec<RecordCounts> {
+            let reached = (60.0 * curve(intensities[level])).round() as usize;
+            let run = |record: usize| {
+                let mut counts = vec![(0, 0); intensities.len()];
+                counts[level] = (1, usize::from(record < reached));
+                counts
+            };
+            (0..60).map(run).collect()
+        };
+        let groups: Vec<Vec<RecordCounts>> = (0..intensities.len()).map(stripe).collect();
+        let counts = |level: usize| Counts {
+            intensity: intensities[level],
+            runs: 60,
+            reached: groups[level].iter().map(|record| record[level].1).sum(),
+        };
+        let counts: Vec<Counts> = (0..intensities.len()).map(counts).collect();
+        let FragilityFit::Lognormal(fitted) = fit(&counts) else {
+            panic!("{counts:?}");
+        };
+        // The slope of the hazard is one: the frequency is k0 / median exp(dispersion^2 / 2).
+        let [s, t] = fitted.standard_errors;
+        let b = fitted.dispersion;
+        let variance = s * s + b * b * t * t - 2.0 * b * fitted.covariance;
+        let found = frequency_bounds(&intensities, &groups, &hazard, 0.9).unwrap();
+        let reach = 0.5 * (found.high.unwrap() / found.low.unwrap()).ln();
+        let expected = 1.644_853_6 * variance.sqrt();
+        assert!((reach / expected - 1.0).abs() < 0.12, "{reach} {expected}");
     }
 
     #[test]
     fn one_record_has_no_bounds() {
         let hazard = HazardCurve::new(vec![(0.1, 1e-2), (1.0, 1e-4)]).unwrap();
-        let one = [vec![(1, 0), (1, 1)]];
+        let one = [vec![vec![(1, 0), (1, 1)]]];
         assert_eq!(frequency_bounds(&[0.1, 0.2], &one, &hazard, 0.9), None);
         // All reach it already at the least intensity: no frequency, and no bounds.
-        let always = [vec![(1, 1), (1, 1)], vec![(1, 1), (1, 1)]];
+        let always = [vec![vec![(1, 1), (1, 1)], vec![(1, 1), (1, 1)]]];
         let without = frequency_bounds(&[0.1, 0.2], &always, &hazard, 0.9).unwrap();
         assert_eq!((without.low, without.high), (None, None));
         assert_eq!((without.above, without.unknown), (RESAMPLES, 0));
@@ -190,7 +244,7 @@ mod tests {
         let hazard = HazardCurve::new(vec![(0.01, 1e-1), (1.0, 1e-4)]).unwrap();
         let early = vec![(1, 1), (1, 1), (1, 1)];
         let late = vec![(1, 0), (1, 1), (1, 0)];
-        let records = [early.clone(), early.clone(), early, late];
+        let records = [vec![early.clone(), early.clone(), early, late]];
         let found = frequency_bounds(&[0.1, 0.2, 0.4], &records, &hazard, 0.9).unwrap();
         assert!((250..400).contains(&found.above), "{found:?}");
         assert_eq!(found.high, None, "{found:?}");

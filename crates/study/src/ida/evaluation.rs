@@ -1,15 +1,18 @@
 //! The evaluation of an incremental dynamic analysis.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use pounding_case::Dimension;
 use pounding_catalogue::STANDARD_GRAVITY;
 
-use super::bootstrap::{FrequencyBounds, frequency_bounds};
+use super::bootstrap::{FrequencyBounds, RecordCounts, frequency_bounds};
 use super::demands::{Demand, Lack, isolated_buildings, of_gap, of_limit, sides_of_gaps, usual};
 use super::fragility::{Counts, FragilityFit, fit};
-use super::goodness::{self, Capacity, FitRemark, GoodnessOfFit, ShownIntensity};
+use super::goodness::{
+    self, Capacity, Evidence, FitRemark, GoodnessOfFit, Sampled, ShownIntensity,
+};
 use super::hazard::{self, least_frequency, mean_annual_frequency};
+use crate::design::Design;
 use crate::error::StudyError;
 use crate::fractiles::fractiles;
 use crate::study_file::{HazardCurve, IdaSettings, POUNDING, Study, Value, pounding_at};
@@ -198,6 +201,8 @@ pub struct IdaReport {
     pub unit: String,
     /// Number of records.
     pub records: usize,
+    /// Number of structures, sets of the values of other variables; `None` without such variables.
+    pub structures: Option<usize>,
     /// Names and units of the demands.
     pub demands: Vec<(String, String)>,
     /// What must be said of the demands: which are left out.
@@ -228,6 +233,9 @@ impl IdaReport {
     }
 }
 
+/// Part of the records that have runs at all intensities where the others lack one here or there.
+const MOSTLY_WHOLE: f64 = 0.9;
+
 /// The state in which one of several gaps closes that have their least width each.
 const AT_LEAST_GAPS: &str = "pounding at any gap of least width";
 
@@ -236,7 +244,9 @@ struct Run {
     level: usize,
     /// Which record.
     record: usize,
-    /// Which record with which other variables of the study.
+    /// Which values of the other variables of the study.
+    structure: usize,
+    /// Which record with which of these.
     sample: usize,
     failed: bool,
     collapsed: bool,
@@ -286,7 +296,12 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     intensities.sort_by(f64::total_cmp);
     // In a list several records have the same.
     intensities.dedup();
-    let (mut runs, lacking) = runs(result, settings, &needs, &intensities)?;
+    // In a list each record stands at one intensity, and one of several intensities under several names.
+    let records = match study.design {
+        Design::List { .. } => study.same_records(),
+        _ => (0..study.records.len()).collect(),
+    };
+    let (mut runs, lacking) = runs(result, (settings, &records), &needs, &intensities)?;
     let of_limits = limits.iter().zip(&lacking[shown.len()..]);
     for ((limit, _), lack) in of_limits {
         let (reason, help) = match lack {
@@ -357,7 +372,8 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     Ok(IdaReport {
         measure: settings.measure.title(),
         unit: variable.unit.clone(),
-        records: study.variables[settings.record].values.count().unwrap_or(0),
+        records: evaluation.records(),
+        structures: (study.variables.len() > 2).then(|| evaluation.structures()),
         demands: shown
             .iter()
             .map(|d| (d.name.clone(), d.unit.to_owned()))
@@ -399,21 +415,28 @@ fn of_demands(left_out: &[(String, Lack)]) -> Vec<String> {
 /// Runs with their demands, and of every demand what some run lacks for it.
 fn runs(
     result: &ResultReader,
-    settings: &IdaSettings,
+    (settings, records): (&IdaSettings, &[usize]),
     needs: &[Demand],
     intensities: &[f64],
 ) -> Result<(Vec<Run>, Vec<Option<Lack>>), StudyError> {
     let mut runs = Vec::new();
     let mut lacking = vec![None; needs.len()];
-    let mut samples: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
+    let mut structures: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
+    let mut samples: BTreeMap<[usize; 2], usize> = BTreeMap::new();
     for start in (0..result.rows).step_by(BLOCK) {
         for (row, point) in result.block(start..(start + BLOCK).min(result.rows))? {
             let Value::Number(x) = point[settings.intensity] else {
                 continue;
             };
+            let record = match point[settings.record] {
+                Value::Choice(record) => records[record],
+                Value::Number(_) => 0,
+            };
             let others = point.iter().enumerate();
-            let others = others.filter(|(i, _)| *i != settings.intensity);
-            let key: Vec<u64> = others.map(|(_, value)| value.bits()).collect();
+            let others = others.filter(|(i, _)| ![settings.intensity, settings.record].contains(i));
+            let others: Vec<u64> = others.map(|(_, value)| value.bits()).collect();
+            let next = structures.len();
+            let structure = *structures.entry(others).or_insert(next);
             let next = samples.len();
             if !row.ending.failed() && !row.ending.collapsed() {
                 for (lacking, demand) in lacking.iter_mut().zip(needs) {
@@ -421,11 +444,9 @@ fn runs(
                 }
             }
             runs.push(Run {
-                record: match point[settings.record] {
-                    Value::Choice(record) => record,
-                    Value::Number(_) => 0,
-                },
-                sample: *samples.entry(key).or_insert(next),
+                record,
+                structure,
+                sample: *samples.entry([record, structure]).or_insert(next),
                 level: intensities.iter().position(|i| *i == x).unwrap_or(0),
                 failed: row.ending.failed(),
                 collapsed: row.ending.collapsed(),
@@ -489,9 +510,9 @@ impl Evaluation<'_> {
     fn limit(&self, name: &str, reached: &dyn Fn(&Run) -> bool) -> Result<LimitResult, StudyError> {
         let counts = self.counts(reached);
         let fit = fit(&counts);
-        let capacities = self.capacities(reached);
+        let evidence = self.evidence(reached);
         let goodness = match &fit {
-            FragilityFit::Lognormal(f) => goodness::test(f, &counts, &capacities),
+            FragilityFit::Lognormal(f) => goodness::test(f, &counts, &evidence),
             _ => None,
         };
         let hazard = self.settings.hazard.as_ref();
@@ -502,10 +523,11 @@ impl Evaluation<'_> {
         let confidence = self.settings.confidence;
         let fitted = matches!(fit, FragilityFit::Lognormal(_));
         let bounds = hazard.filter(|_| fitted).and_then(|hazard| {
-            let records = self.of_records(reached);
-            frequency_bounds(self.intensities, &records, hazard, confidence)
+            let groups = self.of_records(reached);
+            frequency_bounds(self.intensities, &groups, hazard, confidence)
         });
-        let mut remarks = goodness::remarks(&fit, goodness.as_ref(), &counts, &capacities);
+        let of = (&evidence, self.records());
+        let mut remarks = goodness::remarks(&fit, goodness.as_ref(), &counts, of);
         remarks.extend(hazard.into_iter().flat_map(|h| self.of_frequency(&fit, h)));
         remarks.extend(bounds.iter().flat_map(of_bounds));
         Ok(LimitResult {
@@ -531,17 +553,47 @@ impl Evaluation<'_> {
         hazard::remarks(fit, hazard, self.intensities, |x| self.shown(x))
     }
 
-    /// Where each sample first reaches a state. One with a run that failed is left out where
-    /// that could change it.
-    fn capacities(&self, reached: &dyn Fn(&Run) -> bool) -> Vec<Capacity> {
+    /// How many records have runs.
+    fn records(&self) -> usize {
+        let records: BTreeSet<usize> = self.runs.iter().map(|run| run.record).collect();
+        records.len()
+    }
+
+    /// How many structures have runs.
+    fn structures(&self) -> usize {
+        let structures: BTreeSet<usize> = self.runs.iter().map(|run| run.structure).collect();
+        structures.len()
+    }
+
+    /// What the runs say of a state beside its counts.
+    fn evidence(&self, reached: &dyn Fn(&Run) -> bool) -> Evidence {
         let levels = self.intensities.len();
-        let mut samples: BTreeMap<usize, Vec<Option<bool>>> = BTreeMap::new();
+        // Of each sample at each intensity: whether there is a run, and what one that did not fail says.
+        let mut samples: BTreeMap<usize, Vec<Option<Option<bool>>>> = BTreeMap::new();
         for run in self.runs {
             let states = samples
                 .entry(run.sample)
                 .or_insert_with(|| vec![None; levels]);
-            states[run.level] = (!run.failed).then(|| reached(run));
+            states[run.level] = Some((!run.failed).then(|| reached(run)));
         }
+        let made = |states: &Vec<Option<_>>| states.iter().flatten().count();
+        let whole = samples.values().filter(|s| made(s) == levels).count();
+        // A record may lack a run here or there.
+        if (whole as f64) < MOSTLY_WHOLE * samples.len() as f64 {
+            return match samples.values().all(|states| made(states) == 1) {
+                true => Evidence::Stripes,
+                false => Evidence::Mixed,
+            };
+        }
+        let of = match samples.len() > self.records() {
+            true => Sampled::RecordsWithStructures,
+            false => Sampled::Records,
+        };
+        let known = samples.into_values().map(|states| {
+            let states = states.into_iter().map(Option::flatten);
+            states.collect::<Vec<_>>()
+        });
+        // One with a run that failed is left out where that could change it.
         let capacity = |states: Vec<Option<bool>>| {
             let first = states.iter().position(|s| *s == Some(true));
             let first = first.unwrap_or(levels);
@@ -551,21 +603,32 @@ impl Evaluation<'_> {
                 returns: states[first..].contains(&Some(false)),
             })
         };
-        samples.into_values().filter_map(capacity).collect()
+        Evidence::Curves {
+            capacities: known.filter_map(capacity).collect(),
+            of,
+        }
     }
 
-    /// Runs of each record by intensity, and how many reach a state.
-    fn of_records(&self, reached: &dyn Fn(&Run) -> bool) -> Vec<Vec<(usize, usize)>> {
+    /// Runs of each record by intensity, and how many reach a state; the records in groups that have runs at the same
+    /// intensities.
+    fn of_records(&self, reached: &dyn Fn(&Run) -> bool) -> Vec<Vec<RecordCounts>> {
         let levels = self.intensities.len();
-        let mut records: BTreeMap<usize, Vec<(usize, usize)>> = BTreeMap::new();
-        for run in self.runs.iter().filter(|r| !r.failed) {
-            let counts = records
+        let mut records: BTreeMap<usize, (Vec<bool>, RecordCounts)> = BTreeMap::new();
+        for run in self.runs {
+            let (made, counts) = records
                 .entry(run.record)
-                .or_insert_with(|| vec![(0, 0); levels]);
-            counts[run.level].0 += 1;
-            counts[run.level].1 += usize::from(reached(run));
+                .or_insert_with(|| (vec![false; levels], vec![(0, 0); levels]));
+            made[run.level] = true;
+            if !run.failed {
+                counts[run.level].0 += 1;
+                counts[run.level].1 += usize::from(reached(run));
+            }
         }
-        records.into_values().collect()
+        let mut groups: BTreeMap<Vec<bool>, Vec<RecordCounts>> = BTreeMap::new();
+        for (made, counts) in records.into_values() {
+            groups.entry(made).or_default().push(counts);
+        }
+        groups.into_values().collect()
     }
 
     /// Demands of all samples at all intensities.
@@ -758,6 +821,7 @@ mod tests {
             intensities.iter().enumerate().map(move |(level, g)| Run {
                 level,
                 record,
+                structure: 0,
                 sample: record,
                 failed: false,
                 collapsed: false,

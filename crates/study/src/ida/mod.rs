@@ -13,5 +13,5 @@ pub use evaluation::{
     evaluate,
 };
 pub use fragility::{Counts, Fragility, FragilityFit, fit};
-pub use goodness::{Capacity, FitRemark, GoodnessOfFit, POOR, ShownIntensity};
+pub use goodness::{Capacity, FitRemark, GoodnessOfFit, POOR, Sampled, ShownIntensity, Untested};
 pub use hazard::mean_annual_frequency;

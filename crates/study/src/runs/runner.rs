@@ -134,7 +134,7 @@ impl<'s> Runner<'s> {
                 missing.join(", ")
             ));
         }
-        let gridded = matches!(study.design, Design::Grid { .. });
+        let gridded = matches!(study.design, Design::Grid { .. } | Design::SampledGrid(_));
         let twice = study.variables.iter().filter(|_| gridded);
         warnings.extend(twice.filter_map(|v| {
             let repeated = v.repeated()?;

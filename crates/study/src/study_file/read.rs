@@ -27,7 +27,7 @@ use super::variables::VariableTable;
 use super::{
     IntensityMeasure, Readings, RecordSource, Study, Target, Values, Variable, records, rows,
 };
-use crate::design::Design;
+use crate::design::{Design, SampledGrid, is_random};
 use crate::error::StudyError;
 
 /// Runs of a chunk unless the study says otherwise: a second or less of work that can be
@@ -62,7 +62,10 @@ struct DesignTable {
     kind: Optional<Kind>,
     /// Number of runs of latin_hypercube, sobol and monte_carlo
     runs: Optional<Whole<1, MOST_RUNS>>,
-    /// Seed of latin_hypercube and monte_carlo, by default 1, and of the random shift of sobol
+    /// Sets of random numbers of a grid, for each of its combinations: the same for all, but each record has sets of
+    /// its own
+    samples: Optional<Whole<1, MOST_RUNS>>,
+    /// Seed of latin_hypercube, monte_carlo and the samples of a grid, by default 1, and of the random shift of sobol
     seed: Optional<Whole<0>>,
 }
 
@@ -273,12 +276,12 @@ impl StudyFile {
         let rows = match (whole, &design) {
             (Some(read), Some(design)) => {
                 let rows = rows::taken(reader, context, (&read.variables, design));
-                let runs = design.runs();
+                let samples = design.samples();
                 rows.and(rows::ends_taken(
                     reader,
                     context,
                     (&read.variables, &tables),
-                    runs,
+                    samples,
                 ))
             }
             // What else is wrong comes first.
@@ -293,7 +296,8 @@ impl StudyFile {
             Some(Located { value, span }) => {
                 let place = design_place.unwrap_or_else(|| span.clone());
                 let both = whole.and_then(|read| {
-                    let both = ida_variables(reader, span, &read.variables)?;
+                    let is_list = matches!(design, Some(Design::List { .. }));
+                    let both = ida_variables(reader, span, &read.variables, is_list)?;
                     each_once(reader, place, design.as_ref()?, &read.variables)?;
                     Some(both)
                 });
@@ -538,28 +542,50 @@ fn design(
     counts: Vec<Range<usize>>,
 ) -> Option<Design> {
     let Some(Located { value: table, span }) = table.stated()? else {
-        return grid(reader, 0..0, variables?);
+        return grid(reader, 0..0, variables?, None);
     };
     let place = table.kind.span().unwrap_or_else(|| span.clone());
     let kind = table.kind.value_or(Kind::Grid)?;
-    if matches!(kind, Kind::Grid | Kind::List) {
-        let name = if kind == Kind::Grid { "grid" } else { "list" };
-        for (key, extra) in [("runs", table.runs.span()), ("seed", table.seed.span())] {
-            extra.and_then(|extra| {
+    let meaningless = |name: &str, keys: &[(&str, Option<Range<usize>>)]| {
+        for (key, extra) in keys {
+            extra.clone().and_then(|extra| {
                 let message = format!("`{key}` has no meaning for {name}");
                 reader.refuse::<()>(extra, message, "remove it")
             });
         }
-        return match kind {
-            Kind::Grid => grid(reader, place, variables?),
-            _ => list(reader, place, variables?.0),
-        };
+    };
+    let (runs, samples, seed) = (
+        ("runs", table.runs.span()),
+        ("samples", table.samples.span()),
+        ("seed", table.seed.span()),
+    );
+    match kind {
+        Kind::Grid if table.samples.is_some() => {
+            meaningless("grid", &[runs]);
+            let samples = table.samples.value()?.0;
+            let seed = table.seed.value_or(Whole(1))?.0 as u64;
+            return grid(reader, place, variables?, Some((samples, seed)));
+        }
+        Kind::Grid => {
+            meaningless("grid", &[runs]);
+            let is_sampled = variables.is_some_and(|(v, _)| v.iter().any(|v| v.values.is_random()));
+            if !is_sampled {
+                meaningless("grid", &[seed]);
+            }
+            return grid(reader, place, variables?, None);
+        }
+        Kind::List => {
+            meaningless("list", &[runs, samples, seed]);
+            return list(reader, place, variables?.0);
+        }
+        _ => {}
     }
     let name = match kind {
         Kind::Sobol => "sobol",
         Kind::MonteCarlo => "monte_carlo",
         _ => "latin_hypercube",
     };
+    meaningless(name, &[samples]);
     for place in counts {
         let message = format!("`count` has no meaning for {name}");
         let help = "remove it: `runs` in [design] says how many values are taken";
@@ -606,16 +632,20 @@ fn design(
     }
 }
 
-/// The grid of these variables, whose tables stand at these places.
+/// The grid of these variables, whose tables stand at these places, with so many sets of random numbers from a seed.
 fn grid(
     reader: &Reader<'_>,
     place: Range<usize>,
     (variables, tables): (&[Variable], &[Range<usize>]),
+    samples: Option<(usize, u64)>,
 ) -> Option<Design> {
     let sizes = all(variables.iter().zip(tables).map(|(v, table)| {
         v.values.count().or_else(|| {
+            if samples.is_some() {
+                return Some(1);
+            }
             if v.values.is_random() {
-                return refuse_random(reader, table.clone(), v, "a grid");
+                return refuse_random(reader, table.clone(), v, "a grid without `samples`");
             }
             let message = format!(
                 "the range of \"{}\" has no `count`, which a grid needs",
@@ -624,9 +654,26 @@ fn grid(
             reader.refuse(table.clone(), message, "add `count = ...` to the variable")
         })
     }))?;
+    let sampled = samples.map(|(samples, seed)| SampledGrid::new(variables, samples, seed));
+    let (design, sizes) = match sampled {
+        Some(None) => {
+            let message = "no variable has a `distribution`, or `from` and `to` without `count`, of which `samples` are taken";
+            return reader.refuse(place, message, "remove `samples`");
+        }
+        Some(Some(grid)) => {
+            let sizes = grid.sizes().to_vec();
+            (Design::SampledGrid(grid), sizes)
+        }
+        None => (
+            Design::Grid {
+                sizes: sizes.clone(),
+            },
+            sizes,
+        ),
+    };
     let runs = sizes.iter().try_fold(1_usize, |n, s| n.checked_mul(*s));
     match runs.filter(|n| *n as u64 <= MOST_RUNS.unsigned_abs()) {
-        Some(_) => Some(Design::Grid { sizes }),
+        Some(_) => Some(design),
         None => {
             let sizes: Vec<String> = sizes.iter().map(ToString::to_string).collect();
             let message = format!(
@@ -653,11 +700,12 @@ fn refuse_random<T>(
         variable.name
     );
     let values = "write `values`, or `from`, `to` and `count`, in its place";
+    let samples = "samples = ..., so many sets of random numbers in each combination";
     let help = match design {
         OF_IDA => values.to_owned(),
         _ => {
             format!(
-                "write [design] with kind = \"latin_hypercube\", or monte_carlo, and runs = ...; or {values}"
+                "write [design] with kind = \"grid\" and {samples}; or with kind = \"latin_hypercube\", or monte_carlo, and runs = ...; or {values}"
             )
         }
     };
@@ -703,9 +751,10 @@ fn each_once(
     design: &Design,
     variables: &[Variable],
 ) -> Option<()> {
-    let help = "remove [design], or use kind = \"grid\"";
+    let help =
+        "remove [design], or use kind = \"grid\", which with `samples` has random numbers, too";
     let sampled = match design {
-        Design::Grid { .. } => {
+        Design::Grid { .. } | Design::SampledGrid(_) => {
             let mut intensities = variables.iter().filter(|v| intensity_of(v).is_some());
             let twice = intensities.find_map(|v| Some((v.repeated()?, &v.unit)));
             let Some((repeated, unit)) = twice else {
@@ -729,17 +778,29 @@ fn each_once(
 }
 
 /// Indices of the two variables that an incremental dynamic analysis is made of: the record
-/// and the intensity.
+/// and the intensity. Others are random, unless rows of a list say what they are with each.
 fn ida_variables(
     reader: &Reader<'_>,
     place: Range<usize>,
     variables: &[Variable],
+    is_list: bool,
 ) -> Option<(usize, usize)> {
     let at = |is: &dyn Fn(&Variable) -> bool| variables.iter().position(is);
     let record = at(&|v| matches!(v.target, Target::Record));
     let intensity = at(&|v| intensity_of(v).is_some());
     match (record, intensity) {
-        (Some(record), Some(intensity)) if variables.len() == 2 => {
+        (Some(record), Some(intensity)) => {
+            let others = variables.iter().enumerate();
+            let mut others =
+                others.filter(|(i, v)| ![record, intensity].contains(i) && !is_random(&v.values));
+            if !is_list && let Some((_, other)) = others.next() {
+                let message = format!(
+                    "beside `records` and `intensity` an incremental dynamic analysis has random variables, and \"{}\" has values, for each of which there is a fragility of its own",
+                    other.name
+                );
+                let help = "make a study of each value; or write a `distribution`, and `samples` in [design]";
+                return reader.refuse(place, message, help);
+            }
             let variable = &variables[intensity];
             if let Values::Range { count: None, .. } = variable.values {
                 let message = "the range of intensities has no `count`";
@@ -753,7 +814,7 @@ fn ida_variables(
         _ => reader.refuse(
             place,
             "an incremental dynamic analysis has two variables: `records` and `intensity`",
-            "give these two, or remove [ida]",
+            "give both, or remove [ida]",
         ),
     }
 }

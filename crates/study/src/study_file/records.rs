@@ -127,6 +127,23 @@ impl RecordKind {
     }
 }
 
+impl Study {
+    /// For each record the first of those that are the same file, read in the same way: in a list, where each stands at
+    /// one intensity, they have names of their own.
+    pub(crate) fn same_records(&self) -> Vec<usize> {
+        let same = |a: &RecordSource, b: &RecordSource| match (&a.kind, &b.kind) {
+            (RecordKind::File { edits: a, .. }, RecordKind::File { edits: b, .. }) => a == b,
+            _ => false,
+        };
+        let records = self.records.iter().enumerate();
+        let first = |(i, record)| {
+            let mut earlier = self.records[..i].iter();
+            earlier.position(|other| same(other, record)).unwrap_or(i)
+        };
+        records.map(first).collect()
+    }
+}
+
 /// What the user should know of a study whose records stand beside the record across the row
 /// that its case names: the two may be of different earthquakes.
 pub(crate) fn beside_that_across(study: &Study) -> Option<String> {

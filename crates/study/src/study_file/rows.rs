@@ -74,16 +74,16 @@ pub(super) fn taken(
 }
 
 /// Whether the case takes random numbers of variables, whose tables stand at these places, that lie as far out as one
-/// of so many runs has them on the average.
+/// of so many has them on the average.
 pub(super) fn ends_taken(
     reader: &Reader<'_>,
     context: &Context,
     (variables, tables): (&[Variable], &[Range<usize>]),
-    runs: usize,
+    samples: usize,
 ) -> Option<()> {
     let Base { case, .. } = context.base.as_ref()?;
     let tree = CaseTree::parse(&case.source, &case.file).ok()?;
-    let part = 0.5 / runs as f64;
+    let part = 0.5 / samples as f64;
     let mut sound = Some(());
     for (variable, table) in variables.iter().zip(tables) {
         let Values::Random(distribution) = &variable.values else {
@@ -95,7 +95,7 @@ pub(super) fn ends_taken(
             if let Err(refused) = tried(&tree, &edits) {
                 let (message, of_case) = refused.said();
                 let message = format!(
-                    "the case refuses {}, which about one of {runs} runs has: {message}",
+                    "the case refuses {}, which about one of {samples} runs has: {message}",
                     variable.in_words(&Value::Number(x))
                 );
                 let of_case =

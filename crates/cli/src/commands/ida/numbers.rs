@@ -21,6 +21,9 @@ pub struct Analysis<'a> {
     measure: &'a str,
     unit: &'a str,
     records: usize,
+    /// Sets of the values of other variables, if there are such.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    structures: Option<usize>,
     remarks: &'a [String],
     levels: Vec<Level<'a>>,
     limits: Vec<Limit<'a>>,
@@ -61,7 +64,7 @@ struct Limit<'a> {
     name: &'a str,
     counts: Vec<Counts>,
     fit: Fit,
-    /// Pearson's test of the lognormal curve on the capacities of the records.
+    /// Pearson's test of the lognormal curve.
     goodness_of_fit: Option<Goodness>,
     remarks: Vec<String>,
     mean_annual_frequency: Option<f64>,
@@ -187,6 +190,7 @@ impl<'a> Analysis<'a> {
             measure: &report.measure,
             unit: &report.unit,
             records: report.records,
+            structures: report.structures,
             remarks: &report.remarks,
             levels: levels.collect(),
             limits: limits.collect(),

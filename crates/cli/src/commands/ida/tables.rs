@@ -3,7 +3,7 @@
 use pounding_catalogue::wording::counted;
 use pounding_study::{
     FitRemark, FragilityFit, FrequencyBounds, IdaReport, IdaSettings, LimitResult, POOR,
-    PoundingDemand, RESAMPLES,
+    PoundingDemand, RESAMPLES, Untested,
 };
 
 use crate::tables::{Table, new_table};
@@ -11,10 +11,14 @@ use crate::tables::{Table, new_table};
 /// The report for people.
 pub fn report(report: &IdaReport, settings: &IdaSettings) -> String {
     let mut text = format!(
-        "\n{} in {}, {}; 16, 50 and 84 % fractiles of demands (SI)\n{}\n",
+        "\n{} in {}, {}{}; 16, 50 and 84 % fractiles of demands (SI)\n{}\n",
         report.measure,
         report.shown_intensity().1,
         counted(report.records, "record"),
+        match report.structures {
+            Some(structures) => format!(", {}", counted(structures, "structure")),
+            None => String::new(),
+        },
         levels(report)
     );
     for remark in &report.remarks {
@@ -170,13 +174,13 @@ fn poor_fits<'s>(
     for (name, state) in states.filter(|(_, s)| !s.remarks.is_empty()) {
         for remark in &state.remarks {
             match remark {
-                FitRemark::NotTested => untested.push(name.clone()),
+                FitRemark::NotTested(why) => untested.push((*why, name.clone())),
                 FitRemark::AtMost { .. } => at_most = true,
                 remark => text.push_str(&format!("  {name}: {remark}\n")),
             }
         }
         let shows = |r: &FitRemark| {
-            let of_counts = matches!(r, FitRemark::NotTested | FitRemark::Returns { .. });
+            let of_counts = matches!(r, FitRemark::NotTested(_) | FitRemark::Returns { .. });
             !of_counts && !r.is_of_frequency()
         };
         let FragilityFit::Lognormal(fit) = state.fit else {
@@ -202,9 +206,12 @@ fn poor_fits<'s>(
         let pairs: Vec<String> = pairs.collect();
         text.push_str(&format!("    counted/fitted: {}\n", pairs.join(", ")));
     }
-    if !untested.is_empty() {
-        let names = untested.join(", ");
-        text.push_str(&format!("  {names}: {}\n", FitRemark::NotTested));
+    for why in [Untested::FewClasses, Untested::Mixed] {
+        let names = untested.iter().filter(|(of, _)| *of == why);
+        let names: Vec<&str> = names.map(|(_, name)| name.as_str()).collect();
+        if !names.is_empty() {
+            text.push_str(&format!("  {}: {why}\n", names.join(", ")));
+        }
     }
     if at_most {
         text.push_str(

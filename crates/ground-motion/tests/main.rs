@@ -18,6 +18,7 @@ mod encodings;
 mod ensemble;
 mod excitation;
 mod factors_in_names;
+mod floor_spectra;
 mod formats;
 mod generators;
 mod header_lines;

@@ -2,6 +2,7 @@
 
 pub mod design;
 
+mod floor;
 mod fourier;
 mod oscillator;
 mod response;
@@ -11,6 +12,7 @@ mod target_file;
 
 use serde::Serialize;
 
+pub use floor::{FloorMotion, floor_spectrum};
 pub use fourier::{FourierSpectrum, fourier_spectrum};
 pub(crate) use fourier::{inverse_transform, transform};
 pub(crate) use oscillator::{Oscillator, State, TOGETHER, exponential, zero};

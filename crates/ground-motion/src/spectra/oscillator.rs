@@ -349,13 +349,24 @@ pub(crate) fn peaks_of<const N: usize>(
     ground: &[f64],
     evaluation: Evaluation,
 ) -> [OscillatorPeaks; N] {
+    let forces = ground.windows(2).map(|pair| [-pair[0], -pair[1]]);
+    peaks_under(oscillators, forces, evaluation)
+}
+
+/// The same under forces (m/s2) that go straight from one value to another within each step, and may jump between
+/// steps.
+pub(crate) fn peaks_under<const N: usize>(
+    oscillators: [&Oscillator; N],
+    forces: impl Iterator<Item = [f64; 2]> + Clone,
+    evaluation: Evaluation,
+) -> [OscillatorPeaks; N] {
     let time_step = oscillators.first().map_or(0.0, |o| o.time_step);
     let mut peaks = [OscillatorPeaks::default(); N];
     let mut states = [State::default(); N];
-    for (i, pair) in ground.windows(2).enumerate() {
+    for (i, force) in forces.clone().enumerate() {
         let time = (i + 1) as f64 * time_step;
         for k in 0..N {
-            states[k] = oscillators[k].advance(states[k], -pair[0], -pair[1]);
+            states[k] = oscillators[k].advance(states[k], force[0], force[1]);
             keep(&mut peaks[k].displacement, states[k].displacement, time);
             keep(&mut peaks[k].velocity, states[k].velocity, time);
             let acceleration = oscillators[k].absolute_acceleration(states[k]);
@@ -366,8 +377,7 @@ pub(crate) fn peaks_of<const N: usize>(
         return peaks;
     }
     states = [State::default(); N];
-    for (i, pair) in ground.windows(2).enumerate() {
-        let forces = [-pair[0], -pair[1]];
+    for (i, forces) in forces.enumerate() {
         for k in 0..N {
             let next = oscillators[k].advance(states[k], forces[0], forces[1]);
             let ends = [states[k], next];

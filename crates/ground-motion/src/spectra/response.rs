@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::accelerogram::{Accelerogram, Peak};
 use crate::error::{GroundMotionError, ascending, positive, within};
-use crate::spectra::oscillator::{Oscillator, TOGETHER, peaks_of};
+use crate::spectra::oscillator::{Oscillator, TOGETHER, peaks_under};
 use crate::spectra::{Evaluation, State};
 
 const STEP: &str = "response spectrum";
@@ -97,7 +97,20 @@ pub fn response_spectrum_while(
 ) -> Result<ResponseSpectrum, GroundMotionError> {
     let step = record.time_step();
     check(periods, damping, step)?;
+    let forces = record.samples().windows(2).map(|pair| [-pair[0], -pair[1]]);
     let ground = record.peak().value;
+    let oscillators = (periods, damping, step);
+    spectrum_under(oscillators, forces, (evaluation, ground), goes_on)
+}
+
+/// The spectrum of oscillators of these periods (s), damping ratio and time step (s) under forces (m/s2) that go straight
+/// within each step; that of a rigid oscillator is given.
+pub(crate) fn spectrum_under(
+    (periods, damping, step): (&[f64], f64, f64),
+    forces: impl Iterator<Item = [f64; 2]> + Clone,
+    (evaluation, rigid): (Evaluation, f64),
+    goes_on: &dyn Fn() -> bool,
+) -> Result<ResponseSpectrum, GroundMotionError> {
     let mut spectrum = ResponseSpectrum {
         damping,
         evaluation,
@@ -112,13 +125,12 @@ pub fn response_spectrum_while(
     let oscillator = |period: &f64| Oscillator::new(*period, damping, step);
     let oscillators: Vec<Oscillator> = swing.iter().map(oscillator).collect();
     let (together, alone) = oscillators.as_chunks::<TOGETHER>();
-    let together = together.iter().flat_map(|of| {
-        let of = of.each_ref();
-        peaks_of(of, record.samples(), evaluation)
-    });
+    let together = together
+        .iter()
+        .flat_map(|of| peaks_under(of.each_ref(), forces.clone(), evaluation));
     let alone = alone
         .iter()
-        .map(|of| of.peaks(record.samples(), evaluation));
+        .flat_map(|of| peaks_under([of], forces.clone(), evaluation));
     let mut found = together.chain(alone);
     for &period in periods {
         if !goes_on() {
@@ -129,7 +141,7 @@ pub fn response_spectrum_while(
             _ => found.next(),
         };
         let Some(peaks) = peaks else {
-            spectrum.push([0.0, 0.0, ground, 0.0, ground]);
+            spectrum.push([0.0, 0.0, rigid, 0.0, rigid]);
             continue;
         };
         let frequency = TAU / period;

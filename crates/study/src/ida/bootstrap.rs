@@ -165,7 +165,8 @@ mod tests {
                 reached.collect()
             })
             .collect();
-        let bounds = frequency_bounds(&intensities, &[records.clone()], &hazard, 0.9).unwrap();
+        let bounds =
+            frequency_bounds(&intensities, std::slice::from_ref(&records), &hazard, 0.9).unwrap();
         let exact = 1e-4 * median.powf(-k) * (0.5 * k * k * beta * beta).exp();
         let deviation = (k * k * beta * beta / n as f64 * (1.0 + 0.5 * k * k * beta * beta)).sqrt();
         let reach = 1.644_853_6 * deviation;
@@ -174,7 +175,7 @@ mod tests {
         let found = 0.5 * (high / low).ln();
         assert!((found / reach - 1.0).abs() < 0.15, "{found} {reach}");
         // Same input, same bits.
-        let again = frequency_bounds(&intensities, &[records.clone()], &hazard, 0.9);
+        let again = frequency_bounds(&intensities, std::slice::from_ref(&records), &hazard, 0.9);
         assert_eq!(again, Some(bounds));
     }
 

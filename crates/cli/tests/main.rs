@@ -15,6 +15,7 @@ mod excitation;
 mod explore;
 mod explore_input;
 mod files;
+mod floor_spectra;
 mod foundations;
 mod gap;
 mod hysteresis;

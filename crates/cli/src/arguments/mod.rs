@@ -4,6 +4,7 @@ mod compare;
 mod deal;
 mod explore;
 mod figure;
+mod floor_spectrum;
 mod gap;
 mod hysteresis;
 mod impact;
@@ -22,6 +23,7 @@ pub use compare::{CompareArguments, RestitutionChoice, StiffnessChoice};
 pub use deal::DealArguments;
 pub use explore::ExploreArguments;
 pub use figure::FigureArguments;
+pub use floor_spectrum::FloorSpectrumArguments;
 pub use gap::GapArguments;
 pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
 pub use impact::ImpactArguments;
@@ -106,6 +108,8 @@ pub enum Command {
     },
     /// Is the gap wide enough? Demand by simulation, SRSS, DDC and code; effects of pounding
     Gap(Box<GapArguments>),
+    /// What does equipment on the floors feel? Floor response spectra with pounding and without
+    FloorSpectrum(Box<FloorSpectrumArguments>),
     /// Is the answer sensitive to the impact model? Every model on every record
     Compare(Box<CompareArguments>),
     /// Run a case many times with varying values, models or records

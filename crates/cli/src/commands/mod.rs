@@ -4,6 +4,7 @@ mod calibrate;
 pub mod check;
 pub mod compare;
 mod explore;
+mod floor_spectrum;
 pub mod gap;
 mod hysteresis;
 pub mod ida;
@@ -45,6 +46,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
             None => impact::impact(&arguments),
         },
         Command::Gap(arguments) => gap::gap(&arguments, files),
+        Command::FloorSpectrum(arguments) => floor_spectrum::floor_spectrum(&arguments, files),
         Command::Compare(arguments) => compare::run(&arguments, files),
         Command::Hysteresis(arguments) => hysteresis::hysteresis(&arguments),
         Command::Verify(arguments) => verify::verify(&arguments, files),

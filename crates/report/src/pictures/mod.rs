@@ -2,6 +2,7 @@
 
 pub mod collision;
 pub mod comparison;
+pub mod floor_spectrum;
 pub mod gap;
 pub mod hysteresis;
 pub mod ida;

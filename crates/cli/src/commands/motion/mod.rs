@@ -13,7 +13,7 @@ mod spectrum;
 mod spectrum_of_code;
 mod spectrum_tables;
 mod synth;
-mod words;
+pub(super) mod words;
 mod writing;
 
 use std::path::PathBuf;

@@ -1,0 +1,255 @@
+//! `pounding floor-spectrum`: what equipment on the floors feels.
+#![allow(clippy::unwrap_used)]
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output};
+
+use serde_json::Value;
+
+fn example(name: &str) -> PathBuf {
+    let examples = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../examples");
+    examples.join(name).canonicalize().unwrap()
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pounding"));
+    let command = command.env("NO_COLOR", "1").current_dir(folder);
+    command
+        .arg("floor-spectrum")
+        .args(arguments)
+        .output()
+        .unwrap()
+}
+
+fn text(folder: &Path, arguments: &[&str]) -> String {
+    let output = run(folder, arguments);
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{arguments:?}: {errors}");
+    String::from_utf8(output.stdout).unwrap()
+}
+
+fn json(folder: &Path, arguments: &[&str]) -> Value {
+    let told = text(folder, &[arguments, &["--json"]].concat());
+    serde_json::from_str(&told).unwrap()
+}
+
+fn numbers(values: &Value) -> Vec<f64> {
+    let values = values.as_array().unwrap().iter();
+    values.map(|x| x.as_f64().unwrap()).collect()
+}
+
+const PERIODS: &str = "0.05 s, 0.1 s, 0.3 s, 1 s";
+
+/// A case with its accelerations and records in a folder of its own.
+fn changed(name: &str, changes: &[(&str, &str)]) -> (tempfile::TempDir, String) {
+    let folder = tempfile::tempdir().unwrap();
+    let motions = example("../ground_motions");
+    let case = std::fs::read_to_string(example(name).join("case.toml")).unwrap();
+    let mut case = case.replace("../../ground_motions", motions.to_str().unwrap());
+    for (from, to) in changes {
+        assert!(case.contains(from), "{from}");
+        case = case.replace(from, to);
+    }
+    std::fs::write(folder.path().join("case.toml"), &case).unwrap();
+    (folder, case)
+}
+
+/// Absolute accelerations of oscillators of 5 % on the roofs of the three-storey pair, and pseudo-accelerations, from
+/// the accelerations of the floors in a result at rows of 0.05 ms by the matrix exponential of oscillator and linear
+/// excitation (SciPy, which knows nothing of displacements).
+#[test]
+fn roofs_of_the_pair_have_the_spectra_of_their_accelerations() {
+    let folder = example("three_storey_pair");
+    let answer = json(&folder, &["case.toml", "--at", PERIODS]);
+    let floors = answer["floors"].as_array().unwrap();
+    assert_eq!(floors.len(), 2);
+    for (floor, accelerations, pseudo) in [
+        (
+            &floors[0],
+            [81.907_602_96, 54.116_566_59, 17.163_400_02, 8.946_712_59],
+            [81.633_204_08, 53.844_165_67, 17.070_096_00, 8.900_298_56],
+        ),
+        (
+            &floors[1],
+            [9.336_743_63, 12.523_691_27, 32.017_351_68, 5.186_686_50],
+            [9.335_328_25, 12.506_054_16, 31.862_805_93, 5.155_292_74],
+        ),
+    ] {
+        let with = &floor["spectra"][0]["pounding"];
+        let found = [&with["acceleration"], &with["pseudo_acceleration"]].map(numbers);
+        for (found, expected) in found.into_iter().zip([accelerations, pseudo]) {
+            for (found, expected) in found.into_iter().zip(expected) {
+                assert!((found / expected - 1.0).abs() < 5e-5, "{found} {expected}");
+            }
+        }
+    }
+    // Headlines of the documentation.
+    let told = text(&folder, &["case.toml"]);
+    assert!(
+        told.contains("light, roof at 9 m, 5 % damping: pounding raises it up to 23.48 times, from 0.3557 g to 8.352 g, at a period of 0.050 s"),
+        "{told}"
+    );
+    assert!(
+        told.contains("|     1.1942 |     0.2592 |     1.721 |            0.6114 |  0.355 |"),
+        "{told}"
+    );
+}
+
+/// A building that nothing touches has its spectrum with and without, and a stiff oscillator feels the peak acceleration of
+/// its floor. On the ground below stands the spectrum of the record.
+#[test]
+fn a_floor_that_nothing_touches_and_a_stiff_oscillator() {
+    let (folder, _) = changed(
+        "three_storey_pair",
+        &[("width = \"20 mm\"", "width = \"1 m\"")],
+    );
+    let answer = json(
+        folder.path(),
+        &[
+            "case.toml",
+            "--floor",
+            "light:1",
+            "heavy:3",
+            "--at",
+            "0.005 s, 0.4 s",
+        ],
+    );
+    assert_eq!(answer["impacts"], 0);
+    for floor in answer["floors"].as_array().unwrap() {
+        let spectra = &floor["spectra"][0];
+        assert_eq!(spectra["pounding"], spectra["alone"]);
+        let peak = floor["peak_acceleration"]["pounding"].as_f64().unwrap();
+        let stiff = numbers(&spectra["pounding"]["acceleration"])[0];
+        assert!((stiff / peak - 1.0).abs() < 2e-3, "{stiff} {peak}");
+    }
+    let told = text(folder.path(), &["case.toml"]);
+    assert!(told.contains("pounding changes nothing on it"), "{told}");
+    let record = example("../ground_motions").join("el_centro_1940_ns.csv");
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pounding"));
+    let output = command
+        .args(["motion", "spectrum", "--at", "0.4 s", "--json"])
+        .arg(record)
+        .output()
+        .unwrap();
+    let of_record: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let expected = numbers(&of_record["spectra"][0]["acceleration"])[0];
+    let ground = numbers(&answer["floors"][0]["spectra"][0]["ground"]["acceleration"])[1];
+    assert!(
+        (ground / expected - 1.0).abs() < 1e-9,
+        "{ground} {expected}"
+    );
+}
+
+/// Rigid impacts are jumps of the velocity: spectra of long periods are near those of a stiff law of the same restitution,
+/// and peak accelerations leave them out, which a warning says.
+#[test]
+fn jumps_of_the_velocity_are_felt() {
+    let (folder, case) = changed("three_storey_pair", &[]);
+    let model = |text: &str| {
+        let lines = case.lines().filter(|line| {
+            let key = line.split([' ', '=']).next().unwrap_or_default();
+            !["stiffness_exponent", "damping_ratio", "restitution"].contains(&key)
+        });
+        let lines = lines.map(|line| match line.starts_with("model = ") {
+            true => text,
+            false if line.starts_with("stiffness = ") && line.contains("N/m^1.5") => "",
+            false => line,
+        });
+        let case: Vec<&str> = lines.collect();
+        std::fs::write(folder.path().join("case.toml"), case.join("\n")).unwrap();
+        json(folder.path(), &["case.toml", "--at", "0.5 s, 1 s"])
+    };
+    let rigid = model("model = \"stereomechanical\"\nrestitution = 0.65");
+    let warnings = rigid["warnings"].to_string();
+    assert!(warnings.contains("rigid impacts are jumps"), "{warnings}");
+    let stiff = model("model = \"jankowski_2005\"\nstiffness = 2.75e11\nrestitution = 0.65");
+    let light =
+        |answer: &Value| numbers(&answer["floors"][0]["spectra"][0]["pounding"]["acceleration"]);
+    for (rigid, stiff) in light(&rigid).into_iter().zip(light(&stiff)) {
+        assert!((rigid / stiff - 1.0).abs() < 0.1, "{rigid} {stiff}");
+    }
+}
+
+/// Tables for programs and pictures; and what is refused, with a remedy.
+#[test]
+fn files_and_errors() {
+    let (folder, _) = changed(
+        "three_storey_pair",
+        &[("duration = \"31 s\"", "duration = \"5 s\"")],
+    );
+    let place = folder.path();
+    text(
+        place,
+        &[
+            "case.toml",
+            "--damping",
+            "2 %, 5 %",
+            "--count",
+            "4",
+            "--csv",
+            "a.csv",
+            "--plot",
+            "a.svg",
+        ],
+    );
+    let table = std::fs::read_to_string(place.join("a.csv")).unwrap();
+    assert!(
+        table.starts_with("building,storey,elevation_m,damping_ratio,period_s,ground_sa_m_s2,"),
+        "{table}"
+    );
+    assert_eq!(table.lines().count(), 1 + 2 * 2 * 4);
+    let picture = std::fs::read_to_string(place.join("a.svg")).unwrap();
+    assert!(
+        picture.contains("heavy, roof at 9 m, 2 % damping") && picture.contains("building alone")
+    );
+    for (arguments, message, help) in [
+        (
+            &["--floor", "light"][..],
+            "\"light\" names no storey",
+            "light:1",
+        ),
+        (
+            &["--floor", "light:0"],
+            "light has no storey \"0\"",
+            "1, at the bottom, to 3",
+        ),
+        (
+            &["--floor", "light:4"],
+            "light has no storey \"4\"",
+            "1, at the bottom, to 3",
+        ),
+        (
+            &["--floor", "tall:1"],
+            "no building \"tall\"",
+            "light, heavy",
+        ),
+        (&["--floor", "light:1", "light:1"], "stands twice", "once"),
+        (&["--damping", "5"], "5 is not between 0 and 1", "2 %, 5 %"),
+        (
+            &["--at", "0 s"],
+            "0 s is not 0.001 s at least",
+            "peak acceleration of the floor",
+        ),
+        (
+            &["--from", "1 us"],
+            "is not 0.001 s at least",
+            "longer periods",
+        ),
+        (&["--from", "5 s"], "from", ""),
+        (&["--count", "1"], "less than two", "--at"),
+        (&["--at", "1 m"], "at", ""),
+    ] {
+        let output = run(place, &[&["case.toml"], arguments].concat());
+        let said = String::from_utf8(output.stderr).unwrap();
+        let words: Vec<&str> = said.split_whitespace().filter(|w| *w != "│").collect();
+        let said = words.join(" ");
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
+        assert!(
+            said.contains(message) && said.contains(help),
+            "{arguments:?}: {said}"
+        );
+    }
+    // No output takes the place of the case.
+    let output = run(place, &["case.toml", "--csv", "case.toml"]);
+    assert_eq!(output.status.code(), Some(2));
+}

@@ -1,4 +1,5 @@
 //! Response spectra of floors against the response spectrum of the ground and closed forms.
+#![allow(clippy::unwrap_used)]
 
 use std::f64::consts::TAU;
 

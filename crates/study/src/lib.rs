@@ -12,6 +12,7 @@
 pub mod calibration;
 pub mod edited;
 pub mod faults;
+pub mod floor_spectra;
 pub mod gap_check;
 
 // Studies replace and identify more than a single case.

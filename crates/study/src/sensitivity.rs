@@ -39,7 +39,9 @@ pub struct Sensitivity {
 ///
 /// Runs of all combinations give the indices of their inputs exactly. Those of samples are estimated from a mean that
 /// is linear between quantiles of the input (of an input of few values, from the mean of each), less what chance alone
-/// explains (Ezekiel, J. Am. Stat. Assoc. 24 (1929) 99; Kelley, Proc. Natl. Acad. Sci. 21 (1935) 554).
+/// explains (Ezekiel, J. Am. Stat. Assoc. 24 (1929) 99; Kelley, Proc. Natl. Acad. Sci. 21 (1935) 554). Where the same random
+/// numbers stand in every combination of other inputs, those of the numbers are estimated from the means over the
+/// combinations, of which there must be 40, and those of the others are exact.
 #[must_use]
 pub fn sensitivity(values: &[f64], inputs: &[Input<'_>]) -> Option<Sensitivity> {
     let known: Vec<usize> = (0..values.len())
@@ -62,26 +64,31 @@ pub fn sensitivity(values: &[f64], inputs: &[Input<'_>]) -> Option<Sensitivity> 
     if !is_grid && known.len() < LEAST_RUNS || is_one || varying.count() < 2 {
         return None;
     }
-    let pieces = (known.len() / RUNS_OF_PIECE).clamp(2, MOST_PIECES);
+    let sets = match is_grid {
+        true => None,
+        false => sets(inputs, &known),
+    };
     let explained = inputs.iter().map(|input| {
         let groups = groups(input, &known);
-        let few = is_grid || input.are_choices || groups.len() <= pieces + 1;
-        let (rest, parameters) = match few {
-            true => (within_groups(values, &groups), groups.len()),
-            false => beside_pieces(values, input.values, &groups, pieces),
-        };
-        if groups.len() < 2 || !is_grid && 2 * parameters > known.len() {
-            return (f64::NAN, 0.0);
-        }
-        if is_grid {
+        let is_exact = is_grid || sets.as_ref().is_some_and(|sets| sets.cross(&groups));
+        if is_exact && groups.len() > 1 {
             // What the other inputs do is the same in every group.
-            return ((1.0 - rest / all).max(0.0), 0.0);
+            return ((1.0 - within_groups(values, &groups) / all).max(0.0), 0.0);
         }
-        let free = count - parameters as f64;
-        let corrected = |rest: f64| (1.0 - rest * (count - 1.0) / free).max(0.0);
-        let parts = [0.5 * (parameters as f64 - 1.0), 0.5 * free];
-        let chance = corrected(1.0 - beta_quantile(parts[0], parts[1], BY_CHANCE));
-        (corrected(rest / all), chance)
+        match sets.as_ref().filter(|sets| sets.fix(input)) {
+            Some(sets) => {
+                let (means, points) = sets.means(values, input);
+                let of_sets = Input {
+                    values: &points,
+                    are_choices: input.are_choices,
+                };
+                let rows: Vec<usize> = (0..means.len()).collect();
+                let (part, chance) = estimated(&means, &of_sets, &rows);
+                let between = 1.0 - within_groups(values, &sets.runs) / all;
+                (part * between, chance * between)
+            }
+            None => estimated(values, input, &known),
+        }
     });
     let (first_order, by_chance): (Vec<f64>, Vec<f64>) = explained.unzip();
     let explained: f64 = first_order.iter().filter(|part| part.is_finite()).sum();
@@ -92,6 +99,96 @@ pub fn sensitivity(values: &[f64], inputs: &[Input<'_>]) -> Option<Sensitivity> 
         by_chance,
         is_grid,
     })
+}
+
+/// The part of the variance of values that an input explains by estimation, and what chance alone explains at most; of
+/// these rows. NaN for an input of one value or about as many as rows, and of too few rows.
+fn estimated(values: &[f64], input: &Input<'_>, rows: &[usize]) -> (f64, f64) {
+    let groups = groups(input, rows);
+    let count = rows.len() as f64;
+    let pieces = (rows.len() / RUNS_OF_PIECE).clamp(2, MOST_PIECES);
+    let few = input.are_choices || groups.len() <= pieces + 1;
+    if groups.len() < 2 || rows.len() < LEAST_RUNS {
+        return (f64::NAN, 0.0);
+    }
+    let (rest, parameters) = match few {
+        true => (within_groups(values, &groups), groups.len()),
+        false => beside_pieces(values, input.values, &groups, pieces),
+    };
+    if 2 * parameters > rows.len() {
+        return (f64::NAN, 0.0);
+    }
+    let all = within_groups(values, &[rows.to_vec()]);
+    let free = count - parameters as f64;
+    let corrected = |rest: f64| (1.0 - rest * (count - 1.0) / free).max(0.0);
+    let parts = [0.5 * (parameters as f64 - 1.0), 0.5 * free];
+    let chance = corrected(1.0 - beta_quantile(parts[0], parts[1], BY_CHANCE));
+    // Values that are all one are explained by nothing.
+    let part = if all > 0.0 {
+        corrected(rest / all)
+    } else {
+        0.0
+    };
+    (part, chance)
+}
+
+/// Runs of the same random numbers: those of a grid with samples are made in every combination of the other variables,
+/// and tell of these numbers no more than one of them would.
+struct Sets {
+    runs: Vec<Vec<usize>>,
+}
+
+/// The sets of random numbers in runs, if these are repeated: runs in which one of the numbers is the same, where others
+/// are the same then, too, the other numbers or the record.
+fn sets(inputs: &[Input<'_>], runs: &[usize]) -> Option<Sets> {
+    let is_set = |(i, input): (usize, &Input<'_>)| {
+        let sets = Sets {
+            runs: groups(input, runs),
+        };
+        let count = sets.runs.len();
+        let varies = |other: &Input<'_>| groups(other, runs).len() > 1;
+        let others = inputs.iter().enumerate().filter(|(j, _)| *j != i);
+        let mut fixed = others.filter(|(_, other)| varies(other) && sets.fix(other));
+        let is_repeated = !input.are_choices && count > 1 && count < runs.len();
+        (is_repeated && fixed.next().is_some()).then_some(sets)
+    };
+    let found = inputs.iter().enumerate().filter_map(is_set);
+    found.max_by_key(|sets| sets.runs.len())
+}
+
+impl Sets {
+    /// Whether an input has one value in each set.
+    fn fix(&self, input: &Input<'_>) -> bool {
+        let same = |set: &Vec<usize>| {
+            set.windows(2)
+                .all(|pair| input.values[pair[0]] == input.values[pair[1]])
+        };
+        self.runs.iter().all(same)
+    }
+
+    /// Whether each group has as many runs of every set as its size asks for.
+    fn cross(&self, groups: &[Vec<usize>]) -> bool {
+        let last = groups.iter().flatten().copied().max().unwrap_or(0);
+        let mut set_of = vec![0; last + 1];
+        for (number, set) in self.runs.iter().enumerate() {
+            set.iter().for_each(|run| set_of[*run] = number);
+        }
+        let size = |group: &Vec<usize>| group.len() / self.runs.len();
+        groups.iter().all(|group| {
+            let mut counts = vec![0; self.runs.len()];
+            group.iter().for_each(|run| counts[set_of[*run]] += 1);
+            counts.iter().all(|count| *count == size(group))
+        })
+    }
+
+    /// The mean of the values in each set, and what the input is there.
+    fn means(&self, values: &[f64], input: &Input<'_>) -> (Vec<f64>, Vec<f64>) {
+        let of_set = |set: &Vec<usize>| {
+            let mean = set.iter().map(|run| values[*run]).sum::<f64>() / set.len() as f64;
+            (mean, input.values[set[0]])
+        };
+        self.runs.iter().map(of_set).unzip()
+    }
 }
 
 /// Whether runs are all combinations of the values of their inputs, each as often as its values: a value may stand
@@ -211,6 +308,59 @@ fn beside_pieces(
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+
+    /// Random numbers that are repeated in each of twenty combinations tell no more than they do once: 10 sets give no
+    /// estimate, 200 the indices of `x` (3/4 of its variance with `y`, 1/4) beside a third number that does nothing, and what is
+    /// crossed with them is exact. With records of 100 sets each the record is told from chance, too.
+    #[test]
+    fn repeated_numbers_count_once() {
+        let unit = |set: usize, of: u64| crate::design::mixing::unit(&[11, set as u64, of]) - 0.5;
+        for records in [1, 2] {
+            for sets in [10, 200] {
+                let (mut x, mut y, mut z, mut gap, mut record, mut values) =
+                    (vec![], vec![], vec![], vec![], vec![], vec![]);
+                for of in 0..records {
+                    for set in of * sets / records..(of + 1) * sets / records {
+                        for width in 0..20 {
+                            x.push(unit(set, 0));
+                            y.push(unit(set, 1));
+                            z.push(unit(set, 2));
+                            gap.push(f64::from(width));
+                            record.push(of as f64);
+                            values.push(3.0_f64.sqrt() * unit(set, 0) + unit(set, 1));
+                        }
+                    }
+                }
+                let inputs = [
+                    number(&x),
+                    number(&y),
+                    number(&z),
+                    number(&gap),
+                    Input {
+                        values: &record,
+                        are_choices: true,
+                    },
+                ];
+                let found = sensitivity(&values, &inputs).unwrap();
+                let [of_x, of_y, of_z] = [0, 1, 2].map(|i| found.first_order[i]);
+                if sets == 10 {
+                    assert!(of_x.is_nan() && of_y.is_nan() && of_z.is_nan(), "{found:?}");
+                } else {
+                    assert!((of_x - 0.75).abs() < 0.08, "{found:?}");
+                    assert!((of_y - 0.25).abs() < 0.12, "{found:?}");
+                    assert!(of_z < found.by_chance[2].max(0.05), "{found:?}");
+                }
+                assert!(found.first_order[3] < 1e-12 && found.by_chance[3] == 0.0);
+                if records == 2 && sets == 200 {
+                    let by_chance = found.by_chance[4];
+                    assert!(
+                        found.first_order[4] < by_chance && by_chance > 0.005,
+                        "{found:?}"
+                    );
+                }
+            }
+        }
+    }
 
     fn number(values: &[f64]) -> Input<'_> {
         Input {

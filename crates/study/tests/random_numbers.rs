@@ -110,7 +110,7 @@ fn record(folder: &std::path::Path) {
 }
 
 /// A grid with samples is a grid of its variables with values; in each of its points random variables have the same
-/// sets, which are those of a Latin hypercube over all records, each with sets of its own.
+/// sets, a Latin hypercube for each record, which are one together.
 #[test]
 fn grids_have_the_same_random_sets_at_every_point() {
     let place = tempfile::tempdir().unwrap();
@@ -146,6 +146,14 @@ fn grids_have_the_same_random_sets_at_every_point() {
         .collect();
     shares.sort_unstable();
     assert_eq!(shares, (0..150).collect::<Vec<_>>());
+    for of_record in sets.chunks(50) {
+        let mut shares: Vec<usize> = of_record
+            .iter()
+            .map(|[_, damping]| ((damping - 0.02) / 0.04 * 50.0) as usize)
+            .collect();
+        shares.sort_unstable();
+        assert_eq!(shares, (0..50).collect::<Vec<_>>());
+    }
     let factors: Vec<f64> = sets.iter().map(|[factor, _]| *factor).collect();
     let [mean, deviation] = moments(&factors);
     assert!((mean - 1.1).abs() < 0.01 && (deviation - 0.275).abs() < 0.02);
@@ -162,7 +170,10 @@ fn grids_have_the_same_random_sets_at_every_point() {
     // A single random variable is a grid of its samples.
     let study = parsed(place.path(), &[GAP], "samples = 400").unwrap();
     let [mean, deviation] = moments(&numbers(&study, 0));
-    assert!((mean - 0.03).abs() < 1e-5 && (deviation - 0.004).abs() < 1e-4);
+    assert!(
+        (mean - 0.03).abs() < 4e-5 && (deviation - 0.004).abs() < 1e-4,
+        "{mean} {deviation}"
+    );
 }
 
 /// `samples` without a random variable, and in designs that sample all variables; an incremental dynamic analysis with a
@@ -184,7 +195,7 @@ fn samples_that_mean_nothing_are_refused() {
         (
             vec![width],
             "seed = 3",
-            "`seed` has no meaning for grid",
+            "`seed` has no meaning for a grid without `samples`",
             "remove",
         ),
         (

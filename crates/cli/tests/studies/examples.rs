@@ -255,12 +255,12 @@ fn fragility_of_an_uncertain_pair() {
     assert_eq!([&report["records"], &report["structures"]], [40, 40]);
     // Headlines of the README.
     let fit = &report["limits"][0]["fit"];
-    assert!((number(&fit["median"]) - 0.9144).abs() < 2e-3, "{fit}");
-    assert!((number(&fit["dispersion"]) - 0.2392).abs() < 2e-3, "{fit}");
+    assert!((number(&fit["median"]) - 0.8775).abs() < 2e-3, "{fit}");
+    assert!((number(&fit["dispersion"]) - 0.2946).abs() < 2e-3, "{fit}");
     let minimum = number(&report["gaps"][0]["minimum"]["width"]);
-    assert!((minimum - 0.0849).abs() < 3e-4, "{minimum}");
+    assert!((minimum - 0.0885).abs() < 3e-4, "{minimum}");
     let at_40_mm = &report["gaps"][0]["widths"][1];
-    assert!(number(&at_40_mm["goodness_of_fit"]["p_value"]) > 0.5);
+    assert!(number(&at_40_mm["goodness_of_fit"]["p_value"]) > 0.4);
     assert_eq!(report["sweep"]["runs"], 480);
 }
 

@@ -154,3 +154,24 @@ fn lists_know_records_that_have_several_names() {
         );
     }
 }
+
+/// Gaps that vary are not those of the case; and a grid that lacks `samples` asks for them alone, as other designs are no
+/// incremental dynamic analysis.
+#[test]
+fn gaps_may_be_random() {
+    let bench = Bench::new("");
+    let study = |design: &str| {
+        format!(
+            "case = \"case.toml\"\n[[variable]]\n{SYNTHETIC}\n[[variable]]\nname = \"gap\"\npath = \"gap.0.width\"\ndistribution = {{ kind = \"normal\", mean = \"20 mm\", standard_deviation = \"2 mm\" }}\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [0.4, 0.8]\n{design}{SETTINGS}"
+        )
+    };
+    let told = analysed(&bench, &study("[design]\nsamples = 1\n"));
+    assert_eq!(
+        told["limits"][0]["name"],
+        "pounding at the gaps of the runs"
+    );
+    bench.study(&study(""));
+    let said = bench.complaint("ida study.toml -o other.h5", 2);
+    assert!(said.contains("add `samples = ...` to [design]"), "{said}");
+    assert!(!said.contains("latin_hypercube"), "{said}");
+}

@@ -15,6 +15,23 @@ pub(super) fn coordinate(run: u64, dimension: u64, runs: u64, seed: u64) -> f64 
     ((share as f64 + inside) / runs as f64).min(next_down((share + 1) as f64 / runs as f64))
 }
 
+/// Coordinate of a sample of one of several slices: the samples of each slice are a Latin hypercube, and so are those of
+/// all slices together (Qian 2012, J. Am. Stat. Assoc. 107, 393). Numbers from zero.
+pub(super) fn sliced_coordinate(
+    (slice, slices): (u64, u64),
+    (sample, samples): (u64, u64),
+    dimension: u64,
+    seed: u64,
+) -> f64 {
+    let coarse = permuted(sample, samples, &[seed, bits(&[dimension, slice, 4])]);
+    // Each slice has one of the fine shares in a coarse one.
+    let fine = permuted(slice, slices, &[seed, bits(&[dimension, coarse, 5])]);
+    let share = coarse * slices + fine;
+    let inside = unit(&[seed, dimension, slice, sample, 6]);
+    let runs = (slices * samples) as f64;
+    ((share as f64 + inside) / runs).min(next_down((share + 1) as f64 / runs))
+}
+
 fn next_down(x: f64) -> f64 {
     f64::from_bits(x.to_bits() - 1)
 }

@@ -50,8 +50,8 @@ pub enum Design {
 }
 
 /// Every combination of the variables with values, each with so many sets of random numbers of the others: a Latin
-/// hypercube, whose sets are the same in all combinations but of other records, of which each has sets of its own. The
-/// sets stand in the place of the first random variable; the last variable runs fastest.
+/// hypercube, whose sets are the same in all combinations but of other records, of which each has one of its own, which
+/// all are one together. The sets stand in the place of the first random variable; the last variable runs fastest.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct SampledGrid {
     /// Values of each variable: of the first random one the sets for a record, of the others of them one.
@@ -97,15 +97,14 @@ impl SampledGrid {
     fn point(&self, run: usize, variables: &[Variable]) -> Vec<Value> {
         let places = places(run, &self.sizes);
         let record = self.record.map_or(0, |record| places[record]);
-        let set = record * self.samples + places[self.random];
+        let records = self.record.map_or(1, |record| self.sizes[record]);
+        let slice = (record as u64, records as u64);
+        let sample = (places[self.random] as u64, self.samples as u64);
         let numbered = variables.iter().zip(places).enumerate();
         numbered
             .map(|(d, (variable, place))| match is_random(&variable.values) {
-                true => variable.values.sample(latin_hypercube::coordinate(
-                    set as u64,
-                    d as u64,
-                    self.sets() as u64,
-                    self.seed,
+                true => variable.values.sample(latin_hypercube::sliced_coordinate(
+                    slice, sample, d as u64, self.seed,
                 )),
                 false => variable.values.at(place),
             })

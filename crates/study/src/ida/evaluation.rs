@@ -236,6 +236,9 @@ impl IdaReport {
 /// Part of the records that have runs at all intensities where the others lack one here or there.
 const MOSTLY_WHOLE: f64 = 0.9;
 
+/// The state that every analysis has, where gaps vary from run to run.
+const AT_GAPS_OF_RUNS: &str = "pounding at the gaps of the runs";
+
 /// The state in which one of several gaps closes that have their least width each.
 const AT_LEAST_GAPS: &str = "pounding at any gap of least width";
 
@@ -343,7 +346,12 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     let first_impacts = first_gap + gaps.len();
     // Who has collapsed has been through every state before.
     let pounds = |r: &Run| r.collapsed || r.demands[first_impacts..].iter().any(|n| *n > 0.0);
-    let mut results = vec![evaluation.limit(POUNDING, &pounds)?];
+    let paths = study.variables.iter().flat_map(|v| v.target.paths());
+    let name = match paths.clone().any(|path| path.table() == "gap") {
+        true => AT_GAPS_OF_RUNS,
+        false => POUNDING,
+    };
+    let mut results = vec![evaluation.limit(name, &pounds)?];
     for (i, (demand, exceeds)) in limits.iter().enumerate() {
         let reached = |r: &Run| r.demands[first_limit + i] > *exceeds;
         results.push(evaluation.limit(&demand.name, &reached)?);

@@ -266,12 +266,13 @@ impl StudyFile {
         let tables: Vec<Range<usize>> = list.iter().flatten().filter_map(Entry::span).collect();
         let read = list.map(|list| variables(reader, list, context));
         let whole = read.as_ref().filter(|read| read.whole && all_known);
+        let with_ida = self.ida.is_some();
         let design_place = self.design.span();
         let design = design(
             reader,
             self.design,
             whole.map(|read| (&*read.variables, &*tables)),
-            counts,
+            (counts, with_ida),
         );
         let rows = match (whole, &design) {
             (Some(read), Some(design)) => {
@@ -290,7 +291,6 @@ impl StudyFile {
         let measure = read
             .as_ref()
             .and_then(|read| read.variables.iter().find_map(intensity_of));
-        let with_ida = self.ida.is_some();
         let ida = self.ida.stated().and_then(|ida| match ida {
             None => Some(None),
             Some(Located { value, span }) => {
@@ -539,10 +539,10 @@ fn design(
     reader: &Reader<'_>,
     table: Optional<DesignTable>,
     variables: Option<(&[Variable], &[Range<usize>])>,
-    counts: Vec<Range<usize>>,
+    (counts, with_ida): (Vec<Range<usize>>, bool),
 ) -> Option<Design> {
     let Some(Located { value: table, span }) = table.stated()? else {
-        return grid(reader, 0..0, variables?, None);
+        return grid(reader, 0..0, variables?, None, with_ida);
     };
     let place = table.kind.span().unwrap_or_else(|| span.clone());
     let kind = table.kind.value_or(Kind::Grid)?;
@@ -564,15 +564,15 @@ fn design(
             meaningless("grid", &[runs]);
             let samples = table.samples.value()?.0;
             let seed = table.seed.value_or(Whole(1))?.0 as u64;
-            return grid(reader, place, variables?, Some((samples, seed)));
+            return grid(reader, place, variables?, Some((samples, seed)), with_ida);
         }
         Kind::Grid => {
             meaningless("grid", &[runs]);
             let is_sampled = variables.is_some_and(|(v, _)| v.iter().any(|v| v.values.is_random()));
             if !is_sampled {
-                meaningless("grid", &[seed]);
+                meaningless("a grid without `samples`", &[seed]);
             }
-            return grid(reader, place, variables?, None);
+            return grid(reader, place, variables?, None, with_ida);
         }
         Kind::List => {
             meaningless("list", &[runs, samples, seed]);
@@ -638,6 +638,7 @@ fn grid(
     place: Range<usize>,
     (variables, tables): (&[Variable], &[Range<usize>]),
     samples: Option<(usize, u64)>,
+    with_ida: bool,
 ) -> Option<Design> {
     let sizes = all(variables.iter().zip(tables).map(|(v, table)| {
         v.values.count().or_else(|| {
@@ -645,13 +646,14 @@ fn grid(
                 return Some(1);
             }
             if v.values.is_random() {
-                return refuse_random(reader, table.clone(), v, "a grid without `samples`");
+                return refuse_random(reader, table.clone(), v, (OF_GRID, with_ida));
             }
             let message = format!(
                 "the range of \"{}\" has no `count`, which a grid needs",
                 v.name
             );
-            reader.refuse(table.clone(), message, "add `count = ...` to the variable")
+            let help = "add `count = ...` to the variable; or `samples = ...` to [design], so many sets of random numbers from such ranges in each combination";
+            reader.refuse(table.clone(), message, help)
         })
     }))?;
     let sampled = samples.map(|(samples, seed)| SampledGrid::new(variables, samples, seed));
@@ -687,34 +689,36 @@ fn grid(
 
 /// What takes every record at every intensity.
 const OF_IDA: &str = "an incremental dynamic analysis";
+/// What takes random numbers if it is told how many.
+const OF_GRID: &str = "a grid without `samples`";
 
 /// Refuses random numbers in a design that takes no samples.
 fn refuse_random<T>(
     reader: &Reader<'_>,
     place: Range<usize>,
     variable: &Variable,
-    design: &str,
+    (design, with_ida): (&str, bool),
 ) -> Option<T> {
     let message = format!(
         "\"{}\" has a `distribution`, of which {design} takes no samples",
         variable.name
     );
     let values = "write `values`, or `from`, `to` and `count`, in its place";
-    let samples = "samples = ..., so many sets of random numbers in each combination";
+    let samples =
+        "add `samples = ...` to [design], so many sets of random numbers in each combination";
+    let sampled = "write [design] with kind = \"latin_hypercube\", or monte_carlo, and runs = ...";
     let help = match design {
         OF_IDA => values.to_owned(),
-        _ => {
-            format!(
-                "write [design] with kind = \"grid\" and {samples}; or with kind = \"latin_hypercube\", or monte_carlo, and runs = ...; or {values}"
-            )
-        }
+        OF_GRID if with_ida => format!("{samples}, such as 1"),
+        OF_GRID => format!("{samples}; or {sampled}; or {values}"),
+        _ => format!("{sampled}; or {values}"),
     };
     reader.refuse(place, message, help)
 }
 
 fn list(reader: &Reader<'_>, place: Range<usize>, variables: &[Variable]) -> Option<Design> {
     if let Some(random) = variables.iter().find(|v| v.values.is_random()) {
-        return refuse_random(reader, place, random, "a list");
+        return refuse_random(reader, place, random, ("a list", false));
     }
     let mut counts = variables.iter().map(|v| (&v.name, v.values.count()));
     let first = counts.next().and_then(|(_, n)| n);
@@ -807,7 +811,7 @@ fn ida_variables(
                 return reader.refuse(place, message, "add `count = ...`");
             }
             if variable.values.is_random() {
-                return refuse_random(reader, place, variable, OF_IDA);
+                return refuse_random(reader, place, variable, (OF_IDA, true));
             }
             Some((record, intensity))
         }

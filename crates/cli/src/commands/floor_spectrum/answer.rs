@@ -2,7 +2,7 @@
 
 use pounding_ground_motion::spectra::ResponseSpectrum;
 use pounding_report::pictures::motion::percent;
-use serde::Serialize;
+use pounding_study::floor_spectra::{FloorPeaks, FloorSpectra, FloorWithSpectra, SpectraOfFloor};
 
 use crate::failure::Failure;
 use crate::output::comma_separated;
@@ -11,146 +11,101 @@ use crate::tables::{G, new_long_table};
 /// Spectra in which the two differ by less are equal (-).
 const EQUAL: f64 = 1.0e-9;
 
-/// Peak absolute acceleration of a floor (m/s2), with pounding and of the building alone.
-#[derive(Debug, Serialize)]
-pub struct Peaks {
-    pub pounding: f64,
-    pub alone: Option<f64>,
+/// Its place in words.
+pub fn title(floor: &FloorWithSpectra) -> String {
+    let storey = match floor.is_roof {
+        true => "roof".to_owned(),
+        false => format!("floor above storey {}", floor.storey),
+    };
+    format!("{}, {storey} at {} m", floor.building, floor.elevation)
 }
 
-/// Spectra of one damping ratio.
-#[derive(Debug, Serialize)]
-pub struct Spectra {
-    pub ground: ResponseSpectrum,
-    pub pounding: ResponseSpectrum,
-    /// Of the building without gaps and links, if it stands by itself.
-    pub alone: Option<ResponseSpectrum>,
-}
-
-/// What equipment on a floor feels.
-#[derive(Debug, Serialize)]
-pub struct Floor {
-    pub building: String,
-    /// From 1 at the bottom.
-    pub storey: usize,
-    pub is_roof: bool,
-    /// Above the ground (m).
-    pub elevation: f64,
-    pub peak_acceleration: Peaks,
-    /// By damping ratio.
-    pub spectra: Vec<Spectra>,
-}
-
-/// What `--json` prints.
-#[derive(Debug, Serialize)]
-pub struct Answer {
-    pub floors: Vec<Floor>,
-    /// Impacts at all gaps.
-    pub impacts: usize,
-    /// Of the motions of the floors (s).
-    pub time_step: f64,
-    pub warnings: Vec<String>,
-}
-
-impl Floor {
-    /// Its place in words.
-    pub fn title(&self) -> String {
-        let storey = match self.is_roof {
-            true => "roof".to_owned(),
-            false => format!("floor above storey {}", self.storey),
-        };
-        format!("{}, {storey} at {} m", self.building, self.elevation)
+/// Where pounding raises the spectrum of the first damping ratio most, in words.
+fn most_raised(floor: &FloorWithSpectra) -> Option<String> {
+    let spectra = floor.spectra.first()?;
+    let alone = spectra.alone.as_ref()?;
+    let with = &spectra.pounding;
+    let ratios = with.acceleration.iter().zip(&alone.acceleration);
+    let ratios: Vec<f64> = ratios.map(|(with, alone)| with / alone).collect();
+    let differs = |ratio: &f64| (ratio - 1.0).abs() > EQUAL;
+    if !ratios.iter().any(differs) {
+        return Some("pounding changes nothing on it".to_owned());
     }
+    let most = (0..ratios.len()).max_by(|a, b| ratios[*a].total_cmp(&ratios[*b]))?;
+    let (period, ratio) = (with.periods[most], ratios[most]);
+    let accelerations = format!(
+        "from {} g to {} g, at a period of {period:.3} s",
+        figures(alone.acceleration[most] / G),
+        figures(with.acceleration[most] / G)
+    );
+    Some(match ratio > 1.0 {
+        true => format!(
+            "pounding raises it up to {} times, {accelerations}",
+            figures(ratio)
+        ),
+        false => format!("pounding lowers it at all periods, least {accelerations}"),
+    })
+}
 
-    /// Where pounding raises the spectrum of the first damping ratio most, as numbers of a sentence.
-    fn most_raised(&self) -> Option<String> {
-        let spectra = self.spectra.first()?;
-        let alone = spectra.alone.as_ref()?;
-        let with = &spectra.pounding;
-        let ratios = with.acceleration.iter().zip(&alone.acceleration);
-        let ratios: Vec<f64> = ratios.map(|(with, alone)| with / alone).collect();
-        let differs = |ratio: &f64| (ratio - 1.0).abs() > EQUAL;
-        if !ratios.iter().any(differs) {
-            return Some("pounding changes nothing on it".to_owned());
+/// The answer first, then a table for each floor and damping ratio.
+pub fn text(answer: &FloorSpectra, case: &str) -> String {
+    let mut text = String::new();
+    if !case.is_empty() {
+        text.push_str(&format!("{case}\n"));
+    }
+    text.push_str("Floor response spectra: peak absolute accelerations of equipment on the floors, by its period\n");
+    for floor in &answer.floors {
+        text.push_str(&format!("\n{}", title(floor)));
+        if let Some(first) = floor.spectra.first() {
+            text.push_str(&format!(", {}", percent(first.pounding.damping)));
         }
-        let most = (0..ratios.len()).max_by(|a, b| ratios[*a].total_cmp(&ratios[*b]))?;
-        let (period, ratio) = (with.periods[most], ratios[most]);
-        let accelerations = format!(
-            "from {} g to {} g, at a period of {period:.3} s",
-            figures(alone.acceleration[most] / G),
-            figures(with.acceleration[most] / G)
-        );
-        Some(match ratio > 1.0 {
-            true => format!(
-                "pounding raises it up to {} times, {accelerations}",
-                figures(ratio)
+        if let Some(said) = most_raised(floor) {
+            text.push_str(&format!(": {said}"));
+        }
+        let FloorPeaks { pounding, alone } = floor.peak_acceleration;
+        let pounding = figures(pounding / G);
+        text.push_str(&match alone {
+            Some(alone) => format!(
+                "\nPeak acceleration of the floor: {pounding} g, alone {} g\n",
+                figures(alone / G)
             ),
-            false => format!("pounding lowers it at all periods, least {accelerations}"),
-        })
+            None => format!("\nPeak acceleration of the floor: {pounding} g\n"),
+        });
+        for spectra in &floor.spectra {
+            text.push_str(&table(spectra));
+        }
     }
+    for warning in &answer.warnings {
+        text.push_str(&format!("\nwarning: {warning}"));
+    }
+    if !answer.warnings.is_empty() {
+        text.push('\n');
+    }
+    text
 }
 
-impl Answer {
-    /// The answer first, then a table for each floor and damping ratio.
-    pub fn text(&self, title: &str) -> String {
-        let mut text = String::new();
-        if !title.is_empty() {
-            text.push_str(&format!("{title}\n"));
-        }
-        text.push_str("Floor response spectra: peak absolute accelerations of equipment on the floors, by its period\n");
-        for floor in &self.floors {
-            text.push_str(&format!("\n{}", floor.title()));
-            if let Some(first) = floor.spectra.first() {
-                text.push_str(&format!(", {}", percent(first.pounding.damping)));
-            }
-            if let Some(said) = floor.most_raised() {
-                text.push_str(&format!(": {said}"));
-            }
-            let Peaks { pounding, alone } = floor.peak_acceleration;
-            let pounding = figures(pounding / G);
-            text.push_str(&match alone {
-                Some(alone) => format!(
-                    "\nPeak acceleration of the floor: {pounding} g, alone {} g\n",
-                    figures(alone / G)
-                ),
-                None => format!("\nPeak acceleration of the floor: {pounding} g\n"),
-            });
-            for spectra in &floor.spectra {
-                text.push_str(&table(spectra));
-            }
-        }
-        for warning in &self.warnings {
-            text.push_str(&format!("\nwarning: {warning}"));
-        }
-        if !self.warnings.is_empty() {
-            text.push('\n');
-        }
-        text
-    }
-
-    /// A row for each floor, damping ratio and period.
-    pub fn csv(&self) -> Result<String, Failure> {
-        let rows = self.floors.iter().flat_map(|floor| {
-            let spectra = floor.spectra.iter();
-            spectra.flat_map(move |spectra| {
-                let places = 0..spectra.pounding.periods.len();
-                places.map(move |i| {
-                    let of = |s: &ResponseSpectrum| (s.acceleration[i], s.pseudo_acceleration[i]);
-                    let alone = spectra.alone.as_ref().map(of).unzip();
-                    let place = (&floor.building, floor.storey, floor.elevation);
-                    let oscillator = (spectra.pounding.damping, spectra.pounding.periods[i]);
-                    (
-                        place,
-                        oscillator,
-                        of(&spectra.ground),
-                        alone,
-                        of(&spectra.pounding),
-                    )
-                })
+/// A row for each floor, damping ratio and period.
+pub fn csv(answer: &FloorSpectra) -> Result<String, Failure> {
+    let rows = answer.floors.iter().flat_map(|floor| {
+        let spectra = floor.spectra.iter();
+        spectra.flat_map(move |spectra| {
+            let places = 0..spectra.pounding.periods.len();
+            places.map(move |i| {
+                let of = |s: &ResponseSpectrum| (s.acceleration[i], s.pseudo_acceleration[i]);
+                let alone = spectra.alone.as_ref().map(of).unzip();
+                let place = (&floor.building, floor.storey, floor.elevation);
+                let oscillator = (spectra.pounding.damping, spectra.pounding.periods[i]);
+                (
+                    place,
+                    oscillator,
+                    of(&spectra.ground),
+                    alone,
+                    of(&spectra.pounding),
+                )
             })
-        });
-        comma_separated(&COLUMNS, rows)
-    }
+        })
+    });
+    comma_separated(&COLUMNS, rows)
 }
 
 /// Of the table for programs.
@@ -168,7 +123,7 @@ const COLUMNS: [&str; 11] = [
     "pounding_psa_m_s2",
 ];
 
-fn table(spectra: &Spectra) -> String {
+fn table(spectra: &SpectraOfFloor) -> String {
     let mut header = vec!["period (s)", "ground (g)"];
     if spectra.alone.is_some() {
         header.push("alone (g)");

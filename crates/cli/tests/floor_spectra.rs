@@ -224,7 +224,11 @@ fn files_and_errors() {
             "light, heavy",
         ),
         (&["--floor", "light:1", "light:1"], "stands twice", "once"),
-        (&["--damping", "5"], "5 is not between 0 and 1", "2 %, 5 %"),
+        (
+            &["--damping", "5"],
+            "5 is not between 0 and 1",
+            "such as 0.05",
+        ),
         (
             &["--at", "0 s"],
             "0 s is not 0.001 s at least",

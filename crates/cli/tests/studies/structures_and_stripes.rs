@@ -137,6 +137,7 @@ fn lists_know_records_that_have_several_names() {
     let [a, b] = files;
     let all = [(a, 0.5), (b, 0.5), (b, 1.0), (b, 2.0), (a, 1.0), (a, 2.0)];
     let told = analysed(&bench, &list(&all));
+    assert_eq!(told["sweep"]["warnings"], whole["sweep"]["warnings"]);
     assert_eq!(told["records"], 2);
     assert_eq!(told["limits"], whole["limits"]);
     assert_eq!(told["gaps"], whole["gaps"]);

@@ -159,7 +159,15 @@ impl<'s> Runner<'s> {
         let known = |r: usize| Some(&motions.all[r].as_ref().ok()?.first);
         // One file that is read in several ways is no repetition.
         let once = study.reads_one_way();
-        let same = |a: usize, b: usize| once && known(a).is_some() && known(a) == known(b);
+        // In a list of an analysis a record has a name at each intensity.
+        let is_list = matches!(study.design, Design::List { .. }) && study.ida.is_some();
+        let named = match is_list {
+            true => study.same_records(),
+            false => (0..motions.all.len()).collect(),
+        };
+        let same = |a: usize, b: usize| {
+            once && named[a] != named[b] && known(a).is_some() && known(a) == known(b)
+        };
         let names: Vec<&str> = study.records.iter().map(|r| r.name.as_str()).collect();
         warnings.extend(Repeated::by(motions.all.len(), same).warnings(&names));
         let stores = |name: &str| layout.quantities.iter().any(|q| q.name == name);

@@ -5,6 +5,7 @@
 
 mod case;
 mod errors;
+mod floors;
 mod models;
 mod motion;
 mod run;
@@ -34,6 +35,7 @@ fn _native(module: &Bound<'_, PyModule>) -> PyResult<()> {
     case::add(module)?;
     motion::add(module)?;
     run::add(module)?;
+    floors::add(module)?;
     models::add(module)?;
     study::add(module)
 }

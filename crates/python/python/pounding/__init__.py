@@ -24,6 +24,7 @@ from ._errors import (
     PoundingError,
     RecordError,
 )
+from ._floors import floor_spectra
 from ._models import Collision, collide, model, models
 from ._motion import Motion, formats, measures, read_motion, spectrum
 from ._result import BuildingHistories, GapHistories, Result, run, run_many
@@ -55,6 +56,7 @@ __all__ = [
     "Separation",
     "collide",
     "compare",
+    "floor_spectra",
     "formats",
     "gap_check",
     "ida",

@@ -26,6 +26,7 @@ __all__ = [
     "collide",
     "run_study",
     "has_ida",
+    "floor_spectra_json",
     "gap_check_json",
     "compare_json",
 ]
@@ -162,6 +163,13 @@ def run_study(
     evaluated: bool = False,
     progress: _Progress | None = None,
 ) -> tuple[str, str | None]: ...
+def floor_spectra_json(
+    case: Case,
+    floors: list[tuple[str, int]] | None,
+    periods: _Array,
+    damping: _Quantity,
+    progress: _Progress | None = None,
+) -> str: ...
 def gap_check_json(
     case: Case,
     motions: list[tuple[str, Any]],

@@ -52,40 +52,34 @@ fn curves(report: &IdaReport) -> Vec<Plot> {
         };
         let all = &report.curves[index];
         let made = |values: &Vec<f64>| values.iter().filter(|x| !x.is_nan()).count();
-        // Of stripes, whose records have one intensity each, there are no curves.
-        let mut series: Vec<Series> = match all.iter().all(|values| made(values) < 2) {
-            true => {
-                let points = all
-                    .iter()
-                    .flat_map(|values| line(&mut values.iter().copied()));
-                let points: Vec<(f64, f64)> = points
-                    .filter(|(d, i): &(f64, f64)| *i > 0.0 && !d.is_nan())
-                    .collect();
-                vec![Series {
-                    name: format!("{} runs, with pounding", points.len()),
-                    points,
-                    look: Look::points_of_many(),
-                }]
-            }
-            false => {
-                let lines = all.iter().enumerate().map(|(number, values)| Series {
-                    name: match number {
-                        0 => format!(
-                            "{} records{}, with pounding",
-                            all.len(),
-                            match report.structures {
-                                Some(_) => " with a structure",
-                                None => "",
-                            }
-                        ),
-                        _ => String::new(),
-                    },
-                    points: line(&mut values.iter().copied()),
-                    look: Look::one_of_many(),
-                });
-                lines.collect()
-            }
+        // Of records that have one intensity each, as in stripes, there are points and no curves.
+        let (single, several): (Vec<&Vec<f64>>, Vec<&Vec<f64>>) =
+            all.iter().partition(|values| made(values) < 2);
+        let sampled = match report.structures {
+            Some(_) => "records with a structure",
+            None => "records",
         };
+        let lines = several.iter().enumerate().map(|(number, values)| Series {
+            name: match number {
+                0 => format!("{} {sampled}, with pounding", several.len()),
+                _ => String::new(),
+            },
+            points: line(&mut values.iter().copied()),
+            look: Look::one_of_many(),
+        });
+        let mut series: Vec<Series> = lines.collect();
+        let points = single
+            .iter()
+            .flat_map(|values| -> Vec<(f64, f64)> { line(&mut values.iter().copied()) });
+        let points = points.filter(|(d, i): &(f64, f64)| *i > 0.0 && !d.is_nan());
+        let points: Vec<(f64, f64)> = points.collect();
+        if !points.is_empty() {
+            series.push(Series {
+                name: format!("{} runs, with pounding", points.len()),
+                points,
+                look: Look::points_of_many(),
+            });
+        }
         for (fractile, (name, dash)) in [("16 %", "1.5 1.5"), ("median", ""), ("84 %", "6 2")]
             .into_iter()
             .enumerate()

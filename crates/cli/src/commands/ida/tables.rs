@@ -148,7 +148,7 @@ fn quality(state: &LimitResult) -> String {
     match (state.fit, state.goodness) {
         (FragilityFit::Lognormal(_), Some(test)) => {
             let word = if test.p_value < POOR { "POOR, " } else { "" };
-            format!("{word}p = {}", probability(test.p_value))
+            format!("{word}p {}", probability(test.p_value))
         }
         (FragilityFit::Lognormal(_), None) => "not tested".to_owned(),
         _ => "-".to_owned(),
@@ -159,7 +159,7 @@ fn probability(p: f64) -> String {
     if p < 1e-3 {
         "< 0.001".to_owned()
     } else {
-        format!("{p:.3}")
+        format!("= {p:.3}")
     }
 }
 

@@ -1,0 +1,116 @@
+"""Response spectra of floors: what equipment on them feels."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from typing import TYPE_CHECKING
+
+from . import _native
+from ._case import Case, as_case
+from ._errors import CaseTypeError, listed, needs, refused, text, whole
+from ._motion import _real
+from ._result import Progress, _progress
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+    import xarray
+
+__all__ = ["floor_spectra"]
+
+
+def _place(floor: object) -> tuple[str, int]:
+    """A building and a storey."""
+    if not (isinstance(floor, tuple) and len(floor) == 2):
+        what = f"{floor!r} is no floor"
+        raise refused(what, 'give a building and a storey from 1, such as ("light", 3)', CaseTypeError)
+    building, storey = floor
+    return text(building, "building"), whole(storey, "storey", 1)
+
+
+def floor_spectra(
+    case: Case | str | os.PathLike[str],
+    floors: Iterable[tuple[str, int]] | None = None,
+    periods: npt.ArrayLike | None = None,
+    damping: float | str = 0.05,
+    *,
+    progress: Progress | bool | None = None,
+) -> xarray.Dataset:
+    """Response spectra of floors, with pounding and of the buildings alone.
+
+    They come from the displacements and velocities of the floors at fine rows, which hold what impacts do;
+    accelerations at the rows of a result miss the milliseconds that these last.
+
+    Parameters
+    ----------
+    case : Case or path
+    floors : iterable of (str, int), optional
+        Buildings and storeys, from 1 at the bottom; the roofs of all buildings by default.
+    periods : array_like, optional
+        Periods of the equipment (s), from 1 ms on; 100 from 0.05 to 4 s by default, evenly spaced in their
+        logarithm.
+    damping : float or str
+        Damping ratio of the equipment (-).
+    progress : callable or bool, optional
+
+    Returns
+    -------
+    xarray.Dataset
+        ``ground``, ``alone`` and ``pounding``, peak absolute accelerations (m/s2) over ``floor`` and
+        ``period`` (s), and ``peak_acceleration_alone`` and ``peak_acceleration_pounding`` of the floors
+        themselves, with ``building`` and ``storey`` of each. ``alone`` is NaN where buildings do not stand without
+        one another; what should be known stands in the attribute ``warnings``.
+    """
+    needs("floor_spectra", "xarray")
+    import numpy as np
+    import xarray as xr
+
+    given = as_case(case)
+    places = None if floors is None else [_place(floor) for floor in listed(floors, "floors", "floors")]
+    chosen = _native.periods(0.05, 4.0, 100) if periods is None else periods
+    at = _real(chosen, "periods", "periods (s)")
+    told, bar = _progress(progress, "floor spectra")
+    try:
+        answer = json.loads(_native.floor_spectra_json(given._native, places, at, damping, told))
+    finally:
+        if bar is not None:
+            bar.close()
+    found = answer["floors"]
+    missing = np.full(len(at), np.nan)
+
+    def accelerations(name: str) -> npt.NDArray[np.float64]:
+        spectra = [floor["spectra"][0][name] for floor in found]
+        rows = [missing if one is None else np.array(one["acceleration"]) for one in spectra]
+        return np.array(rows).reshape(len(found), len(at))
+
+    def peaks(name: str) -> npt.NDArray[np.float64]:
+        values = [floor["peak_acceleration"][name] for floor in found]
+        return np.array([np.nan if value is None else value for value in values])
+
+    def attributes(long_name: str) -> dict[str, str]:
+        return {"units": "m s-2", "long_name": long_name}
+
+    named = {
+        "ground": "absolute acceleration on the ground",
+        "alone": "absolute acceleration on a floor of the building alone",
+        "pounding": "absolute acceleration on a floor with pounding",
+    }
+    variables: dict[str, tuple[object, ...]] = {
+        name: (("floor", "period"), accelerations(name), attributes(long_name))
+        for name, long_name in named.items()
+    }
+    for name in ("alone", "pounding"):
+        long_name = f"peak absolute acceleration of a floor, {name}"
+        variables[f"peak_acceleration_{name}"] = ("floor", peaks(name), attributes(long_name))
+    coordinates = {
+        "floor": ("floor", [f"{floor['building']} {floor['storey']}" for floor in found]),
+        "building": ("floor", [floor["building"] for floor in found]),
+        "storey": ("floor", [floor["storey"] for floor in found]),
+        "elevation": ("floor", [floor["elevation"] for floor in found], {"units": "m"}),
+        "period": ("period", at, {"units": "s", "long_name": "period"}),
+    }
+    attrs = {"impacts": answer["impacts"], "warnings": "\n".join(answer["warnings"])}
+    if found:
+        attrs["damping_ratio"] = found[0]["spectra"][0]["ground"]["damping"]
+    return xr.Dataset(variables, coordinates, attrs)

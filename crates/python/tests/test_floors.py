@@ -1,0 +1,58 @@
+"""Response spectra of floors, against those of their accelerations at fine rows."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from conftest import PAIR, RECORD
+
+import pounding
+
+
+def test_roofs_have_the_spectra_of_their_accelerations() -> None:
+    # From accelerations at rows of 0.05 ms by matrix exponentials (SciPy).
+    found = pounding.floor_spectra(PAIR, periods=[0.05, 0.1, 0.3, 1.0])
+    assert list(found["floor"].values) == ["light 3", "heavy 3"]
+    assert found.attrs["impacts"] == 45 and found.attrs["damping_ratio"] == 0.05
+    expected = [
+        [81.90760296, 54.11656659, 17.16340002, 8.94671259],
+        [9.33674363, 12.52369127, 32.01735168, 5.18668650],
+    ]
+    assert np.allclose(found["pounding"], expected, rtol=5e-5)
+    assert found["pounding"].attrs["units"] == "m s-2"
+    # The ground is that of the record.
+    ground = pounding.read_motion(RECORD).spectrum([0.3, 1.0])["acceleration"]
+    assert np.allclose(found["ground"].sel(floor="light 3", period=[0.3, 1.0]), ground, rtol=1e-9)
+
+
+def test_floors_by_name_and_progress() -> None:
+    told: list[tuple[int, int]] = []
+    found = pounding.floor_spectra(
+        PAIR,
+        [("heavy", 1), ("light", 2)],
+        damping="2 %",
+        progress=lambda done, total: told.append((done, total)),
+    )
+    assert found["pounding"].shape == (2, 100)
+    assert list(found["building"].values) == ["heavy", "light"]
+    assert list(found["elevation"].values) == [3.0, 6.0]
+    assert found.attrs["damping_ratio"] == 0.02
+    peaks = found["peak_acceleration_pounding"]
+    assert float(peaks.sel(floor="light 2")) > float(found["peak_acceleration_alone"].sel(floor="light 2"))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({"floors": [("tall", 1)]}, "no building \"tall\""),
+        ({"floors": [("light", 4)]}, "no storey \"4\""),
+        ({"floors": ["light"]}, "is no floor"),
+        ({"floors": [("light", 0)]}, "storey"),
+        ({"periods": [0.0]}, "0.001 s at least"),
+        ({"damping": 1.0}, "not between 0 and 1"),
+    ],
+)
+def test_what_has_no_spectrum_is_refused(arguments: dict[str, object], message: str) -> None:
+    with pytest.raises(pounding.PoundingError, match=message) as refused:
+        pounding.floor_spectra(PAIR, **arguments)  # type: ignore[arg-type]
+    assert refused.value.help

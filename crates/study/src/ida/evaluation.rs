@@ -517,10 +517,11 @@ impl Evaluation<'_> {
 
     fn limit(&self, name: &str, reached: &dyn Fn(&Run) -> bool) -> Result<LimitResult, StudyError> {
         let counts = self.counts(reached);
-        let fit = fit(&counts);
+        let effect = self.design_effect(reached);
+        let fit = fit(&counts).of_alike_runs(effect);
         let evidence = self.evidence(reached);
         let goodness = match &fit {
-            FragilityFit::Lognormal(f) => goodness::test(f, &counts, &evidence),
+            FragilityFit::Lognormal(f) => goodness::test(f, &counts, (&evidence, effect)),
             _ => None,
         };
         let hazard = self.settings.hazard.as_ref();
@@ -576,45 +577,83 @@ impl Evaluation<'_> {
     /// What the runs say of a state beside its counts.
     fn evidence(&self, reached: &dyn Fn(&Run) -> bool) -> Evidence {
         let levels = self.intensities.len();
-        // Of each sample at each intensity: whether there is a run, and what one that did not fail says.
-        let mut samples: BTreeMap<usize, Vec<Option<Option<bool>>>> = BTreeMap::new();
-        for run in self.runs {
-            let states = samples
-                .entry(run.sample)
-                .or_insert_with(|| vec![None; levels]);
-            states[run.level] = Some((!run.failed).then(|| reached(run)));
-        }
-        let made = |states: &Vec<Option<_>>| states.iter().flatten().count();
-        let whole = samples.values().filter(|s| made(s) == levels).count();
-        // A record may lack a run here or there.
-        if (whole as f64) < MOSTLY_WHOLE * samples.len() as f64 {
-            return match samples.values().all(|states| made(states) == 1) {
-                true => Evidence::Stripes,
-                false => Evidence::Mixed,
-            };
-        }
-        let of = match samples.len() > self.records() {
+        let by_sample = self.states(&|run| run.sample, reached);
+        let of = match by_sample.len() > self.records() {
             true => Sampled::RecordsWithStructures,
             false => Sampled::Records,
         };
-        let known = samples.into_values().map(|states| {
-            let states = states.into_iter().map(Option::flatten);
-            states.collect::<Vec<_>>()
-        });
-        // One with a run that failed is left out where that could change it.
-        let capacity = |states: Vec<Option<bool>>| {
-            let first = states.iter().position(|s| *s == Some(true));
-            let first = first.unwrap_or(levels);
-            let known = states[..first].iter().all(Option::is_some);
-            known.then(|| Capacity {
-                first,
-                returns: states[first..].contains(&Some(false)),
-            })
-        };
-        Evidence::Curves {
-            capacities: known.filter_map(capacity).collect(),
-            of,
+        if let Some(capacities) = capacities(by_sample, levels) {
+            return Evidence::Curves { capacities, of };
         }
+        // Structures may differ from run to run of a record.
+        let by_record = self.states(&|run| run.record, reached);
+        let made = |states: &Vec<Vec<_>>| states.iter().filter(|runs| !runs.is_empty()).count();
+        if by_record.values().all(|states| made(states) == 1) {
+            return Evidence::Stripes;
+        }
+        match capacities(by_record, levels) {
+            Some(capacities) => Evidence::Curves {
+                capacities,
+                of: Sampled::Records,
+            },
+            None => Evidence::Mixed,
+        }
+    }
+
+    /// Of each sample or record at each intensity what its runs say of a state; `None` of those that failed.
+    fn states(
+        &self,
+        key: &dyn Fn(&Run) -> usize,
+        reached: &dyn Fn(&Run) -> bool,
+    ) -> BTreeMap<usize, Vec<Vec<Option<bool>>>> {
+        let mut found = BTreeMap::new();
+        for run in self.runs {
+            let states = found
+                .entry(key(run))
+                .or_insert_with(|| vec![Vec::new(); self.intensities.len()]);
+            states[run.level].push((!run.failed).then(|| reached(run)));
+        }
+        found
+    }
+
+    /// How many times as large as that of independent runs the variance of a counted fraction is, as runs of one record
+    /// with several structures are alike (Kish 1965, Survey Sampling, eq. 5.4.1): one plus the runs of a record at an
+    /// intensity, less one, times their correlation, that of the analysis of variance over the records.
+    fn design_effect(&self, reached: &dyn Fn(&Run) -> bool) -> f64 {
+        let by_record = self.states(&|run| run.record, reached);
+        let (mut between, mut within) = (0.0, 0.0);
+        let (mut free_between, mut free_within, mut sizes) = (0.0, 0.0, 0.0);
+        for level in 0..self.intensities.len() {
+            let records = by_record.values().map(|states| {
+                let known = states[level].iter().flatten();
+                let (runs, reached) = known.fold((0.0, 0.0), |(runs, reached), state| {
+                    (runs + 1.0, reached + f64::from(u8::from(*state)))
+                });
+                (runs, reached)
+            });
+            let records: Vec<(f64, f64)> = records.filter(|(runs, _)| *runs > 0.0).collect();
+            let runs: f64 = records.iter().map(|(runs, _)| runs).sum();
+            let mean = records.iter().map(|(_, reached)| reached).sum::<f64>() / runs;
+            if records.len() < 2 {
+                continue;
+            }
+            for (runs, reached) in &records {
+                let fraction = reached / runs;
+                between += runs * (fraction - mean) * (fraction - mean);
+                within += reached * (1.0 - fraction);
+            }
+            free_between += records.len() as f64 - 1.0;
+            free_within += runs - records.len() as f64;
+            let squares: f64 = records.iter().map(|(runs, _)| runs * runs).sum();
+            sizes += runs - squares / runs;
+        }
+        if !(free_within > 0.0 && between > 0.0) {
+            return 1.0;
+        }
+        let size = sizes / free_between;
+        let (between, within) = (between / free_between, within / free_within);
+        let correlation = (between - within) / (between + (size - 1.0) * within);
+        (1.0 + (size - 1.0) * correlation).clamp(1.0, size)
     }
 
     /// Runs of each record by intensity, and how many reach a state; the records in groups that have runs at the same
@@ -769,6 +808,32 @@ impl Evaluation<'_> {
     }
 }
 
+/// Where each of samples first reaches a state, if nearly all have one run at every intensity. One with a run that
+/// failed is left out where that could change it.
+fn capacities(
+    samples: BTreeMap<usize, Vec<Vec<Option<bool>>>>,
+    levels: usize,
+) -> Option<Vec<Capacity>> {
+    let is_whole = |states: &&Vec<Vec<_>>| states.iter().all(|runs| runs.len() == 1);
+    let whole = samples.values().filter(is_whole).count();
+    let once = samples.values().flatten().all(|runs| runs.len() < 2);
+    // A record may lack a run here or there.
+    if !once || (whole as f64) < MOSTLY_WHOLE * samples.len() as f64 {
+        return None;
+    }
+    let capacity = |states: Vec<Vec<Option<bool>>>| {
+        let state = |level: usize| states[level].first().copied().flatten();
+        let first = (0..levels).find(|level| state(*level) == Some(true));
+        let first = first.unwrap_or(levels);
+        let known = (0..first).all(|level| state(level).is_some());
+        known.then(|| Capacity {
+            first,
+            returns: (first..levels).any(|level| state(level) == Some(false)),
+        })
+    };
+    Some(samples.into_values().filter_map(capacity).collect())
+}
+
 /// What must be said of bounds that are missing.
 fn of_bounds(bounds: &FrequencyBounds) -> Vec<FitRemark> {
     let &FrequencyBounds { above, unknown, .. } = bounds;
@@ -785,6 +850,78 @@ mod tests {
 
     use super::*;
     use crate::study_file::IntensityMeasure;
+
+    /// Runs of twelve records at six intensities, with so many structures each, which act as `factor` says of record and structure.
+    fn with_structures(structures: usize, factor: &dyn Fn(usize, usize) -> f64) -> LimitResult {
+        let quantile = pounding_ground_motion::distributions::normal_quantile;
+        let intensities: Vec<f64> = (0..6).map(|i| 0.5 * 1.35_f64.powi(i)).collect();
+        let mut runs = Vec::new();
+        for record in 0..12 {
+            let capacity = (0.4 * quantile((record as f64 + 0.5) / 12.0)).exp();
+            for structure in 0..structures {
+                for (level, intensity) in intensities.iter().enumerate() {
+                    runs.push(Run {
+                        level,
+                        record,
+                        structure: record * structures + structure,
+                        sample: record * structures + structure,
+                        failed: false,
+                        collapsed: false,
+                        demands: vec![intensity / capacity * factor(record, structure)],
+                    });
+                }
+            }
+        }
+        let settings = IdaSettings {
+            record: 0,
+            intensity: 1,
+            measure: IntensityMeasure::PeakGroundAcceleration,
+            gaps: Vec::new(),
+            limits: Vec::new(),
+            hazard: None,
+            hazard_file: None,
+            target_frequency: None,
+            confidence: 0.95,
+            asked: Vec::new(),
+        };
+        let evaluation = Evaluation {
+            settings: &settings,
+            intensities: &intensities,
+            runs: &runs,
+        };
+        evaluation.limit("state", &|r| r.demands[0] > 1.0).unwrap()
+    }
+
+    /// Ten structures for each record that are one say what one does: median, dispersion, their bounds and the test of the
+    /// fit. Of ten that differ far more than records do each counts.
+    #[test]
+    fn structures_of_a_record_that_are_alike_count_once() {
+        let fitted = |result: &LimitResult| match result.fit {
+            FragilityFit::Lognormal(fit) => fit,
+            other => panic!("{other:?}"),
+        };
+        let (one, ten) = (
+            with_structures(1, &|_, _| 1.0),
+            with_structures(10, &|_, _| 1.0),
+        );
+        let (a, b) = (fitted(&one), fitted(&ten));
+        let near = |x: f64, y: f64| assert!((x / y - 1.0).abs() < 1e-6, "{x} {y}");
+        near(a.median, b.median);
+        near(a.dispersion, b.dispersion);
+        near(a.standard_errors[0], b.standard_errors[0]);
+        near(a.standard_errors[1], b.standard_errors[1]);
+        near(a.covariance, b.covariance);
+        let (a, b) = (one.goodness.unwrap(), ten.goodness.unwrap());
+        near(a.p_value, b.p_value);
+        assert_eq!(a.degrees_of_freedom, b.degrees_of_freedom);
+        let random = |record: usize, structure: usize| {
+            let unit = crate::design::mixing::unit(&[5, record as u64, structure as u64]);
+            (2.0 * pounding_ground_motion::distributions::normal_quantile(unit)).exp()
+        };
+        let (one, ten) = (with_structures(1, &random), with_structures(10, &random));
+        let ratio = fitted(&one).standard_errors[0] / fitted(&ten).standard_errors[0];
+        assert!(ratio > 2.0 && ratio < 4.5, "{ratio}");
+    }
 
     /// Records whose demand grows in proportion to the intensity, at quantiles of a lognormal
     /// distribution, and the least gap by these intensities (g).

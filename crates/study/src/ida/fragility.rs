@@ -101,6 +101,23 @@ impl Fragility {
     }
 }
 
+impl FragilityFit {
+    /// The same from runs of which the variance of a fraction is so many times that of independent ones: errors are
+    /// larger by its root.
+    pub(super) fn of_alike_runs(self, design_effect: f64) -> Self {
+        match self {
+            Self::Lognormal(fit) => Self::Lognormal(Fragility {
+                standard_errors: fit
+                    .standard_errors
+                    .map(|error| error * design_effect.sqrt()),
+                covariance: fit.covariance * design_effect,
+                ..fit
+            }),
+            other => other,
+        }
+    }
+}
+
 /// Fits a lognormal fragility to counts by maximum likelihood: binomial at every
 /// intensity, a probit in the logarithm of the intensity (Baker 2015, Earthq. Spectra 31,
 /// 579, equations 9 and 11). The likelihood of a probit is concave: Newton's method finds

@@ -82,7 +82,7 @@ impl fmt::Display for Untested {
                 "too few intensities at which some records reach it and others do not: the fit cannot be tested"
             }
             Self::Mixed => {
-                "some records have runs at several intensities but not at all of them, so that counts depend on one another in part: the fit cannot be tested"
+                "some records have runs at several intensities, but not one at each, so that counts depend on one another in part: the fit cannot be tested"
             }
         })
     }
@@ -377,15 +377,19 @@ impl fmt::Display for FitRemark {
 }
 
 /// The test of a fitted curve on what the runs say, between intensities that rise; `None` with too few
-/// classes.
+/// classes. Runs that are alike count as independent ones over their design effect (Rao and Scott 1981, J. Am. Stat.
+/// Assoc. 76, 221).
 pub(super) fn test(
     fragility: &Fragility,
     counts: &[Counts],
-    evidence: &Evidence,
+    (evidence, design_effect): (&Evidence, f64),
 ) -> Option<GoodnessOfFit> {
+    let weight = 1.0 / design_effect;
     let (statistic, degrees_of_freedom) = match evidence {
-        Evidence::Curves { capacities, .. } => of_capacities(fragility, counts, capacities)?,
-        Evidence::Stripes => of_stripes(fragility, counts)?,
+        Evidence::Curves { capacities, .. } => {
+            of_capacities(fragility, counts, (capacities, weight))?
+        }
+        Evidence::Stripes => of_stripes(fragility, counts, weight)?,
         Evidence::Mixed => return None,
     };
     let distances = counts.iter().filter(|c| c.runs > 0).map(|c| {
@@ -409,9 +413,9 @@ pub(super) fn test(
 fn of_capacities(
     fragility: &Fragility,
     counts: &[Counts],
-    capacities: &[Capacity],
+    (capacities, weight): (&[Capacity], f64),
 ) -> Option<(f64, usize)> {
-    let records = capacities.len() as f64;
+    let records = weight * capacities.len() as f64;
     let below = |class: usize| match counts.get(class) {
         Some(c) => fragility.probability(c.intensity),
         None => 1.0,
@@ -423,7 +427,7 @@ fn of_capacities(
     for class in 0..=counts.len() {
         let upper = below(class);
         open.0 += records * (upper - reached).max(0.0);
-        open.1 += capacities.iter().filter(|c| c.first == class).count() as f64;
+        open.1 += weight * capacities.iter().filter(|c| c.first == class).count() as f64;
         reached = upper;
         if open.0 >= LEAST_EXPECTED {
             classes.push(open);
@@ -461,15 +465,15 @@ impl Stripe {
 
 /// Pearson's sum over binomial counts, and its degrees of freedom; `None` with fewer than three classes.
 /// Neighbours are joined until each class expects a run that reaches the state and one that misses it.
-fn of_stripes(fragility: &Fragility, counts: &[Counts]) -> Option<(f64, usize)> {
+fn of_stripes(fragility: &Fragility, counts: &[Counts], weight: f64) -> Option<(f64, usize)> {
     let mut classes: Vec<Stripe> = Vec::new();
     let mut open = Stripe::default();
     for count in counts {
         let probability = fragility.probability(count.intensity);
-        let runs = count.runs as f64;
+        let runs = weight * count.runs as f64;
         open = open.with(Stripe {
             runs,
-            reached: count.reached as f64,
+            reached: weight * count.reached as f64,
             expected: runs * probability,
             variance: runs * probability * (1.0 - probability),
         });
@@ -678,7 +682,7 @@ mod tests {
         let e = std::f64::consts::E;
         let classes = [20, 30, 35, 15];
         let counts = counts(&[1.0 / e, 1.0, e], &classes);
-        let test = test(&curve(1.0, 1.0), &counts, &curves(&classes)).unwrap();
+        let test = test(&curve(1.0, 1.0), &counts, (&curves(&classes), 1.0)).unwrap();
         assert_eq!(test.degrees_of_freedom, 1);
         let expected = (4.134_475_f64.powi(2) + 0.865_525_f64.powi(2)) / 15.865_525
             + (4.134_475_f64.powi(2) + 0.865_525_f64.powi(2)) / 34.134_475;
@@ -705,11 +709,11 @@ mod tests {
         let intensities = [1e-6, 1e-5, 0.4, 1.0, 2.5, 1e5, 1e6];
         let classes = [0, 0, 18, 32, 32, 18, 0, 0];
         let counts = counts(&intensities, &classes);
-        let found = test(&curve(1.0, 1.0), &counts, &curves(&classes)).unwrap();
+        let found = test(&curve(1.0, 1.0), &counts, (&curves(&classes), 1.0)).unwrap();
         assert_eq!(found.degrees_of_freedom, 1);
         assert!(found.p_value > 0.5);
         assert_eq!(
-            test(&curve(1.0, 1.0), &counts[3..4], &curves(&[50, 50])),
+            test(&curve(1.0, 1.0), &counts[3..4], (&curves(&[50, 50]), 1.0)),
             None
         );
     }
@@ -726,7 +730,7 @@ mod tests {
             reached,
         };
         let counts = [stripe(1.0 / e, 20), stripe(1.0, 45), stripe(e, 80)];
-        let found = test(&curve(1.0, 1.0), &counts, &Evidence::Stripes).unwrap();
+        let found = test(&curve(1.0, 1.0), &counts, (&Evidence::Stripes, 1.0)).unwrap();
         assert_eq!(found.degrees_of_freedom, 1);
         let expected = 2.0 * 4.134_475_f64.powi(2) / 13.348_377 + 1.0;
         assert!((found.statistic - expected).abs() < 1e-5, "{found:?}");
@@ -738,14 +742,17 @@ mod tests {
             &counts[..],
             &[stripe(1e3, 100)],
         ];
-        let found = test(&curve(1.0, 1.0), &far.concat(), &Evidence::Stripes).unwrap();
+        let found = test(&curve(1.0, 1.0), &far.concat(), (&Evidence::Stripes, 1.0)).unwrap();
         assert_eq!(found.degrees_of_freedom, 1);
         assert!((found.statistic - expected).abs() < 1e-3, "{found:?}");
         assert_eq!(
-            test(&curve(1.0, 1.0), &counts[..2], &Evidence::Stripes),
+            test(&curve(1.0, 1.0), &counts[..2], (&Evidence::Stripes, 1.0)),
             None
         );
-        assert_eq!(test(&curve(1.0, 1.0), &counts, &Evidence::Mixed), None);
+        assert_eq!(
+            test(&curve(1.0, 1.0), &counts, (&Evidence::Mixed, 1.0)),
+            None
+        );
     }
 
     /// Stripes drawn from a lognormal curve, each of other records, and fitted: the test refuses 5 % of them at 0.05, as
@@ -773,7 +780,7 @@ mod tests {
             let FragilityFit::Lognormal(fitted) = fit(&counts) else {
                 continue;
             };
-            let Some(goodness) = test(&fitted, &counts, &Evidence::Stripes) else {
+            let Some(goodness) = test(&fitted, &counts, (&Evidence::Stripes, 1.0)) else {
                 continue;
             };
             tested += 1;
@@ -796,7 +803,7 @@ mod tests {
         let FragilityFit::Lognormal(f) = fitted else {
             panic!("{fitted:?}")
         };
-        let goodness = test(&f, &counts, &evidence);
+        let goodness = test(&f, &counts, (&evidence, 1.0));
         assert!(goodness.unwrap().p_value < 1e-3, "{goodness:?}");
         let said = remarks(&fitted, goodness.as_ref(), &counts, (&evidence, 40));
         assert!(matches!(said[0], FitRemark::Poor { .. }), "{said:?}");
@@ -825,7 +832,7 @@ mod tests {
         let FragilityFit::Lognormal(fragility) = fitted else {
             panic!("{fitted:?}")
         };
-        let goodness = test(&fragility, &table, &all).unwrap();
+        let goodness = test(&fragility, &table, (&all, 1.0)).unwrap();
         assert!(goodness.p_value > 0.5, "{goodness:?}");
         assert!(remarks(&fitted, Some(&goodness), &table, (&all, 40)).is_empty());
         let classes = [0, 0, 0, 0, 0, 1, 1, 1, 37];

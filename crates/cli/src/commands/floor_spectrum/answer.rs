@@ -20,19 +20,27 @@ pub fn title(floor: &FloorWithSpectra) -> String {
     format!("{}, {storey} at {} m", floor.building, floor.elevation)
 }
 
+/// One where both are zero, as on a floor that nothing moves.
+fn ratio(with: f64, alone: f64) -> f64 {
+    if with == alone { 1.0 } else { with / alone }
+}
+
 /// Where pounding raises the spectrum of the first damping ratio most, in words.
 fn most_raised(floor: &FloorWithSpectra) -> Option<String> {
     let spectra = floor.spectra.first()?;
     let alone = spectra.alone.as_ref()?;
     let with = &spectra.pounding;
-    let ratios = with.acceleration.iter().zip(&alone.acceleration);
-    let ratios: Vec<f64> = ratios.map(|(with, alone)| with / alone).collect();
+    let pairs = with.acceleration.iter().zip(&alone.acceleration);
+    let ratios: Vec<f64> = pairs.map(|(with, alone)| ratio(*with, *alone)).collect();
     let differs = |ratio: &f64| (ratio - 1.0).abs() > EQUAL;
     if !ratios.iter().any(differs) {
-        return Some("pounding changes nothing on it".to_owned());
+        return Some("pounding changes none of its peaks".to_owned());
     }
     let most = (0..ratios.len()).max_by(|a, b| ratios[*a].total_cmp(&ratios[*b]))?;
     let (period, ratio) = (with.periods[most], ratios[most]);
+    if ratio.is_infinite() {
+        return Some("the building alone does not move".to_owned());
+    }
     let accelerations = format!(
         "from {} g to {} g, at a period of {period:.3} s",
         figures(alone.acceleration[most] / G),
@@ -142,7 +150,10 @@ fn table(spectra: &SpectraOfFloor) -> String {
         let alone = spectra.alone.as_ref().map(|s| s.acceleration[i]);
         row.extend(alone.map(|alone| figures(alone / G)));
         row.push(figures(with / G));
-        row.extend(alone.map(|alone| format!("{:.3}", with / alone)));
+        row.extend(alone.map(|alone| match ratio(with, alone) {
+            ratio if ratio.is_finite() => format!("{ratio:.3}"),
+            _ => "-".to_owned(),
+        }));
         table.add_row(row);
     }
     format!("\n{}\n{table}\n", percent(spectra.pounding.damping))

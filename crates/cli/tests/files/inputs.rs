@@ -18,8 +18,9 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 46] = [
+const CALLS: [Call; 47] = [
     call("run case.toml", CASE),
+    call("floor-spectrum case.toml --at 0.5s", CASE),
     call("explore case.toml", CASE),
     call(
         "explore case.toml --rules rules.toml",

@@ -1,29 +1,4 @@
 //! What equipment on floors feels: response spectra of floors, with pounding and of the buildings alone.
-//!
-//! ```
-//! use std::ops::ControlFlow;
-//! use std::path::Path;
-//!
-//! use pounding_study::floor_spectra::{FloorMotions, FloorSpectraWanted, roofs};
-//!
-//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! # let root = concat!(env!("CARGO_MANIFEST_DIR"), "/../..");
-//! # std::env::set_current_dir(root)?;
-//! let file = Path::new("examples/three_storey_pair/case.toml");
-//! let case = pounding_case::Case::parse(&std::fs::read_to_string(file)?, file)?;
-//! let assembly = pounding_assembly::assemble(&case)?;
-//! let roofs = roofs(&assembly.system);
-//! let periods = [0.05, 1.2];
-//! let wanted = FloorSpectraWanted { floors: &roofs, periods: &periods, dampings: &[0.05] };
-//! let motions = FloorMotions::new(&assembly, wanted, &mut |_| ControlFlow::Continue(()))?;
-//! let light = &motions.spectra(&periods)?.floors[0].spectra[0];
-//! let alone = light.alone.as_ref().ok_or("the building alone")?;
-//! // What is stiff feels the impacts; what swings with the building feels less than without them.
-//! assert!(light.pounding.acceleration[0] > 20.0 * alone.acceleration[0]);
-//! assert!(light.pounding.acceleration[1] < 0.5 * alone.acceleration[1]);
-//! # Ok(())
-//! # }
-//! ```
 
 use std::ops::ControlFlow;
 

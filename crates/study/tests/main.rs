@@ -1,6 +1,7 @@
 //! Studies, called as a library.
 
 mod comparison;
+mod floor_spectra;
 mod gap_check;
 mod interruption;
 mod random_numbers;

@@ -29,7 +29,7 @@ pub use hysteresis::{HysteresisArguments, VerifyHysteresisArguments};
 pub use impact::ImpactArguments;
 pub use motion::*;
 pub use paths::{InputPath, OutputFolder, OutputPath, PathKind, file_use};
-pub use quantities::{frequency, optional, positive, time_limit, value};
+pub use quantities::{ascending, frequency, list, optional, positive, time_limit, value};
 pub use study::*;
 pub use verification::*;
 

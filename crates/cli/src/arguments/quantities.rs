@@ -3,6 +3,7 @@
 use std::f64::consts::TAU;
 
 use pounding_case::{Dimension, parse_quantity};
+use pounding_catalogue::numbers::six_digits;
 
 use crate::failure::Failure;
 
@@ -90,6 +91,36 @@ pub fn of_dimension(text: &str, wanted: Dimension) -> Result<f64, String> {
         )),
         _ => Ok(quantity.value),
     }
+}
+
+/// SI values divided by commas; frequencies in Hz.
+pub fn list(text: &str, name: &str, dimension: Dimension) -> Result<Vec<f64>, Failure> {
+    let of_dimension = |part: &str| match dimension == Dimension::FREQUENCY {
+        true => frequency(part, name),
+        false => value(part, name, dimension),
+    };
+    text.split(',')
+        .map(|part| of_dimension(part.trim()))
+        .collect()
+}
+
+/// Refuses two options of which the first is not below the second.
+pub fn ascending(
+    (first_option, first): (&str, f64),
+    (last_option, last): (&str, f64),
+    unit: &str,
+) -> Result<(), Failure> {
+    if first < last {
+        return Ok(());
+    }
+    Err(Failure::input(
+        format!(
+            "--{first_option} = {} {unit} is not below --{last_option} = {} {unit}",
+            six_digits(first),
+            six_digits(last)
+        ),
+        Some("give the smaller one first".to_owned()),
+    ))
 }
 
 #[cfg(test)]

@@ -14,8 +14,7 @@ use pounding_study::floor_spectra::{
 };
 use pounding_time_history::System;
 
-use super::motion::words;
-use crate::arguments::{FloorSpectrumArguments, value};
+use crate::arguments::{FloorSpectrumArguments, ascending, list, value};
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case};
 use crate::files::{have_a_place, reads_too};
@@ -33,7 +32,7 @@ pub fn floor_spectrum(
     mut files: FileUse,
 ) -> Result<(), Failure> {
     let periods = periods(arguments)?;
-    let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    let dampings = list(&arguments.damping, "damping", Dimension::NUMBER)?;
     let case = read_case(&arguments.case, true)?;
     reads_too(&mut files, case.files())?;
     let assembly = assembled(&case)?;
@@ -113,12 +112,12 @@ fn floors(system: &System, names: &[String]) -> Result<Vec<FloorPlace>, Failure>
 
 fn periods(arguments: &FloorSpectrumArguments) -> Result<Vec<f64>, Failure> {
     if let Some(text) = &arguments.at {
-        return words::list(text, "at", Dimension::TIME);
+        return list(text, "at", Dimension::TIME);
     }
     let end = |text: &str, name| value(text, name, Dimension::TIME);
     let from = end(&arguments.from, "from")?;
     let to = end(&arguments.to, "to")?;
-    words::ascending(("from", from), ("to", to), "s")?;
+    ascending(("from", from), ("to", to), "s")?;
     let count = arguments.count.unwrap_or(PERIODS);
     if count < 2 {
         let message = format!("--count: {count} is less than two");

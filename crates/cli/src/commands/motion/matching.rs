@@ -8,9 +8,9 @@ use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_report::pictures::motion::matched as picture;
 
 use super::code::{code_spectrum, warn_of_parameters};
-use super::{reading, words, writing};
-use crate::arguments::value;
+use super::{reading, writing};
 use crate::arguments::{MatchArguments, MatchMethod, OutputArguments};
+use crate::arguments::{ascending, value};
 use crate::failure::Failure;
 use crate::files::have_a_place;
 use crate::plot;
@@ -26,7 +26,7 @@ pub fn matching(arguments: &MatchArguments) -> Result<(), Failure> {
         tolerance: value(&arguments.tolerance, "tolerance", Dimension::NUMBER)?,
         iterations: arguments.iterations,
     };
-    words::ascending(("from", options.from), ("to", options.to), "s")?;
+    ascending(("from", options.from), ("to", options.to), "s")?;
     let record = reading::acceleration(&arguments.file, &arguments.read)?;
     let progress = Progress::working(format!("matching {}", arguments.file.display()))?;
     let matched = match arguments.method {

@@ -13,7 +13,7 @@ mod spectrum;
 mod spectrum_of_code;
 mod spectrum_tables;
 mod synth;
-pub(super) mod words;
+mod words;
 mod writing;
 
 use std::path::PathBuf;

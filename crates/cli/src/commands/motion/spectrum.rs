@@ -15,10 +15,10 @@ use pounding_report::pictures::motion;
 use serde::Serialize;
 
 use super::code::warn_of_parameters;
+use super::reading;
 use super::spectrum_of_code::{self, OfCode};
 use super::spectrum_tables as tables;
-use super::{reading, words};
-use crate::arguments::{SpectrumArguments, frequency, value};
+use crate::arguments::{SpectrumArguments, ascending, frequency, list, value};
 use crate::failure::Failure;
 use crate::output::{pretty, print};
 use crate::plot;
@@ -91,7 +91,7 @@ pub(super) fn places(
         false => value(text, name, dimension),
     };
     if let Some(text) = &arguments.at {
-        return words::list(text, "at", dimension);
+        return list(text, "at", dimension);
     }
     let end = |text: &Option<String>, name, default| match text {
         Some(text) => place(text, name),
@@ -104,7 +104,7 @@ pub(super) fn places(
     } else {
         "Hz"
     };
-    words::ascending(("from", from), ("to", to), unit)?;
+    ascending(("from", from), ("to", to), unit)?;
     let count = arguments.count.unwrap_or(default.2);
     logarithmic_periods(from, to, count).map_err(|e| named(e, arguments))
 }
@@ -141,7 +141,7 @@ fn evaluation(arguments: &SpectrumArguments) -> Evaluation {
 
 fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure> {
     let periods = places(arguments, PERIODS, Dimension::TIME)?;
-    let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    let dampings = list(&arguments.damping, "damping", Dimension::NUMBER)?;
     let record = reading::acceleration(file, &arguments.read)?;
     let spectra = response_spectra(&record, &periods, &dampings, evaluation(arguments))
         .map_err(|e| named(e, arguments))?;
@@ -187,7 +187,7 @@ fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failu
 
 fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure> {
     let periods = places(arguments, PERIODS, Dimension::TIME)?;
-    let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    let dampings = list(&arguments.damping, "damping", Dimension::NUMBER)?;
     if arguments.second_file.is_none() && arguments.second_component.is_none() {
         return Err(Failure::input(
             "--rotated needs two components",

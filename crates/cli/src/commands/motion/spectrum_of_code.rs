@@ -9,8 +9,8 @@ use pounding_report::pictures::motion;
 use serde::Serialize;
 
 use super::code::{code_spectrum, warn_of_parameters};
-use super::{spectrum, words};
-use crate::arguments::SpectrumArguments;
+use super::spectrum;
+use crate::arguments::{SpectrumArguments, list};
 use crate::failure::Failure;
 use crate::output::{pretty, print};
 use crate::plot;
@@ -101,7 +101,7 @@ pub fn alone(arguments: &SpectrumArguments) -> Result<(), Failure> {
             Some("leave it out, or name the file of a record".to_owned()),
         ));
     }
-    let dampings = words::list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    let dampings = list(&arguments.damping, "damping", Dimension::NUMBER)?;
     let (shown, written) = periods(arguments, &dampings)?;
     let spectra = beside(arguments, &shown, &dampings)?;
     // Whatever the damping.

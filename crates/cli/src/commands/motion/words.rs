@@ -1,9 +1,8 @@
 //! Values such as `high_pass=0.1 Hz, order=4` and `ramped, rise=2 s`.
 
 use pounding_case::Dimension;
-use pounding_catalogue::numbers::six_digits;
 
-use crate::arguments::{frequency, value};
+use crate::arguments::value;
 use crate::failure::Failure;
 
 /// A word and pairs behind it, of one option.
@@ -128,34 +127,4 @@ fn literal(text: &str) -> String {
         };
     }
     quoted(text)
-}
-
-/// Refuses two options of which the first is not below the second.
-pub fn ascending(
-    (first_option, first): (&str, f64),
-    (last_option, last): (&str, f64),
-    unit: &str,
-) -> Result<(), Failure> {
-    if first < last {
-        return Ok(());
-    }
-    Err(Failure::input(
-        format!(
-            "--{first_option} = {} {unit} is not below --{last_option} = {} {unit}",
-            six_digits(first),
-            six_digits(last)
-        ),
-        Some("give the smaller one first".to_owned()),
-    ))
-}
-
-/// SI values divided by commas; frequencies in Hz.
-pub fn list(text: &str, name: &str, dimension: Dimension) -> Result<Vec<f64>, Failure> {
-    let of_dimension = |part: &str| match dimension == Dimension::FREQUENCY {
-        true => frequency(part, name),
-        false => value(part, name, dimension),
-    };
-    text.split(',')
-        .map(|part| of_dimension(part.trim()))
-        .collect()
 }

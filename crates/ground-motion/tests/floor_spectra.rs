@@ -6,25 +6,50 @@ use std::f64::consts::TAU;
 use pounding_ground_motion::spectra::{Evaluation, FloorMotion, floor_spectrum, response_spectrum};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
 
+/// Pieces between these values at even times, of which nothing jumps.
+fn pieces(time_step: f64, ground: &[f64], motion: impl Fn(f64) -> [f64; 2]) -> Vec<FloorMotion> {
+    let at = |i: usize| motion(time_step * i as f64);
+    let piece = |i: usize| {
+        let ([x, v], [y, w]) = (at(i), at(i + 1));
+        FloorMotion {
+            length: time_step,
+            ground: [ground[i], ground[i + 1]],
+            displacement: [x, y],
+            velocity: [v, w],
+        }
+    };
+    (0..ground.len() - 1).map(piece).collect()
+}
+
 /// A floor that stays where the ground is feels what the ground does, to the last bit.
 #[test]
 fn a_floor_that_does_not_move_has_the_spectrum_of_the_ground() {
     let ground: Vec<f64> = (0..800)
         .map(|i| (0.13 * f64::from(i)).sin() * (0.011 * f64::from(i)).sin())
         .collect();
-    let still = vec![0.0; ground.len()];
-    let motion = FloorMotion {
-        time_step: 0.01,
-        ground: &ground,
-        displacement: &still,
-        velocity: &still,
-    };
+    let motion = pieces(0.01, &ground, |_| [0.0; 2]);
     let periods = [0.05, 0.2, 0.48, 1.0, 3.0];
     let floor = floor_spectrum(&motion, &periods, 0.05).unwrap();
     let unit = AccelerationUnit::MetrePerSecondSquared;
-    let record = Accelerogram::new(ground.clone(), unit, 0.01).unwrap();
+    let record = Accelerogram::new(ground, unit, 0.01).unwrap();
     let expected = response_spectrum(&record, &periods, 0.05, Evaluation::PiecewiseLinear).unwrap();
     assert_eq!(floor, expected);
+    // Pieces of other lengths hold the same motion.
+    let halves = motion.iter().enumerate().flat_map(|(i, piece)| {
+        let part = 0.2 + 0.6 * (i % 7) as f64 / 7.0;
+        let [a, b] = piece.ground;
+        let middle = a + part * (b - a);
+        [(part, [a, middle]), (1.0 - part, [middle, b])].map(|(part, ground)| FloorMotion {
+            length: part * piece.length,
+            ground,
+            ..*piece
+        })
+    });
+    let halves: Vec<FloorMotion> = halves.collect();
+    let floor = floor_spectrum(&halves, &periods, 0.05).unwrap();
+    for (found, expected) in floor.acceleration.iter().zip(&expected.acceleration) {
+        assert!((found / expected - 1.0).abs() < 1e-9, "{found} {expected}");
+    }
 }
 
 /// Greatest relative displacement and absolute acceleration of an oscillator on a floor that begins to swing as
@@ -62,20 +87,13 @@ fn a_floor_that_swings_has_the_closed_form() {
     let periods = [0.11, 0.35, 0.9];
     let errors = |count: usize| -> Vec<f64> {
         let h = duration / count as f64;
-        let at = |i: usize| forcing * h * i as f64;
-        let displacement: Vec<f64> = (0..=count)
-            .map(|i| amplitude * (1.0 - at(i).cos()))
-            .collect();
-        let velocity: Vec<f64> = (0..=count)
-            .map(|i| amplitude * forcing * at(i).sin())
-            .collect();
-        let ground = vec![0.0; count + 1];
-        let motion = FloorMotion {
-            time_step: h,
-            ground: &ground,
-            displacement: &displacement,
-            velocity: &velocity,
-        };
+        let motion = pieces(h, &vec![0.0; count + 1], |t| {
+            let angle = forcing * t;
+            [
+                amplitude * (1.0 - angle.cos()),
+                amplitude * forcing * angle.sin(),
+            ]
+        });
         let found = floor_spectrum(&motion, &periods, damping).unwrap();
         let of = |(i, period): (usize, &f64)| {
             let [u, a] = swinging(amplitude, forcing, *period, damping, duration);
@@ -99,56 +117,74 @@ fn a_floor_that_swings_has_the_closed_form() {
     assert!(errors(4000).iter().all(|error| *error < 1e-7));
 }
 
-/// A jump of the velocity of the floor, as that of a rigid impact, makes an oscillator at rest swing with it: its relative
-/// displacement reaches `V/w exp(-z acos(z)/sqrt(1 - z^2))`. Accelerations at even times, which are zero, know nothing of it.
+/// A jump of the velocity of the floor by `V`, as that of a rigid impact, gives equipment at rest the relative motion
+/// `-V/wd exp(-z w t) sin(wd t)`, whose damper acts at once: peaks of both to round-off, whatever the pieces, and for
+/// damping of which the absolute acceleration is largest at the jump itself, `2 z w V`.
 #[test]
 fn a_jump_of_the_velocity_has_the_closed_form() {
-    let (jump, damping, h) = (0.3, 0.05_f64, 1e-3);
-    let when = 0.0104;
-    let time = |i: usize| h * i as f64;
-    let displacement: Vec<f64> = (0..3000)
-        .map(|i| jump * (time(i) - when).max(0.0))
-        .collect();
-    let velocity: Vec<f64> = (0..3000)
-        .map(|i| if time(i) > when { jump } else { 0.0 })
-        .collect();
-    let ground = vec![0.0; 3000];
-    let motion = FloorMotion {
-        time_step: h,
-        ground: &ground,
-        displacement: &displacement,
-        velocity: &velocity,
-    };
-    let periods = [0.01, 0.05, 0.4];
-    let found = floor_spectrum(&motion, &periods, damping).unwrap();
-    let part = (-damping * damping.acos() / (1.0 - damping * damping).sqrt()).exp();
-    for (i, tolerance) in [0.02, 0.002, 1e-4].into_iter().enumerate() {
-        let expected = jump * periods[i] / TAU * part;
-        let error = found.displacement[i] / expected - 1.0;
-        assert!(error.abs() < tolerance, "{}: {error}", periods[i]);
+    let (jump, when, duration) = (0.3, 0.0104, 3.0);
+    for count in [3, 40, 3000] {
+        let h = (duration - when) / f64::from(count);
+        let still = FloorMotion {
+            length: when,
+            ground: [0.0; 2],
+            displacement: [0.0; 2],
+            velocity: [0.0; 2],
+        };
+        let moving = (0..count).map(|i| FloorMotion {
+            length: h,
+            displacement: [f64::from(i), f64::from(i + 1)].map(|i| jump * h * i),
+            velocity: [jump; 2],
+            ..still
+        });
+        let motion: Vec<FloorMotion> = std::iter::once(still).chain(moving).collect();
+        for damping in [0.0, 0.05, 0.2, 0.5, 0.9] {
+            let periods = [0.01, 0.05, 0.4, 1.7];
+            let found = floor_spectrum(&motion, &periods, damping).unwrap();
+            for (i, period) in periods.into_iter().enumerate() {
+                let w = TAU / period;
+                let wd = w * (1.0_f64 - damping * damping).sqrt();
+                let mut most = [0.0_f64; 2];
+                for k in 0..=200_000 {
+                    let t = period * f64::from(k) / 200_000.0;
+                    let decay = jump / wd * (-damping * w * t).exp();
+                    let u = decay * (wd * t).sin();
+                    let v = decay * (wd * (wd * t).cos() - damping * w * (wd * t).sin());
+                    most[0] = most[0].max(u.abs());
+                    most[1] = most[1].max((w * w * u + 2.0 * damping * w * v).abs());
+                }
+                for (found, expected) in [found.displacement[i], found.acceleration[i]]
+                    .into_iter()
+                    .zip(most)
+                {
+                    let error = found / expected - 1.0;
+                    assert!(error.abs() < 1e-8, "{count} {damping} {period}: {error}");
+                }
+            }
+        }
     }
 }
 
 #[test]
 fn what_has_no_spectrum_is_refused() {
-    let (three, two) = (vec![0.0; 3], vec![0.0; 2]);
-    let motion = |velocity| FloorMotion {
-        time_step: 0.01,
-        ground: &three,
-        displacement: &three,
-        velocity,
+    let piece = |length| FloorMotion {
+        length,
+        ground: [0.0; 2],
+        displacement: [0.0; 2],
+        velocity: [0.0; 2],
     };
-    let refused = |error: Result<_, GroundMotionError>| error.unwrap_err().to_string();
-    let said = refused(floor_spectrum(&motion(&two), &[0.1], 0.05));
-    assert!(said.contains("[3, 3, 2]"), "{said}");
-    for (period, damping, part) in [
-        (0.0, 0.05, "peak acceleration of the floor"),
-        (-1.0, 0.05, "period"),
-        (f64::NAN, 0.05, "period"),
-        (0.1, 1.0, "damping ratio"),
-        (0.1, f64::NAN, "damping ratio"),
+    for (length, period, damping, part) in [
+        (0.0, 0.1, 0.05, "length of a piece"),
+        (f64::NAN, 0.1, 0.05, "length of a piece"),
+        (0.01, 0.0, 0.05, "period"),
+        (0.01, -1.0, 0.05, "period"),
+        (0.01, 1e-9, 0.05, "period"),
+        (0.01, f64::NAN, 0.05, "period"),
+        (0.01, 0.1, 1.0, "damping ratio"),
+        (0.01, 0.1, f64::NAN, "damping ratio"),
     ] {
-        let said = refused(floor_spectrum(&motion(&three), &[period], damping));
-        assert!(said.contains(part), "{said}");
+        let error: GroundMotionError =
+            floor_spectrum(&[piece(length)], &[period], damping).unwrap_err();
+        assert!(error.to_string().contains(part), "{error}");
     }
 }

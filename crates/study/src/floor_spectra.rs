@@ -1,18 +1,18 @@
 //! What equipment on floors feels: response spectra of floors, with pounding and of the buildings alone.
 
+use std::cell::Cell;
 use std::ops::ControlFlow;
 
 use pounding_assembly::Assembly;
 use pounding_ground_motion::GroundMotionError;
 use pounding_ground_motion::spectra::{FloorMotion, ResponseSpectrum, floor_spectrum};
 use pounding_time_history::{
-    GridRecorder, History, HistorySink, Outcome, Recorder, StepView, System, TimeHistoryError,
-    run as integrate,
+    History, Outcome, Recorder, StepView, System, TimeHistoryError, run as integrate,
 };
 use serde::Serialize;
 
-/// Rows of the motions of floors in the shortest period: what happens within a row counts 0.07 % low.
-const ROWS_OF_A_PERIOD: f64 = 50.0;
+/// Pieces of the motions of floors in the shortest period, at least.
+const PIECES_OF_A_PERIOD: f64 = 50.0;
 /// The shortest period (s): equipment of shorter ones feels the peak acceleration of the floor.
 pub const SHORTEST_PERIOD: f64 = 1.0e-3;
 
@@ -122,7 +122,7 @@ pub struct FloorSpectra {
     pub floors: Vec<FloorWithSpectra>,
     /// Impacts at all gaps.
     pub impacts: usize,
-    /// Of the motions of the floors (s).
+    /// Longest piece of the motions of the floors (s).
     pub time_step: f64,
     /// What the user should know.
     pub warnings: Vec<String>,
@@ -216,10 +216,10 @@ impl<'a> FloorMotions<'a> {
         if let Some(damping) = dampings.iter().find(|d| !(0.0..1.0).contains(*d)) {
             return Err(FloorSpectraError::Damping { damping: *damping });
         }
-        // A part of the step of the record, so that rows have all that the ground does.
+        // A part of the step of the record, whose samples are among the ends of pieces.
         let shortest = periods.iter().copied().fold(f64::INFINITY, f64::min);
         let step = assembly.accelerogram.time_step();
-        let time_step = step / (step * ROWS_OF_A_PERIOD / shortest).ceil().max(1.0);
+        let time_step = step / (step * PIECES_OF_A_PERIOD / shortest).ceil().max(1.0);
         let system = &assembly.system;
         let mut run = |from: f64, system: &System| {
             recorded(assembly, system, (floors, time_step), &mut |part| {
@@ -281,13 +281,13 @@ impl<'a> FloorMotions<'a> {
             storeys[place.storey].acceleration_absolute.value
         };
         let spectra = self.dampings.iter().map(|damping| {
-            let of = (self.time_step, periods, *damping);
             let (_, with) = &self.with;
+            let spectrum = |motion: &[FloorMotion]| floor_spectrum(motion, periods, *damping);
             Ok(SpectraOfFloor {
-                ground: with.floors[number].of_ground(of)?,
-                pounding: with.floors[number].spectrum(of)?,
+                ground: spectrum_of_ground(&with[number], periods, *damping)?,
+                pounding: spectrum(&with[number])?,
                 alone: match &self.alone {
-                    Some((_, motions)) => Some(motions.floors[number].spectrum(of)?),
+                    Some((_, motions)) => Some(spectrum(&motions[number])?),
                     None => None,
                 },
             })
@@ -311,114 +311,129 @@ fn impacts(outcome: &Outcome) -> usize {
     levels.map(|level| level.impacts).sum()
 }
 
-/// Ends a run whose progress nobody wants to see any more.
-struct Stop<'p> {
-    stopped: &'p std::cell::Cell<bool>,
-}
-
-impl Recorder for Stop<'_> {
-    fn begin(&mut self, _system: &System, _start: &History) -> Result<(), TimeHistoryError> {
-        Ok(())
-    }
-
-    fn step(&mut self, _step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
-        match self.stopped.get() {
-            false => Ok(()),
-            true => Err(TimeHistoryError::Recorder("stopped".to_owned())),
-        }
-    }
-}
-
-/// A run with the motions of these floors.
+/// A run with the motions of these floors, in pieces of at most this time (s).
 fn recorded(
     assembly: &Assembly,
     system: &System,
     (floors, time_step): (&[FloorPlace], f64),
     progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
 ) -> Result<(Outcome, Motions), FloorSpectraError> {
-    let sink = Sink {
+    let stopped = Cell::new(false);
+    let mut recorder = PieceRecorder {
         system,
         places: floors,
-        motions: Motions {
-            floors: vec![MotionOfFloor::default(); floors.len()],
-        },
+        time_step,
+        next: 1,
+        stopped: &stopped,
+        rows: History::default(),
+        motions: vec![Vec::new(); floors.len()],
     };
-    let stopped = std::cell::Cell::new(false);
-    let mut stop = Stop { stopped: &stopped };
-    let mut recorder = GridRecorder::into_sink(time_step, sink)?;
-    let recorders: &mut [&mut dyn Recorder] = &mut [&mut recorder, &mut stop];
+    let recorders: &mut [&mut dyn Recorder] = &mut [&mut recorder];
     let outcome = integrate(system, &assembly.options, recorders, &mut |part| {
         stopped.set(progress(part).is_break());
     });
     match outcome {
         Err(_) if stopped.get() => Err(FloorSpectraError::Stopped),
-        outcome => Ok((outcome?, recorder.responses.motions)),
-    }
-}
-
-/// Motion of one floor at even times.
-#[derive(Debug, Clone, Default)]
-struct MotionOfFloor {
-    ground: Vec<f64>,
-    displacement: Vec<f64>,
-    velocity: Vec<f64>,
-}
-
-impl MotionOfFloor {
-    fn spectrum(
-        &self,
-        (time_step, periods, damping): (f64, &[f64], f64),
-    ) -> Result<ResponseSpectrum, GroundMotionError> {
-        let motion = FloorMotion {
-            time_step,
-            ground: &self.ground,
-            displacement: &self.displacement,
-            velocity: &self.velocity,
-        };
-        floor_spectrum(&motion, periods, damping)
-    }
-
-    /// That of the ground under it.
-    fn of_ground(
-        &self,
-        (time_step, periods, damping): (f64, &[f64], f64),
-    ) -> Result<ResponseSpectrum, GroundMotionError> {
-        let still = vec![0.0; self.ground.len()];
-        let motion = FloorMotion {
-            time_step,
-            ground: &self.ground,
-            displacement: &still,
-            velocity: &still,
-        };
-        floor_spectrum(&motion, periods, damping)
+        outcome => Ok((outcome?, recorder.motions)),
     }
 }
 
 /// Motions of floors of a run.
-#[derive(Debug)]
-struct Motions {
-    floors: Vec<MotionOfFloor>,
-}
+type Motions = Vec<Vec<FloorMotion>>;
 
-/// Keeps them of the rows of a recorder, and nothing else.
-struct Sink<'s> {
+/// Records the motions of floors from one time of an even grid to the next, and from there to the ends of steps, which are
+/// where contacts begin and end and velocities jump.
+struct PieceRecorder<'s> {
     system: &'s System,
     places: &'s [FloorPlace],
+    /// Of the grid (s).
+    time_step: f64,
+    /// Number of the next time of the grid.
+    next: usize,
+    /// Whether the run has to end.
+    stopped: &'s Cell<bool>,
+    /// Those of the step that is taken.
+    rows: History,
     motions: Motions,
 }
 
-impl HistorySink for Sink<'_> {
-    fn take(&mut self, rows: &mut History) -> Result<(), TimeHistoryError> {
-        for (motion, place) in self.motions.floors.iter_mut().zip(self.places) {
+/// A time this near to one of the grid is that one, in parts of its step: steps end beside samples by round-off.
+const ON_GRID: f64 = 1.0e-9;
+
+impl PieceRecorder<'_> {
+    /// The times in a step, its start and end among them; and whether each is one of the grid.
+    fn times(&mut self, start: f64, end: f64) -> (Vec<f64>, Vec<bool>) {
+        let close = ON_GRID * self.time_step;
+        let before = (self.next - 1) as f64 * self.time_step;
+        let (mut times, mut on_grid) = (vec![start], vec![(start - before).abs() <= close]);
+        loop {
+            let time = self.next as f64 * self.time_step;
+            if time > end + close {
+                break;
+            }
+            times.push(time.min(end));
+            on_grid.push(true);
+            self.next += 1;
+        }
+        if end - times[times.len() - 1] > close {
+            times.push(end);
+            on_grid.push(false);
+        }
+        (times, on_grid)
+    }
+}
+
+impl Recorder for PieceRecorder<'_> {
+    fn begin(&mut self, _system: &System, _start: &History) -> Result<(), TimeHistoryError> {
+        Ok(())
+    }
+
+    fn step(&mut self, step: &mut StepView<'_, '_, '_>) -> Result<(), TimeHistoryError> {
+        if self.stopped.get() {
+            return Err(TimeHistoryError::Recorder("stopped".to_owned()));
+        }
+        let (times, on_grid) = self.times(step.start(), step.end());
+        self.rows.clear();
+        step.append(&times, &mut self.rows);
+        let rows = &self.rows;
+        for (motions, place) in self.motions.iter_mut().zip(self.places) {
             let column = self.system.offsets()[place.building] + place.storey;
-            let of_floor = |list: &[f64]| rows.column(list, column);
-            motion.displacement.extend(of_floor(&rows.displacement));
-            motion.velocity.extend(of_floor(&rows.velocity));
-            match self.system.motions_under(place.building)[0] {
-                None => motion.ground.extend(&rows.ground_acceleration),
-                Some(own) => motion.ground.extend(rows.time.iter().map(|t| own.at(*t))),
+            let displacement = rows.column(&rows.displacement, column);
+            let velocity = rows.column(&rows.velocity, column);
+            let ground = match self.system.motions_under(place.building)[0] {
+                None => rows.ground_acceleration.clone(),
+                Some(own) => rows.time.iter().map(|time| own.at(*time)).collect(),
+            };
+            for i in 1..times.len() {
+                // Lengths that are equal but for round-off are: steps of oscillators are made for each length.
+                let length = match on_grid[i - 1] && on_grid[i] {
+                    true => self.time_step,
+                    false => times[i] - times[i - 1],
+                };
+                let both = |values: &[f64]| [values[i - 1], values[i]];
+                motions.push(FloorMotion {
+                    length,
+                    ground: both(&ground),
+                    displacement: both(&displacement),
+                    velocity: both(&velocity),
+                });
             }
         }
         Ok(())
     }
+}
+
+/// The spectrum of the ground under a floor: of one that stays where it is.
+fn spectrum_of_ground(
+    motion: &[FloorMotion],
+    periods: &[f64],
+    damping: f64,
+) -> Result<ResponseSpectrum, GroundMotionError> {
+    let still = |piece: &FloorMotion| FloorMotion {
+        displacement: [0.0; 2],
+        velocity: [0.0; 2],
+        ..*piece
+    };
+    let still: Vec<FloorMotion> = motion.iter().map(still).collect();
+    floor_spectrum(&still, periods, damping)
 }

@@ -1,77 +1,79 @@
 //! Response spectra of floors: what equipment that stands on them feels.
 
-use crate::error::GroundMotionError;
-use crate::spectra::response::{check, spectrum_under};
+use crate::error::{GroundMotionError, within};
+use crate::spectra::oscillator::{Piece, peaks_over};
+use crate::spectra::response::check;
 use crate::spectra::{Evaluation, ResponseSpectrum};
 
 const STEP: &str = "floor response spectrum";
 
-/// The motion of a floor at even times from rest, as many of each.
+/// The motion of a floor over a time in which nothing jumps. The velocity at the start of a piece may be another than that
+/// at the end of the one before: then the floor was struck between them.
 ///
-/// Its accelerations are not asked for: those at even times miss impacts, which last milliseconds or are jumps of the
-/// velocity. Displacements and velocities hold all that impacts have done.
-#[derive(Debug, Clone, Copy)]
-pub struct FloorMotion<'m> {
-    /// Time step (s).
-    pub time_step: f64,
-    /// Acceleration of the ground (m/s2).
-    pub ground: &'m [f64],
-    /// Displacement of the floor relative to the ground (m).
-    pub displacement: &'m [f64],
-    /// Velocity of the floor relative to the ground (m/s).
-    pub velocity: &'m [f64],
+/// Accelerations of the floor are not asked for: those at even times miss impacts, which last milliseconds or are jumps of
+/// the velocity. Displacements and velocities hold all that impacts have done.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct FloorMotion {
+    /// Length (s).
+    pub length: f64,
+    /// Acceleration of the ground at start and end (m/s2), linear in between.
+    pub ground: [f64; 2],
+    /// Displacement of the floor relative to the ground there (m).
+    pub displacement: [f64; 2],
+    /// Velocity of the floor relative to the ground there (m/s).
+    pub velocity: [f64; 2],
 }
 
-impl FloorMotion<'_> {
-    /// Forces per mass (m/s2) on what stands on the floor, at both ends of each step: less the acceleration of the ground,
-    /// linear between its values, and less that of the cubic polynomial (Hermite) that has the displacements and
-    /// velocities of the floor at both ends. Over a step it changes the velocity as the floor changes its own.
-    fn forces(&self) -> impl Iterator<Item = [f64; 2]> + Clone + '_ {
-        let h = self.time_step;
-        let steps = self.displacement.windows(2).zip(self.velocity.windows(2));
-        let steps = steps.zip(self.ground.windows(2));
-        steps.map(move |((x, v), ground)| {
-            let mean = (x[1] - x[0]) / h;
-            let start = (6.0 * mean - 4.0 * v[0] - 2.0 * v[1]) / h;
-            let end = (4.0 * v[1] + 2.0 * v[0] - 6.0 * mean) / h;
-            [-(ground[0] + start), -(ground[1] + end)]
-        })
+impl FloorMotion {
+    /// What it does to equipment of unit mass on the floor after one that ended with this velocity (m/s): less the
+    /// acceleration of the ground, and less that of the cubic polynomial (Hermite) that has the displacements and velocities
+    /// of the floor at both ends.
+    fn piece(&self, velocity_before: f64) -> Piece {
+        let (h, [x, y], [v, w]) = (self.length, self.displacement, self.velocity);
+        let mean = (y - x) / h;
+        let start = (6.0 * mean - 4.0 * v - 2.0 * w) / h;
+        let end = (4.0 * w + 2.0 * v - 6.0 * mean) / h;
+        Piece {
+            length: h,
+            forces: [-(self.ground[0] + start), -(self.ground[1] + end)],
+            jump: velocity_before - v,
+        }
     }
 }
 
 /// Response spectrum of a floor for periods (s) above zero and a damping ratio: peaks of linear oscillators that stand on
-/// it and do not move it, relative to the floor, and their absolute accelerations; by the exact recurrence of Nigam and Jennings (1969)
-/// under the acceleration of the floor that has its displacements and velocities. A jump of the velocity within a step counts 1.6 % low
-/// where the period has ten steps, 0.07 % where it has fifty.
+/// it and do not move it, relative to the floor and from rest on it, and their absolute accelerations; by the exact step of
+/// Nigam and Jennings (1969) over each piece of the motion. Peaks are those up to its end.
 ///
 /// # Errors
-/// A damping ratio outside [0, 1), a period that is not above a thousandth of the time step, and lists of other lengths or
-/// of fewer than two values.
+/// A damping ratio outside [0, 1), a period that is not above zero, and a piece without a length.
 pub fn floor_spectrum(
-    motion: &FloorMotion<'_>,
+    motion: &[FloorMotion],
     periods: &[f64],
     damping: f64,
 ) -> Result<ResponseSpectrum, GroundMotionError> {
-    let lengths = [motion.ground, motion.displacement, motion.velocity].map(<[f64]>::len);
-    if lengths[0] < 2 || lengths[1..] != [lengths[0]; 2] {
-        return Err(GroundMotionError::NotPossible {
-            step: STEP,
-            reason: format!(
-                "the motion has {lengths:?} accelerations of the ground, displacements and velocities"
-            ),
-            remedy: "give as many of each, two at least",
-        });
+    for &period in periods {
+        within(STEP, "period", period, f64::MIN_POSITIVE, f64::MAX)?;
     }
-    if periods.contains(&0.0) {
-        return Err(GroundMotionError::OutOfRange {
-            step: STEP,
-            name: "period",
-            value: 0.0,
-            range: "above zero: what is rigid feels the peak acceleration of the floor".to_owned(),
-        });
+    let mut longest = 0.0_f64;
+    for piece in motion {
+        within(
+            STEP,
+            "length of a piece",
+            piece.length,
+            f64::MIN_POSITIVE,
+            f64::MAX,
+        )?;
+        longest = longest.max(piece.length);
     }
-    check(periods, damping, motion.time_step)?;
-    let oscillators = (periods, damping, motion.time_step);
-    let evaluation = (Evaluation::PiecewiseLinear, 0.0);
-    spectrum_under(oscillators, motion.forces(), evaluation, &|| true)
+    check(periods, damping, longest)?;
+    let before = std::iter::once(motion.first().map_or(0.0, |first| first.velocity[0]));
+    let before = before.chain(motion.iter().map(|piece| piece.velocity[1]));
+    let pieces = motion.iter().zip(before);
+    let pieces = pieces.map(|(piece, before)| piece.piece(before));
+    let mut spectrum = ResponseSpectrum::empty(damping, Evaluation::PiecewiseLinear);
+    for &period in periods {
+        spectrum.push_peaks(period, &peaks_over((period, damping), pieces.clone()));
+    }
+    Ok(spectrum)
 }

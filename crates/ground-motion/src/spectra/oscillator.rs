@@ -349,24 +349,13 @@ pub(crate) fn peaks_of<const N: usize>(
     ground: &[f64],
     evaluation: Evaluation,
 ) -> [OscillatorPeaks; N] {
-    let forces = ground.windows(2).map(|pair| [-pair[0], -pair[1]]);
-    peaks_under(oscillators, forces, evaluation)
-}
-
-/// The same under forces (m/s2) that go straight from one value to another within each step, and may jump between
-/// steps.
-pub(crate) fn peaks_under<const N: usize>(
-    oscillators: [&Oscillator; N],
-    forces: impl Iterator<Item = [f64; 2]> + Clone,
-    evaluation: Evaluation,
-) -> [OscillatorPeaks; N] {
     let time_step = oscillators.first().map_or(0.0, |o| o.time_step);
     let mut peaks = [OscillatorPeaks::default(); N];
     let mut states = [State::default(); N];
-    for (i, force) in forces.clone().enumerate() {
+    for (i, pair) in ground.windows(2).enumerate() {
         let time = (i + 1) as f64 * time_step;
         for k in 0..N {
-            states[k] = oscillators[k].advance(states[k], force[0], force[1]);
+            states[k] = oscillators[k].advance(states[k], -pair[0], -pair[1]);
             keep(&mut peaks[k].displacement, states[k].displacement, time);
             keep(&mut peaks[k].velocity, states[k].velocity, time);
             let acceleration = oscillators[k].absolute_acceleration(states[k]);
@@ -377,7 +366,8 @@ pub(crate) fn peaks_under<const N: usize>(
         return peaks;
     }
     states = [State::default(); N];
-    for (i, forces) in forces.enumerate() {
+    for (i, pair) in ground.windows(2).enumerate() {
+        let forces = [-pair[0], -pair[1]];
         for k in 0..N {
             let next = oscillators[k].advance(states[k], forces[0], forces[1]);
             let ends = [states[k], next];
@@ -385,6 +375,57 @@ pub(crate) fn peaks_under<const N: usize>(
                 oscillators[k].between(&mut peaks[k], i as f64 * time_step, ends, forces);
             }
             states[k] = next;
+        }
+    }
+    peaks
+}
+
+/// Force (m/s2) on an oscillator that goes straight from one value to another, and what its velocity (m/s) jumps by at the
+/// start.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Piece {
+    /// s.
+    pub length: f64,
+    pub forces: [f64; 2],
+    pub jump: f64,
+}
+
+/// Peaks of an oscillator of this period (s) and damping ratio that goes through pieces of any length from rest.
+pub(crate) fn peaks_over(
+    (period, damping): (f64, f64),
+    pieces: impl Iterator<Item = Piece> + Clone,
+) -> OscillatorPeaks {
+    let usual = pieces.clone().next().map_or(1.0, |piece| piece.length);
+    let usual = Oscillator::new(period, damping, usual);
+    let mut peaks = OscillatorPeaks::default();
+    // First the ends alone, which leaves few pieces to look into.
+    for inside in [false, true] {
+        let (mut state, mut time) = (State::default(), 0.0);
+        let mut other = usual.clone();
+        for piece in pieces.clone() {
+            // Most pieces have one length.
+            let oscillator = if piece.length == usual.time_step {
+                &usual
+            } else {
+                if piece.length != other.time_step {
+                    other = Oscillator::new(period, damping, piece.length);
+                }
+                &other
+            };
+            state.velocity += piece.jump;
+            let [p0, p1] = piece.forces;
+            let next = oscillator.advance(state, p0, p1);
+            if !inside {
+                for (state, time) in [(state, time), (next, time + piece.length)] {
+                    keep(&mut peaks.displacement, state.displacement, time);
+                    keep(&mut peaks.velocity, state.velocity, time);
+                    let acceleration = oscillator.absolute_acceleration(state);
+                    keep(&mut peaks.acceleration, acceleration, time);
+                }
+            } else if oscillator.may_rise(&peaks, [state, next], piece.forces) {
+                oscillator.between(&mut peaks, time, [state, next], piece.forces);
+            }
+            (state, time) = (next, time + piece.length);
         }
     }
     peaks

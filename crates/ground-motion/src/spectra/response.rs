@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::accelerogram::{Accelerogram, Peak};
 use crate::error::{GroundMotionError, ascending, positive, within};
-use crate::spectra::oscillator::{Oscillator, TOGETHER, peaks_under};
+use crate::spectra::oscillator::{Oscillator, OscillatorPeaks, TOGETHER, peaks_of};
 use crate::spectra::{Evaluation, State};
 
 const STEP: &str = "response spectrum";
@@ -97,40 +97,19 @@ pub fn response_spectrum_while(
 ) -> Result<ResponseSpectrum, GroundMotionError> {
     let step = record.time_step();
     check(periods, damping, step)?;
-    let forces = record.samples().windows(2).map(|pair| [-pair[0], -pair[1]]);
     let ground = record.peak().value;
-    let oscillators = (periods, damping, step);
-    spectrum_under(oscillators, forces, (evaluation, ground), goes_on)
-}
-
-/// The spectrum of oscillators of these periods (s), damping ratio and time step (s) under forces (m/s2) that go straight
-/// within each step; that of a rigid oscillator is given.
-pub(crate) fn spectrum_under(
-    (periods, damping, step): (&[f64], f64, f64),
-    forces: impl Iterator<Item = [f64; 2]> + Clone,
-    (evaluation, rigid): (Evaluation, f64),
-    goes_on: &dyn Fn() -> bool,
-) -> Result<ResponseSpectrum, GroundMotionError> {
-    let mut spectrum = ResponseSpectrum {
-        damping,
-        evaluation,
-        periods: periods.to_vec(),
-        displacement: Vec::with_capacity(periods.len()),
-        velocity: Vec::with_capacity(periods.len()),
-        acceleration: Vec::with_capacity(periods.len()),
-        pseudo_velocity: Vec::with_capacity(periods.len()),
-        pseudo_acceleration: Vec::with_capacity(periods.len()),
-    };
+    let mut spectrum = ResponseSpectrum::empty(damping, evaluation);
     let swing: Vec<f64> = periods.iter().copied().filter(|t| *t != 0.0).collect();
     let oscillator = |period: &f64| Oscillator::new(*period, damping, step);
     let oscillators: Vec<Oscillator> = swing.iter().map(oscillator).collect();
     let (together, alone) = oscillators.as_chunks::<TOGETHER>();
-    let together = together
-        .iter()
-        .flat_map(|of| peaks_under(of.each_ref(), forces.clone(), evaluation));
+    let together = together.iter().flat_map(|of| {
+        let of = of.each_ref();
+        peaks_of(of, record.samples(), evaluation)
+    });
     let alone = alone
         .iter()
-        .flat_map(|of| peaks_under([of], forces.clone(), evaluation));
+        .map(|of| of.peaks(record.samples(), evaluation));
     let mut found = together.chain(alone);
     for &period in periods {
         if !goes_on() {
@@ -140,19 +119,10 @@ pub(crate) fn spectrum_under(
             0.0 => None,
             _ => found.next(),
         };
-        let Some(peaks) = peaks else {
-            spectrum.push([0.0, 0.0, rigid, 0.0, rigid]);
-            continue;
-        };
-        let frequency = TAU / period;
-        let displacement = peaks.displacement.value;
-        spectrum.push([
-            displacement,
-            peaks.velocity.value,
-            peaks.acceleration.value,
-            frequency * displacement,
-            frequency * frequency * displacement,
-        ]);
+        match peaks {
+            Some(peaks) => spectrum.push_peaks(period, &peaks),
+            None => spectrum.push(period, [0.0, 0.0, ground, 0.0, ground]),
+        }
     }
     Ok(spectrum)
 }
@@ -206,7 +176,36 @@ pub fn oscillator_response(
 }
 
 impl ResponseSpectrum {
-    fn push(&mut self, values: [f64; 5]) {
+    /// That of no period as yet.
+    pub(super) fn empty(damping: f64, evaluation: Evaluation) -> Self {
+        Self {
+            damping,
+            evaluation,
+            periods: Vec::new(),
+            displacement: Vec::new(),
+            velocity: Vec::new(),
+            acceleration: Vec::new(),
+            pseudo_velocity: Vec::new(),
+            pseudo_acceleration: Vec::new(),
+        }
+    }
+
+    /// Adds the peaks of an oscillator of this period (s), above zero.
+    pub(super) fn push_peaks(&mut self, period: f64, peaks: &OscillatorPeaks) {
+        let frequency = TAU / period;
+        let displacement = peaks.displacement.value;
+        let values = [
+            displacement,
+            peaks.velocity.value,
+            peaks.acceleration.value,
+            frequency * displacement,
+            frequency * frequency * displacement,
+        ];
+        self.push(period, values);
+    }
+
+    fn push(&mut self, period: f64, values: [f64; 5]) {
+        self.periods.push(period);
         self.displacement.push(values[0]);
         self.velocity.push(values[1]);
         self.acceleration.push(values[2]);

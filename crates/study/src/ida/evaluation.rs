@@ -851,6 +851,23 @@ mod tests {
     use super::*;
     use crate::study_file::IntensityMeasure;
 
+    /// Of a single demand, for a hazard curve and a target frequency if there are such.
+    fn settings(hazard: Option<(HazardCurve, f64)>) -> IdaSettings {
+        let (hazard, target_frequency) = hazard.unzip();
+        IdaSettings {
+            record: 0,
+            intensity: 1,
+            measure: IntensityMeasure::PeakGroundAcceleration,
+            gaps: Vec::new(),
+            limits: Vec::new(),
+            hazard,
+            hazard_file: None,
+            target_frequency,
+            confidence: 0.95,
+            asked: Vec::new(),
+        }
+    }
+
     /// Runs of twelve records at six intensities, with so many structures each, which act as `factor` says of record and structure.
     fn with_structures(structures: usize, factor: &dyn Fn(usize, usize) -> f64) -> LimitResult {
         let quantile = pounding_ground_motion::distributions::normal_quantile;
@@ -872,18 +889,7 @@ mod tests {
                 }
             }
         }
-        let settings = IdaSettings {
-            record: 0,
-            intensity: 1,
-            measure: IntensityMeasure::PeakGroundAcceleration,
-            gaps: Vec::new(),
-            limits: Vec::new(),
-            hazard: None,
-            hazard_file: None,
-            target_frequency: None,
-            confidence: 0.95,
-            asked: Vec::new(),
-        };
+        let settings = settings(None);
         let evaluation = Evaluation {
             settings: &settings,
             intensities: &intensities,
@@ -950,18 +956,8 @@ mod tests {
         intensities: &[f64],
         (points, target): (&[(f64, f64)], f64),
     ) -> MinimumGap {
-        let settings = IdaSettings {
-            record: 0,
-            intensity: 1,
-            measure: IntensityMeasure::PeakGroundAcceleration,
-            gaps: Vec::new(),
-            limits: Vec::new(),
-            hazard: Some(HazardCurve::new(points.to_vec()).unwrap()),
-            hazard_file: None,
-            target_frequency: Some(target),
-            confidence: 0.95,
-            asked: Vec::new(),
-        };
+        let hazard = HazardCurve::new(points.to_vec()).unwrap();
+        let settings = settings(Some((hazard, target)));
         let runs = per_g.iter().enumerate().flat_map(|(record, per_g)| {
             intensities.iter().enumerate().map(move |(level, g)| Run {
                 level,

@@ -42,9 +42,10 @@ fn most_raised(floor: &FloorWithSpectra) -> Option<String> {
         return Some("the building alone does not move".to_owned());
     }
     let accelerations = format!(
-        "from {} g to {} g, at a period of {period:.3} s",
+        "from {} g to {} g, at a period of {} s",
         figures(alone.acceleration[most] / G),
-        figures(with.acceleration[most] / G)
+        figures(with.acceleration[most] / G),
+        figures(period)
     );
     Some(match ratio > 1.0 {
         true => format!(
@@ -144,7 +145,7 @@ fn table(spectra: &SpectraOfFloor) -> String {
     for (i, period) in spectra.pounding.periods.iter().enumerate() {
         let with = spectra.pounding.acceleration[i];
         let mut row = vec![
-            format!("{period:.4}"),
+            figures(*period),
             figures(spectra.ground.acceleration[i] / G),
         ];
         let alone = spectra.alone.as_ref().map(|s| s.acceleration[i]);

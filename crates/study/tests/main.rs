@@ -8,3 +8,4 @@ mod random_numbers;
 mod records;
 mod several_entries;
 mod studies;
+mod yielding_storeys;

@@ -649,7 +649,8 @@ fn sharing_changes_no_bit_where_columns_are_hit() {
             let alone = run(&assembly.system, &assembly.options, &mut [], &mut |_| {}).unwrap();
             let mut expected = Vec::new();
             let (isolated, demand) = isolated_demand(&assembly.system, &assembly.options).unwrap();
-            let storeys = isolated.buildings.into_iter().flat_map(|b| b.storeys);
+            let buildings = isolated.buildings.into_iter();
+            let storeys = buildings.flat_map(|b| b.storeys.into_iter().zip(b.yielding));
             let isolated = IsolatedRun {
                 demand: demand.iter().map(|p| p.value).collect(),
                 storeys: Some(storeys.collect()),

@@ -193,7 +193,8 @@ fn a_study_has_a_column_for_each() {
     assert!(is_result("peak_base_moment") && is_result("building"));
     let demand = vec![0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
     let without_gaps = run(&system.without_gaps(), &options, &mut [], &mut |_| {}).unwrap();
-    let storeys = without_gaps.buildings.into_iter().flat_map(|b| b.storeys);
+    let buildings = without_gaps.buildings.into_iter();
+    let storeys = buildings.flat_map(|b| b.storeys.into_iter().zip(b.yielding));
     let isolated = IsolatedRun {
         demand: demand.clone(),
         storeys: Some(storeys.collect()),

@@ -333,6 +333,23 @@ fn contradictions_are_told() {
             ),
             "no storey 4",
         ),
+        (
+            limit("demand = \"drift_ratio\"\nbuilding = \"light\"\nstorey = [2, 5]"),
+            "no storey 5",
+        ),
+        (
+            limit("demand = \"drift_ratio\"\nbuilding = \"light\"\nstorey = []"),
+            "`storey` is an empty list",
+        ),
+        (
+            limit("demand = \"ductility\"\nbuilding = \"light\""),
+            "these stay linear",
+        ),
+        (
+            limit("demand = \"residual_drift_ratio\""),
+            "these stay linear",
+        ),
+        (limit("demand = \"impacts\"\nlevel = [1, 8]"), "no level 8"),
         (limit("demand = \"impacts\"\nlevel = 7"), "no level 7"),
         (
             limit("demand = \"impacts\"\nlevel = 4"),

@@ -21,6 +21,7 @@ mod shared_records;
 mod shown;
 mod status;
 mod structures_and_stripes;
+mod yielding_storeys;
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

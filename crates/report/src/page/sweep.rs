@@ -25,11 +25,12 @@ const SIZE: (u32, u32) = (718, 230);
 /// Part of a variance from which on it is worth a sentence.
 const WORTH_SAYING: f64 = 0.1;
 /// Quantities that have figures: of the run's levels or storeys the greatest.
-const DRAWN: [&str; 4] = [
+const DRAWN: [&str; 5] = [
     "impacts",
     "peak_force",
     "peak_displacement",
     "peak_acceleration_absolute",
+    "peak_ductility",
 ];
 
 /// All rows, column by column.
@@ -213,7 +214,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         let from = format!("maximum {name}");
         let most_shown = number(&from, factor, &figures(factor * most));
         points.push(format!(
-            "The {} is at most {} {}{}{}{}.",
+            "The {} is at most {}{}{}{}{}.",
             quantity
                 .long_name
                 .replace("maximum ", "peak ")
@@ -221,7 +222,10 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
                 .next()
                 .unwrap_or_default(),
             most_shown,
-            unit,
+            match unit {
+                "" => String::new(),
+                unit => format!(" {unit}"),
+            },
             at.map_or(String::new(), |at| format!(", at {}", named(&at))),
             row.map_or(String::new(), |row| format!(
                 " in run {}",

@@ -2,8 +2,8 @@
 
 use pounding_shear_building::{EDGE_DISPLACEMENTS, OVERTURNING_RATIO};
 use pounding_time_history::{
-    BuildingOutcome, COLUMN_SHEARS, LevelMotion, LevelOutcome, LevelPlace, LinkLevelOutcome,
-    LinkedMotion, NamedPeak, Outcome, StoreyPeaks, System,
+    BuildingOutcome, COLUMN_SHEARS, ElementPlace, LevelMotion, LevelOutcome, LevelPlace,
+    LinkLevelOutcome, LinkedMotion, NamedPeak, Outcome, StoreyPeaks, System, YieldingStorey,
 };
 
 use crate::run::with_base_moment;
@@ -177,6 +177,57 @@ const ISOLATED_PEAKS: [Quantity; 4] = [
     ),
 ];
 
+/// What storeys with a law went through, in studies where some storey has it.
+#[derive(Debug)]
+pub(super) struct YieldingQuantity {
+    /// It of a storey; `None` of one without a law.
+    of: fn(Option<&YieldingStorey>) -> f64,
+    /// Whether only laws with a yield force have it.
+    of_yield_force: bool,
+    /// It in the results, one a storey.
+    pub(super) storey: Quantity,
+    /// The same without pounding.
+    pub(super) isolated: Quantity,
+}
+
+static YIELDING: [YieldingQuantity; 2] = [
+    YieldingQuantity {
+        of: |storey| {
+            let ductility = storey.and_then(|storey| storey.ductility);
+            ductility.map_or(f64::NAN, |ductility| ductility.value)
+        },
+        of_yield_force: true,
+        storey: quantity(
+            Axis::Storey,
+            "peak_ductility",
+            "1",
+            "maximum ductility, the drift over that at first yield, missing of storeys without a yield force",
+        ),
+        isolated: quantity(
+            Axis::Storey,
+            "isolated_peak_ductility",
+            "1",
+            "maximum ductility without pounding, the drift over that at first yield, missing of storeys without a yield force, and where the isolated buildings collapse",
+        ),
+    },
+    YieldingQuantity {
+        of: |storey| storey.map_or(0.0, |storey| storey.residual_drift_ratio),
+        of_yield_force: false,
+        storey: quantity(
+            Axis::Storey,
+            "residual_drift_ratio",
+            "1",
+            "residual drift ratio, the drift at the end less what elastic unloading gives back over storey height, signed",
+        ),
+        isolated: quantity(
+            Axis::Storey,
+            "isolated_residual_drift_ratio",
+            "1",
+            "residual drift ratio without pounding, the drift at the end less what elastic unloading gives back over storey height, signed, missing where the isolated buildings collapse",
+        ),
+    },
+];
+
 /// Quantities of studies with links that join displacements.
 const OF_LINKS: [Quantity; 2] = [
     quantity(
@@ -193,9 +244,10 @@ const OF_LINKS: [Quantity; 2] = [
     ),
 ];
 
-/// Names of the peaks of storeys without pounding.
+/// Names of the quantities of storeys without pounding.
 pub fn isolated_peaks() -> impl Iterator<Item = &'static str> {
-    ISOLATED_PEAKS.iter().map(|q| q.name)
+    let yielding = YIELDING.iter().map(|q| &q.isolated);
+    ISOLATED_PEAKS.iter().chain(yielding).map(|q| q.name)
 }
 
 /// Which quantities of the buildings without pounding a study asks for.
@@ -212,8 +264,9 @@ pub struct IsolatedQuantities {
 pub struct IsolatedRun {
     /// The isolated demand of each level (m).
     pub demand: Vec<f64>,
-    /// Peaks of the storeys of all buildings; `None` where a building collapses by itself.
-    pub storeys: Option<Vec<StoreyPeaks>>,
+    /// Peaks of the storeys of all buildings, and what those with a law went through; `None` where a building collapses
+    /// by itself.
+    pub storeys: Option<Vec<(StoreyPeaks, Option<YieldingStorey>)>>,
 }
 
 /// The quantity of studies of buildings with a stiffness matrix or a foundation.
@@ -424,6 +477,7 @@ pub fn quantity_names() -> impl Iterator<Item = &'static str> {
         .iter()
         .chain([&BASE_MOMENT, &ISOLATED_DEMAND])
         .chain(&ISOLATED_PEAKS)
+        .chain(YIELDING.iter().flat_map(|q| [&q.storey, &q.isolated]))
         .chain(&OF_LINKS)
         .chain(LEVEL_QUANTITIES.iter().map(|q| &q.peak))
         .chain(RESPONSES.iter().map(|r| &r.peak))
@@ -563,17 +617,24 @@ impl Layout {
                 let brought = brings_seat && own.peak == OPENING.peak;
                 brought || system.level_responses().any(|(_, r)| (own.is)(&r.name))
             },
+            |own| {
+                let of_storeys = |place| matches!(place, ElementPlace::Storey { .. });
+                let mut elements = system.elements().iter().filter(|e| of_storeys(e.place));
+                elements.any(|e| e.yield_deformation.is_some() || !own.of_yield_force)
+            },
             isolated,
         )
     }
 
-    /// The shape with these storeys, levels and levels of links, these buildings with a base moment, and the
-    /// responses that some of them and some of the levels have; and what is known without pounding.
+    /// The shape with these storeys, levels and levels of links, these buildings with a base moment, the
+    /// responses that some of them and some of the levels have, and what storeys with a law have; and what is known
+    /// without pounding.
     pub(super) fn from_places(
         [storeys, levels, link_levels]: [Vec<Place>; 3],
         buildings: Vec<String>,
         has: impl Fn(&Response) -> bool,
         levels_have: impl Fn(&LevelQuantity) -> bool,
+        storeys_have: impl Fn(&YieldingQuantity) -> bool,
         isolated: IsolatedQuantities,
     ) -> Self {
         let mut quantities = QUANTITIES.to_vec();
@@ -587,11 +648,14 @@ impl Layout {
         if link_levels.iter().any(|level| !level.joins_rotations()) {
             quantities.extend(OF_LINKS);
         }
+        let yielding: Vec<_> = YIELDING.iter().filter(|q| storeys_have(q)).collect();
+        quantities.extend(yielding.iter().map(|q| q.storey));
         if isolated.demand {
             quantities.push(ISOLATED_DEMAND);
         }
         if isolated.peaks {
             quantities.extend(ISOLATED_PEAKS);
+            quantities.extend(yielding.iter().map(|q| q.isolated));
         }
         Self {
             storeys,
@@ -652,6 +716,11 @@ impl Layout {
             }
             if let Some(peak) = storey_peak(quantity.name) {
                 out.extend(storeys().map(peak));
+                continue;
+            }
+            if let Some(own) = YIELDING.iter().find(|q| q.storey == *quantity) {
+                let storeys = outcome.buildings.iter().flat_map(|b| &b.yielding);
+                out.extend(storeys.map(|storey| (own.of)(storey.as_ref())));
                 continue;
             }
             match quantity.name {
@@ -739,13 +808,21 @@ impl Layout {
             return true;
         }
         let name = quantity.name.strip_prefix("isolated_");
-        let Some(peak) = name.and_then(storey_peak) else {
+        let peak = name.and_then(storey_peak);
+        let of_law = YIELDING.iter().find(|q| q.isolated == *quantity);
+        if peak.is_none() && of_law.is_none() {
             return false;
-        };
-        match &run.storeys {
-            Some(storeys) => out.extend(storeys.iter().map(peak)),
-            None => out.resize(out.len() + self.width(quantity.axis), f64::NAN),
         }
+        let Some(storeys) = &run.storeys else {
+            out.resize(out.len() + self.width(quantity.axis), f64::NAN);
+            return true;
+        };
+        out.extend(
+            peak.iter()
+                .flat_map(|of| storeys.iter().map(|(peaks, _)| of(peaks))),
+        );
+        let laws = || storeys.iter().map(|(_, law)| law.as_ref());
+        out.extend(of_law.iter().flat_map(|own| laws().map(own.of)));
         true
     }
 

@@ -472,6 +472,7 @@ fn layout(
         labels("building")?,
         |response| stores(response.peak.name),
         |own| stores(own.peak.name),
+        |own| stores(own.storey.name) || stores(own.isolated.name),
         IsolatedQuantities {
             demand: stores("isolated_demand"),
             peaks: isolated_peaks().any(stores),

@@ -141,9 +141,10 @@ impl Path {
             && matches!(self.0.as_slice(), [_, _, Step::Key(key)] if key == "storeys")
     }
 
-    /// Whether it leads through an entry of this key.
+    /// Whether it leads through an entry of this key, below the table of a building, a gap or a link, which may be called so.
     pub(crate) fn leads_through(&self, key: &str) -> bool {
-        self.0.contains(&Step::Key(key.to_owned()))
+        let key = Step::Key(key.to_owned());
+        self.0.iter().skip(2).any(|step| *step == key)
     }
 
     /// Name of the building or the gap that it leads into, out of those of the case in

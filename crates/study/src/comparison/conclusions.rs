@@ -69,6 +69,7 @@ pub(super) fn draw(comparison: &Comparison) -> Vec<Conclusion> {
         QuantityKind::Displacement,
         QuantityKind::StoreyShear,
         QuantityKind::AccelerationAbsolute,
+        QuantityKind::Ductility,
         QuantityKind::BaseMoment,
     ];
     for (q, quantity) in comparison.quantities.iter().enumerate() {
@@ -77,6 +78,7 @@ pub(super) fn draw(comparison: &Comparison) -> Vec<Conclusion> {
                 QuantityKind::Displacement => "displacement",
                 QuantityKind::StoreyShear => "storey shear",
                 QuantityKind::BaseMoment => "overturning moment",
+                QuantityKind::Ductility => "ductility",
                 _ => "absolute acceleration",
             };
             let amplification = quantity.kind.amplification();

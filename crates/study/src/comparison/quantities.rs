@@ -1,7 +1,8 @@
 //! What models are compared by.
 
 use pounding_time_history::{
-    BuildingOutcome, LinkLevelOutcome, LinkedMotion, Outcome, Peak, StoreyPeaks, System,
+    BuildingOutcome, Element, ElementPlace, LinkLevelOutcome, LinkedMotion, Outcome, Peak,
+    StoreyPeaks, System,
 };
 
 use crate::gap_check::{Amplification, closes};
@@ -12,12 +13,16 @@ use crate::runs::{Axis, COLUMN_SHEAR, OPENING, RESPONSES, Response};
 pub enum QuantityKind {
     /// Maximum floor displacement of a building (m).
     Displacement,
-    /// Maximum drift ratio of a building (-).
+    /// Maximum drift ratio of a building (-), that of isolators apart.
     DriftRatio,
     /// Maximum storey shear of a building (N).
     StoreyShear,
     /// Maximum absolute floor acceleration of a building (m/s2); not of rigid impacts.
     AccelerationAbsolute,
+    /// Maximum ductility of the storeys of a building with a yield force (-), isolators apart.
+    Ductility,
+    /// Maximum magnitude of the residual drift ratio of the storeys of a building with laws (-), isolators apart.
+    ResidualDriftRatio,
     /// Maximum overturning moment at the base of a building with a stiffness matrix or a foundation
     /// (N m).
     BaseMoment,
@@ -69,6 +74,8 @@ impl QuantityKind {
             Self::DriftRatio => "drift_ratio",
             Self::StoreyShear => "storey_shear",
             Self::AccelerationAbsolute => "acceleration_absolute",
+            Self::Ductility => "ductility",
+            Self::ResidualDriftRatio => "residual_drift_ratio",
             Self::BaseMoment => "base_moment",
             Self::Response(response) => response.name,
             Self::Impacts => "impacts",
@@ -100,7 +107,11 @@ impl QuantityKind {
             Self::Impulse => "N s",
             Self::ApproachVelocity => "m/s",
             Self::ImpactEnergy => "J",
-            Self::DriftRatio | Self::Impacts | Self::AchievedRestitution => "-",
+            Self::DriftRatio
+            | Self::Ductility
+            | Self::ResidualDriftRatio
+            | Self::Impacts
+            | Self::AchievedRestitution => "-",
         }
     }
 
@@ -111,7 +122,9 @@ impl QuantityKind {
             Self::Displacement
             | Self::DriftRatio
             | Self::StoreyShear
-            | Self::AccelerationAbsolute => "maximum over storeys",
+            | Self::AccelerationAbsolute
+            | Self::Ductility
+            | Self::ResidualDriftRatio => "maximum over storeys",
             Self::BaseMoment => "at the base",
             Self::Response(response) if response.peak.axis == Axis::Storey => {
                 "maximum over storeys"
@@ -179,7 +192,10 @@ impl Quantity {
         QuantityKind::OF_BUILDINGS.contains(&self.kind)
             || matches!(
                 self.kind,
-                QuantityKind::BaseMoment | QuantityKind::Response(_)
+                QuantityKind::Ductility
+                    | QuantityKind::ResidualDriftRatio
+                    | QuantityKind::BaseMoment
+                    | QuantityKind::Response(_)
             )
     }
 
@@ -209,6 +225,11 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
     let mut all = Vec::new();
     for (index, b) in system.buildings().iter().enumerate() {
         all.extend(QuantityKind::OF_BUILDINGS.map(|kind| quantity(kind, b.name(), index)));
+        for (kind, has) in laws_of(system, index) {
+            if has {
+                all.push(quantity(kind, b.name(), index));
+            }
+        }
         if b.stiffness().is_empty() {
             all.push(quantity(QuantityKind::BaseMoment, b.name(), index));
         }
@@ -243,8 +264,47 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
     all
 }
 
-/// Maximum over the storeys of a building, or that of its base or its foundation.
+/// Which quantities of laws the storeys of a building have, isolators apart.
+fn laws_of(system: &System, index: usize) -> [(QuantityKind, bool); 2] {
+    let first = usize::from(system.buildings()[index].isolator().is_some());
+    let own = |element: &&Element| match element.place {
+        ElementPlace::Storey { building, storey } => building == index && storey >= first,
+        _ => false,
+    };
+    let elements = || system.elements().iter().filter(own);
+    let yields = elements().any(|element| element.yield_deformation.is_some());
+    [
+        (QuantityKind::Ductility, yields),
+        (
+            QuantityKind::ResidualDriftRatio,
+            elements().next().is_some(),
+        ),
+    ]
+}
+
+/// Maximum over the storeys of a building, or that of its base or its foundation. The drifts of isolators count apart.
 pub(super) fn of_building(kind: QuantityKind, building: &BuildingOutcome) -> f64 {
+    let first = usize::from(building.isolator.is_some());
+    match kind {
+        QuantityKind::Ductility => {
+            let laws = building.yielding.iter().skip(first).flatten();
+            let all = laws.filter_map(|law| law.ductility);
+            return all.map(|d| d.value).reduce(f64::max).unwrap_or(f64::NAN);
+        }
+        QuantityKind::ResidualDriftRatio => {
+            // What round-off leaves of storeys that stayed elastic is none.
+            let inelastic = building.inelastic_storeys();
+            let above = inelastic.iter().filter(|(storey, _)| *storey >= first);
+            let left = above.filter_map(|(storey, _)| building.yielding[*storey]);
+            let left = left.map(|law| law.residual_drift_ratio.abs());
+            return left.fold(0.0, f64::max);
+        }
+        QuantityKind::DriftRatio => {
+            let above = building.storeys.iter().skip(first);
+            return above.map(|s| s.drift_ratio.value).fold(0.0, f64::max);
+        }
+        _ => {}
+    }
     if kind == QuantityKind::BaseMoment {
         return building.base_moment.map_or(f64::NAN, |m| m.value);
     }

@@ -23,6 +23,8 @@ pub(super) struct Demand {
     /// Whether it is one of the buildings without gaps, which a collapse in contact leaves
     /// as it is.
     isolated: bool,
+    /// Whether its magnitude counts.
+    signed: bool,
     needs: Needs,
 }
 
@@ -35,8 +37,8 @@ enum Needs {
     Itself,
     /// No jump of a building of its own: columns of impacts and of forces at its levels.
     NoJump(Vec<(usize, usize)>),
-    /// A level that has it, as one with columns that are hit.
-    Level,
+    /// A place that has it, as a level with columns that are hit or a storey with a yield force.
+    Place,
 }
 
 /// What a demand lacks.
@@ -46,22 +48,34 @@ pub(super) enum Lack {
     Force,
     /// The accelerations during rigid impacts.
     Acceleration,
-    /// Levels of its kind.
-    Level,
+    /// Levels or storeys of its kind.
+    Place,
 }
 
 /// The quantity that rigid impacts do not have.
 const FORCE: &str = "peak_force";
 const DRIFT_RATIO: &str = "peak_drift_ratio";
+/// Residual drift ratio that no storey has.
+const NO_DRIFT: f64 = 1.0e-12;
+/// Those of storeys, which isolators are not.
+const DRIFTS: [&str; 3] = [DRIFT_RATIO, DUCTILITY, RESIDUAL];
+const DUCTILITY: &str = "peak_ductility";
+const RESIDUAL: &str = "residual_drift_ratio";
 /// Those of which rigid impacts are left out.
 const ACCELERATION: &str = "peak_acceleration_absolute";
 const ACCELERATION_ACROSS: &str = "peak_acceleration_across";
 
 impl Demand {
-    /// Maximum value in a row; missing values, such as the time of a contact that did not
-    /// happen, count as none.
+    /// Maximum value in a row, or magnitude of what has a sign; missing values, such as the time of a contact that did
+    /// not happen, count as none.
     fn of(&self, values: &[f64]) -> f64 {
-        self.columns.iter().map(|c| values[*c]).fold(0.0, f64::max)
+        let value = |column: &usize| match self.signed {
+            // What round-off leaves of storeys that stayed elastic is none.
+            true if values[*column].abs() < NO_DRIFT => 0.0,
+            true => values[*column].abs(),
+            false => values[*column],
+        };
+        self.columns.iter().map(value).fold(0.0, f64::max)
     }
 
     /// Whether the demand of a run is not defined, and for want of what.
@@ -78,9 +92,9 @@ impl Demand {
                 };
                 levels.iter().any(jump).then_some(Lack::Acceleration)
             }
-            Needs::Level => {
+            Needs::Place => {
                 let nowhere = self.columns.iter().all(|c| values[*c].is_nan());
-                nowhere.then_some(Lack::Level)
+                nowhere.then_some(Lack::Place)
             }
         }
     }
@@ -125,6 +139,12 @@ pub(super) fn isolated_buildings(case: &Case) -> Vec<String> {
     isolated.map(|b| b.name.value.clone()).collect()
 }
 
+/// Names of the buildings of a case with storeys that have a law, isolators apart.
+pub(super) fn yielding_buildings(case: &Case) -> Vec<String> {
+    let yielding = case.buildings.iter().filter(|b| !b.laws.is_empty());
+    yielding.map(|b| b.name.value.clone()).collect()
+}
+
 /// Whether drifts are those of a storey and not of isolators, whose displacement over their height says nothing.
 fn drifts(storey: &Place, isolated: &[String]) -> bool {
     storey.storeys[0] != 1 || !isolated.contains(&storey.of)
@@ -134,7 +154,7 @@ fn drifts(storey: &Place, isolated: &[String]) -> bool {
 pub(super) fn usual(
     layout: &Layout,
     gaps: &[(String, Vec<String>)],
-    isolated: &[String],
+    [isolated, yielding]: [&[String]; 2],
 ) -> Vec<Demand> {
     let mut demands = Vec::new();
     let groups = |places: &[Place]| {
@@ -148,17 +168,30 @@ pub(super) fn usual(
     };
     for building in groups(&layout.storeys) {
         let mine = |column: usize| layout.storeys[column].of == building;
-        for (name, unit) in [(DRIFT_RATIO, "1"), (ACCELERATION, "m s-2")] {
+        let all = [
+            (DRIFT_RATIO, "1"),
+            (ACCELERATION, "m s-2"),
+            (DUCTILITY, "1"),
+            (RESIDUAL, "1"),
+        ];
+        for (name, unit) in all {
+            let of_laws = [DUCTILITY, RESIDUAL].contains(&name);
+            if of_laws && (layout.range(name).is_empty() || !yielding.contains(&building)) {
+                continue;
+            }
             let own = |column: usize| {
-                mine(column) && (name != DRIFT_RATIO || drifts(&layout.storeys[column], isolated))
+                let drift = !DRIFTS.contains(&name) || drifts(&layout.storeys[column], isolated);
+                mine(column) && drift
             };
             demands.push(Demand {
                 name: format!("{name}: {building}"),
                 unit,
                 columns: chosen(layout.range(name), own),
                 isolated: false,
+                signed: name == RESIDUAL,
                 needs: match name {
                     ACCELERATION => no_jump(layout, gaps, Some(&building)),
+                    DUCTILITY => Needs::Place,
                     _ => Needs::Nothing,
                 },
             });
@@ -189,9 +222,10 @@ pub(super) fn usual(
                 unit,
                 columns: chosen(layout.range(name), mine),
                 isolated: name == ISOLATED,
+                signed: false,
                 needs: match name {
                     FORCE => Needs::Itself,
-                    _ if LEVEL_QUANTITIES.iter().any(|q| q.peak.name == name) => Needs::Level,
+                    _ if LEVEL_QUANTITIES.iter().any(|q| q.peak.name == name) => Needs::Place,
                     _ => Needs::Nothing,
                 },
             });
@@ -205,7 +239,8 @@ pub(super) fn usual(
                 unit,
                 columns: chosen(layout.range(name), mine),
                 isolated: false,
-                needs: Needs::Level,
+                signed: false,
+                needs: Needs::Place,
             });
         }
     }
@@ -230,6 +265,8 @@ pub(super) fn of_limit(
         DemandKind::DriftRatio => (DRIFT_RATIO, "1", Axis::Storey),
         DemandKind::StoreyShear => ("peak_storey_shear", "N", Axis::Storey),
         DemandKind::AccelerationAbsolute => (ACCELERATION, "m s-2", Axis::Storey),
+        DemandKind::Ductility => (DUCTILITY, "1", Axis::Storey),
+        DemandKind::ResidualDriftRatio => (RESIDUAL, "1", Axis::Storey),
         DemandKind::BaseMoment => ("peak_base_moment", "N m", Axis::Building),
         DemandKind::FoundationSway => ("peak_foundation_sway", "m", Axis::Building),
         DemandKind::FoundationRotation => ("peak_foundation_rotation", "rad", Axis::Building),
@@ -250,7 +287,7 @@ pub(super) fn of_limit(
         DemandKind::IsolatedDemand => ("isolated_demand", "m", Axis::Level),
     };
     let mine = |column: usize| match axis {
-        Axis::Level => limit.place.is_none_or(|level| column == level),
+        Axis::Level => limit.places.is_empty() || limit.places.contains(&column),
         Axis::LinkLevel => {
             let link = limit.link.as_ref();
             link.is_none_or(|link| layout.link_levels[column].of == *link)
@@ -258,9 +295,9 @@ pub(super) fn of_limit(
         Axis::Building => building.is_none_or(|b| layout.buildings[column] == b),
         _ => {
             let storey = &layout.storeys[column];
-            let here = match limit.place {
-                Some(place) => storey.storeys[0] == place + 1,
-                None => limit.demand != DemandKind::DriftRatio || drifts(storey, isolated),
+            let here = match limit.places.as_slice() {
+                [] => !DRIFTS.contains(&name) || drifts(storey, isolated),
+                places => places.contains(&(storey.storeys[0] - 1)),
             };
             building.is_none_or(|building| storey.of == building) && here
         }
@@ -270,9 +307,11 @@ pub(super) fn of_limit(
         unit,
         columns: chosen(layout.range(name), mine),
         isolated: name == ISOLATED,
+        signed: name == RESIDUAL,
         needs: match name {
             FORCE => Needs::Itself,
             ACCELERATION | ACCELERATION_ACROSS => no_jump(layout, gaps, building),
+            DUCTILITY => Needs::Place,
             _ => Needs::Nothing,
         },
     }
@@ -285,6 +324,7 @@ pub(super) fn of_gap(layout: &Layout, name: &'static str, gap: &str) -> Demand {
         unit: "m",
         columns: chosen(layout.range(name), |column| layout.levels[column].of == gap),
         isolated: name == ISOLATED,
+        signed: false,
         needs: Needs::Nothing,
     }
 }

@@ -6,7 +6,9 @@ use pounding_case::Dimension;
 use pounding_catalogue::STANDARD_GRAVITY;
 
 use super::bootstrap::{FrequencyBounds, RecordCounts, frequency_bounds};
-use super::demands::{Demand, Lack, isolated_buildings, of_gap, of_limit, sides_of_gaps, usual};
+use super::demands::{
+    Demand, Lack, isolated_buildings, of_gap, of_limit, sides_of_gaps, usual, yielding_buildings,
+};
 use super::fragility::{Counts, FragilityFit, fit};
 use super::goodness::{
     self, Capacity, Evidence, FitRemark, GoodnessOfFit, Sampled, ShownIntensity,
@@ -276,7 +278,8 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     let layout = &result.description.layout;
     let sides = sides_of_gaps(&study.base);
     let isolated = isolated_buildings(&study.base);
-    let mut shown = usual(layout, &sides, &isolated);
+    let yielding = yielding_buildings(&study.base);
+    let mut shown = usual(layout, &sides, [&isolated, &yielding]);
     let limits: Vec<(Demand, f64)> = settings
         .limits
         .iter()
@@ -308,7 +311,7 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
     let of_limits = limits.iter().zip(&lacking[shown.len()..]);
     for ((limit, _), lack) in of_limits {
         let (reason, help) = match lack {
-            None | Some(Lack::Level) => continue,
+            None | Some(Lack::Place) => continue,
             Some(Lack::Force) => (
                 "rigid impacts have no contact force",
                 "ask for the impulse instead: demand = \"impulse\"",

@@ -651,7 +651,8 @@ fn listed<'s>(levels: impl Iterator<Item = FloorsThatMeet<'s>>) -> String {
 fn apart(system: &System, options: &RunOptions) -> Result<IsolatedRun, String> {
     match isolated_demand(system, options) {
         Ok((outcome, peaks)) => {
-            let storeys = outcome.buildings.into_iter().flat_map(|b| b.storeys);
+            let buildings = outcome.buildings.into_iter();
+            let storeys = buildings.flat_map(|b| b.storeys.into_iter().zip(b.yielding));
             Ok(IsolatedRun {
                 demand: peaks.iter().map(|p| p.value).collect(),
                 storeys: Some(storeys.collect()),

@@ -132,10 +132,14 @@ pub(super) fn of_limit(
         DemandKind::AccelerationAbsolute | DemandKind::AccelerationAcross if is_bare => {
             bare_acceleration(&format!("the limit \"{name}\""), exceeds, LIMIT_AT_LEAST)
         }
-        DemandKind::DriftRatio if is_bare && exceeds > NO_DRIFT_LIMIT => Some(format!(
-            "the limit \"{name}\" is a drift ratio of {} %, which few buildings reach: was \"{number} %\" meant?",
-            six_digits(100.0 * exceeds)
-        )),
+        DemandKind::DriftRatio | DemandKind::ResidualDriftRatio
+            if is_bare && exceeds > NO_DRIFT_LIMIT =>
+        {
+            Some(format!(
+                "the limit \"{name}\" is a drift ratio of {} %, which few buildings reach: was \"{number} %\" meant?",
+                six_digits(100.0 * exceeds)
+            ))
+        }
         _ if !is_bare => None,
         _ if demand.dimension() == Dimension::LENGTH && exceeds > NO_LENGTH => Some(format!(
             "the limit \"{name}\" is {number} m, which buildings do not reach: was \"{number} mm\" meant?"

@@ -19,6 +19,18 @@ pub(super) struct Base {
     pub levels: Vec<String>,
     /// Whether impacts at each of them are rigid.
     pub rigid: Vec<bool>,
+    /// Storeys with a law.
+    pub laws: Vec<LawOfStorey>,
+}
+
+/// A law of a storey, isolators among them.
+pub(super) struct LawOfStorey {
+    /// Number of the building, from zero.
+    pub building: usize,
+    /// From zero.
+    pub storey: usize,
+    /// Whether it has a yield force.
+    pub yields: bool,
 }
 
 /// What is known of the case.

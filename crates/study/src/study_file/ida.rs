@@ -6,8 +6,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use pounding_case::document::{
-    AboveZero, Amount, Entry, Fault, Field, FromZero, List, Number, Optional, Reader, TableOr,
-    Within, Written,
+    AboveZero, Amount, Entry, Fault, Field, FromZero, List, Number, OneOrEach, Optional, Reader,
+    TableOr, Within, Written,
 };
 use pounding_case::{
     Building, ContactLevel, Dimension, FoundationMotion, Gap, Link, Located, Support,
@@ -18,7 +18,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
 
 use super::annual_frequency::AnnualFrequency;
-use super::context::Context;
+use super::context::{Context, LawOfStorey};
 use super::values::{Numbers, Values, Whole, all, not_both};
 use super::{IntensityMeasure, bare_numbers, hazard_file};
 use crate::error::StudyError;
@@ -39,6 +39,10 @@ pub enum DemandKind {
     StoreyShear,
     /// Maximum absolute floor acceleration (m/s2).
     AccelerationAbsolute,
+    /// Maximum ductility of storeys with a yield force (-).
+    Ductility,
+    /// Magnitude of the residual drift ratio of storeys with a law (-).
+    ResidualDriftRatio,
     /// Maximum overturning moment at the base of a building with a stiffness matrix or a
     /// foundation (N m).
     BaseMoment,
@@ -130,6 +134,11 @@ impl DemandKind {
         matches!(self, Self::LinkForce | Self::LinkDeformation)
     }
 
+    /// Whether only storeys with a law have it.
+    fn of_laws(self) -> bool {
+        matches!(self, Self::Ductility | Self::ResidualDriftRatio)
+    }
+
     /// Whether only floors that turn in plan have it.
     fn of_floors_that_turn(self) -> bool {
         matches!(
@@ -153,6 +162,8 @@ impl DemandKind {
             | Self::EdgeDisplacement
             | Self::DisplacementAcross => Dimension::LENGTH,
             Self::DriftRatio
+            | Self::Ductility
+            | Self::ResidualDriftRatio
             | Self::Impacts
             | Self::FoundationRotation
             | Self::Rotation
@@ -195,9 +206,9 @@ pub struct Limit {
     pub demand: DemandKind,
     /// Index of the building whose storeys count; `None`: all buildings.
     pub building: Option<usize>,
-    /// Storey from zero; `None`: the worst storey. For demands at gaps the level, from zero, over
+    /// Storeys from zero, of which the worst counts; none: of all. For demands at gaps the levels, from zero, over
     /// the levels of all gaps.
-    pub place: Option<usize>,
+    pub places: Vec<usize>,
     /// Name of the link whose levels count, for demands of links; `None`: all links.
     pub link: Option<String>,
     /// Value that it exceeds (SI).
@@ -278,11 +289,11 @@ struct LimitTable {
     demand: Field<DemandKind>,
     /// Building whose storeys count, by default all
     building: Optional<String>,
-    /// Storey from 1 at the bottom, by default the worst
-    storey: Optional<Whole<1>>,
+    /// Storey from 1 at the bottom, or several, of which the worst counts; by default all
+    storey: Optional<OneOrEach<Located<Whole<1>>>>,
     /// Contact level, for demands at gaps: from 1, over the levels of all gaps in the order of
-    /// the case and from the bottom; by default the worst
-    level: Optional<Whole<1>>,
+    /// the case and from the bottom; or several, of which the worst counts; by default all
+    level: Optional<OneOrEach<Located<Whole<1>>>>,
     /// Link whose levels count, for demands of links, by default all
     link: Optional<String>,
     /// Value that it exceeds (SI, or with a unit)
@@ -538,7 +549,7 @@ impl LimitTable {
         context: &Context,
         demand: DemandKind,
         [building, storey, level]: [Option<Range<usize>>; 3],
-        number: Option<usize>,
+        numbers: &[Located<Whole<1>>],
     ) -> Option<()> {
         if demand.of_building().is_some() {
             return Some(());
@@ -559,13 +570,17 @@ impl LimitTable {
             let help = "name a `level` in its place, or leave it out: then the worst level counts";
             return reader.refuse(span, message, help);
         }
-        let (Some(number), Some(span)) = (number, level) else {
+        let levels = &context.base.as_ref()?.levels;
+        let mut missing = numbers
+            .iter()
+            .filter(|number| number.value.0 > levels.len());
+        let Some(Located {
+            value: Whole(number),
+            span,
+        }) = missing.next()
+        else {
             return Some(());
         };
-        let levels = &context.base.as_ref()?.levels;
-        if number <= levels.len() {
-            return Some(());
-        }
         let message = format!("the case has no level {number}");
         let mut named = levels.iter().enumerate().take(SHOWN).map(|(i, name)| {
             let number = i + 1;
@@ -578,7 +593,7 @@ impl LimitTable {
             levels.len(),
             list.join(", ")
         );
-        reader.refuse(span, message, help)
+        reader.refuse(span.clone(), message, help)
     }
 
     /// Refuses a link beside demands of anything else, other places beside those of links, and links
@@ -663,10 +678,12 @@ impl LimitTable {
         };
         excluded("building", &places.0)?;
         excluded("storey", &places.1)?;
-        let storey = self.storey.stated();
-        let level = self.level.stated();
+        type Places = Option<Located<OneOrEach<Located<Whole<1>>>>>;
+        let list = |places: Places| places.map_or(Vec::new(), |places| places.value.into_list());
+        let storeys = self.storey.stated().map(list);
+        let levels = self.level.stated().map(list);
         let link = self.link.stated();
-        let (building, storey, level, link) = (building?, storey?, level?, link?);
+        let (building, storeys, levels, link) = (building?, storeys?, levels?, link?);
         let link = match (demand, demand_at.clone()) {
             (Some(value), Some(span)) => {
                 let at = [places.0.clone(), places.1.clone(), places.2.clone()];
@@ -676,22 +693,21 @@ impl LimitTable {
         };
         if let Some(demand) = demand {
             let at = [places.0.clone(), places.1.clone(), places.2.clone()];
-            let number = level.as_ref().map(|level| level.value.0);
-            Self::place(reader, context, demand, at, number)?;
+            Self::place(reader, context, demand, at, &levels)?;
         }
-        if let Some(Located {
+        for Located {
             value: Whole(n),
             span,
-        }) = &storey
+        } in &storeys
         {
             if !has_building {
                 let message = "a storey of which building?";
                 return reader.refuse(span.clone(), message, "add `building = \"...\"`");
             }
-            let storeys = context.base.as_ref()?.case.buildings[building?].mass.len();
-            if *n > storeys {
+            let count = context.base.as_ref()?.case.buildings[building?].mass.len();
+            if *n > count {
                 let message = format!("the building has no storey {n}");
-                return reader.refuse(span.clone(), message, format!("it has {storeys}"));
+                return reader.refuse(span.clone(), message, format!("it has {count}"));
             }
         }
         let demand = demand?;
@@ -727,14 +743,37 @@ impl LimitTable {
         }
         if demand == DemandKind::ContactForce {
             let rigid = &context.base.as_ref()?.rigid;
-            let asked = match &level {
-                Some(level) => rigid.get(level.value.0.checked_sub(1)?..=level.value.0 - 1)?,
-                None => rigid,
-            };
-            if !asked.is_empty() && asked.iter().all(|rigid| *rigid) {
+            let mut asked = (1..=rigid.len()).filter(|level| asked_of(&levels, *level));
+            if !rigid.is_empty() && asked.all(|level| rigid[level - 1]) {
                 let message = "rigid impacts have no contact force";
                 let help = "ask for the impulse instead: demand = \"impulse\"";
                 return reader.refuse(demand_at?, message, help);
+            }
+        }
+        if demand.of_laws() {
+            let base = context.base.as_ref()?;
+            let isolated = |law: &LawOfStorey| {
+                law.storey == 0 && base.case.buildings[law.building].isolator.is_some()
+            };
+            let asked = |law: &&LawOfStorey| match storeys.as_slice() {
+                [] => building.is_none_or(|b| b == law.building) && !isolated(law),
+                storeys => building == Some(law.building) && asked_of(storeys, law.storey + 1),
+            };
+            let laws: Vec<&LawOfStorey> = base.laws.iter().filter(asked).collect();
+            let without = match demand {
+                _ if laws.is_empty() => Some((
+                    "only storeys with a `law` have it: these stay linear",
+                    "ask for `drift_ratio`, or give storeys a law that yields",
+                )),
+                DemandKind::Ductility if laws.iter().all(|law| !law.yields) => Some((
+                    "only laws with a yield force have it",
+                    "ask for `drift_ratio` or `residual_drift_ratio`",
+                )),
+                _ => None,
+            };
+            if let Some((message, help)) = without {
+                let span = places.1.or(places.0).unwrap_or(demand_at?);
+                return reader.refuse(span, message, help);
             }
         }
         // What not all levels have, and what to do where the asked ones have it not.
@@ -756,16 +795,15 @@ impl LimitTable {
         };
         if let Some((has, nowhere, not_here, help)) = rare {
             let gaps = &context.base.as_ref()?.case.gaps;
-            let levels = gaps
+            let have = gaps
                 .iter()
                 .flat_map(|gap| gap.levels.iter().map(move |l| has(gap, l)));
-            let levels: Vec<bool> = levels.collect();
-            if !levels.contains(&true) {
+            let have: Vec<bool> = have.collect();
+            if !have.contains(&true) {
                 return reader.refuse(demand_at?, nowhere, help);
             }
-            if let Some(level) = &level
-                && levels.get(level.value.0 - 1) == Some(&false)
-            {
+            let has_not = |level: &&Located<Whole<1>>| have.get(level.value.0 - 1) == Some(&false);
+            if let Some(level) = levels.iter().find(has_not) {
                 return reader.refuse(
                     level.span.clone(),
                     not_here,
@@ -777,11 +815,20 @@ impl LimitTable {
             name: String::new(),
             demand,
             building,
-            place: storey.or(level).map(|number| number.value.0 - 1),
+            places: storeys
+                .iter()
+                .chain(&levels)
+                .map(|number| number.value.0 - 1)
+                .collect(),
             link,
             exceeds: exceeds?,
         })
     }
+}
+
+/// Whether a storey or a level, from 1, is among those asked for, or all are.
+fn asked_of(places: &[Located<Whole<1>>], number: usize) -> bool {
+    places.is_empty() || places.iter().any(|place| place.value.0 == number)
 }
 
 /// Levels that are named where there are more.

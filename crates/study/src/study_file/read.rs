@@ -12,6 +12,7 @@ use pounding_catalogue::suggestion;
 use pounding_catalogue::wording::one_line;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use pounding_results::study::{isolated_peaks, quantity_names};
+use pounding_time_history::ElementPlace;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::de::DeTable;
@@ -19,7 +20,7 @@ use toml::de::DeTable;
 use crate::case_text::{Path as CasePath, root_key};
 use crate::faults::{parse_case, with_all};
 
-use super::context::{Base, Context};
+use super::context::{Base, Context, LawOfStorey};
 use super::ida::IdaTable;
 use super::readings::readings;
 use super::values::{MOST_OF_CHUNK, MOST_RUNS, Whole, all, lacks};
@@ -412,8 +413,19 @@ fn base(source: &str, path: &Path, own_record: bool) -> Result<Base, StudyError>
     let levels = levels.collect();
     let of_gaps = system.gaps().iter().flat_map(|gap| system.levels_of(gap));
     let rigid = of_gaps.map(|level| level.model.rigid_restitution().is_some());
+    let laws = system.elements().iter().filter_map(|element| {
+        let ElementPlace::Storey { building, storey } = element.place else {
+            return None;
+        };
+        Some(LawOfStorey {
+            building,
+            storey,
+            yields: element.yield_deformation.is_some(),
+        })
+    });
     Ok(Base {
         rigid: rigid.collect(),
+        laws: laws.collect(),
         case,
         fundamental_periods,
         levels,

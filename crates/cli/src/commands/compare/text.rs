@@ -15,10 +15,12 @@ const LISTED: usize = 6;
 const ROWS: usize = 24;
 
 /// Kinds that a table of a record shows.
-const SHOWN: [QuantityKind; 13] = [
+const SHOWN: [QuantityKind; 15] = [
     QuantityKind::Displacement,
     QuantityKind::StoreyShear,
     QuantityKind::AccelerationAbsolute,
+    QuantityKind::Ductility,
+    QuantityKind::ResidualDriftRatio,
     QuantityKind::BaseMoment,
     QuantityKind::Impacts,
     QuantityKind::PeakForce,
@@ -37,7 +39,8 @@ fn shown_in(kind: QuantityKind) -> (&'static str, f64, usize) {
         QuantityKind::Displacement | QuantityKind::Opening | QuantityKind::LinkDeformation => {
             ("mm", 1e-3, 1)
         }
-        QuantityKind::DriftRatio => ("%", 1e-2, 3),
+        QuantityKind::DriftRatio | QuantityKind::ResidualDriftRatio => ("%", 1e-2, 3),
+        QuantityKind::Ductility => ("-", 1.0, 2),
         QuantityKind::StoreyShear
         | QuantityKind::PeakForce
         | QuantityKind::ColumnShear

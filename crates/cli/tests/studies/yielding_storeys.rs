@@ -87,3 +87,36 @@ fn ductility_of_laws_without_a_yield_force_is_refused() {
         "{told}"
     );
 }
+
+/// The example of a study, whose run at the gap and strength of the case has the ductility of `run`, which
+/// `crates/cli/tests/yielding_examples.rs` holds against an independent solution.
+#[test]
+fn ductility_by_gap_and_strength() {
+    let bench = Bench::new("");
+    let study = root().join("examples/yielding_pair/study.toml");
+    bench.text(&format!("sweep {} -o out.h5", study.display()));
+    let file = hdf5::File::open(bench.path("out.h5")).unwrap();
+    let first_storeys = |name: &str| {
+        let all = file.dataset(name).unwrap().read_2d::<f64>().unwrap();
+        (0..20).map(|run| all[[run, 0]]).collect::<Vec<f64>>()
+    };
+    let [with, without] = ["peak_ductility", "isolated_peak_ductility"].map(first_storeys);
+    // Five strengths at each gap, of which the third is that of the case.
+    for (run, ductility, alone) in [
+        (12, 2.910, 1.333),
+        (7, 1.763, 1.333),
+        (5, 5.082, 2.404),
+        (10, 2.183, 2.404),
+    ] {
+        assert!((with[run] - ductility).abs() < 1e-3, "{}", with[run]);
+        assert!((without[run] - alone).abs() < 1e-3, "{}", without[run]);
+    }
+    let case = root().join("examples/yielding_pair/case.toml");
+    let told = bench.text(&format!("run {} --no-output --json", case.display()));
+    let told: Value = serde_json::from_str(&told).unwrap();
+    let of_run = &told["buildings"][0]["yielding"][0]["ductility"]["peak"];
+    assert!(
+        (of_run.as_f64().unwrap() / with[7] - 1.0).abs() < 1e-9,
+        "{of_run}"
+    );
+}

@@ -165,7 +165,10 @@ fn has_ida(study: PathBuf) -> Result<bool, Problem> {
 }
 
 /// A case under motions and records of files; under its own without any.
-fn under(case: &PyCase, motions: &[(String, Record)]) -> Result<Vec<CaseUnderRecord>, Problem> {
+pub(crate) fn under(
+    case: &PyCase,
+    motions: &[(String, Record)],
+) -> Result<Vec<CaseUnderRecord>, Problem> {
     let of = |error: CheckError| case.problem(of_check(error, &case.case));
     if motions.is_empty() {
         if case.motion.is_none() {
@@ -206,13 +209,13 @@ fn under(case: &PyCase, motions: &[(String, Record)]) -> Result<Vec<CaseUnderRec
 }
 
 /// A motion in memory, or a file or folder of them.
-enum Record {
+pub(crate) enum Record {
     Motion(std::sync::Arc<Accelerogram>),
     Path(PathBuf),
 }
 
 /// Records as Python gives them: motions or paths with their names.
-fn records(given: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Vec<(String, Record)>> {
+pub(crate) fn records(given: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Vec<(String, Record)>> {
     let record = |(name, value): (String, Bound<'_, PyAny>)| {
         let record = match value.cast::<Motion>() {
             Ok(motion) => Record::Motion(std::sync::Arc::clone(&motion.get().record)),

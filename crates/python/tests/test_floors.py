@@ -41,6 +41,25 @@ def test_floors_by_name_and_progress() -> None:
     assert float(peaks.sel(floor="light 2")) > float(found["peak_acceleration_alone"].sel(floor="light 2"))
 
 
+def test_over_records() -> None:
+    motion = pounding.read_motion(RECORD)
+    periods = [0.05, 0.3]
+    found = pounding.floor_spectra(
+        PAIR, [("light", 3)], periods, records={"as recorded": RECORD, "in memory": motion}, threads=2
+    )
+    assert found["pounding"].dims == ("record", "floor", "period")
+    assert list(found["record"].values) == ["as recorded", "in memory"]
+    assert found["peak_acceleration_alone"].dims == ("record", "floor")
+    # The case stops at 31 s, where the record is as long.
+    one = pounding.floor_spectra(PAIR, [("light", 3)], periods)
+    for name in ("ground", "alone", "pounding"):
+        assert np.allclose(found[name].mean("record"), one[name], rtol=1e-12)
+    assert list(found["impacts"].values) == [45, 45]
+    assert "are the same motion" in found.attrs["warnings"]
+    with pytest.raises(pounding.PoundingError, match="no records are given"):
+        pounding.floor_spectra(PAIR, records=[])
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [

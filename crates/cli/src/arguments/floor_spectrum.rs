@@ -10,6 +10,9 @@ use super::{FigureArguments, InputPath, OutputPath};
 pub struct FloorSpectrumArguments {
     /// Case file (TOML)
     pub case: InputPath,
+    /// Records, or folders of them: spectra over all of them [default: that of the case]
+    #[arg(long, num_args = 1.., value_name = "FILE")]
+    pub records: Vec<InputPath>,
     /// Floors, each a building and a storey from 1 at the bottom, such as light:2 [default: the roof of every building]
     #[arg(long = "floor", num_args = 1.., value_name = "BUILDING:STOREY")]
     pub floors: Vec<String>,
@@ -36,6 +39,9 @@ pub struct FloorSpectrumArguments {
     pub plot: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,
+    /// Threads, for several records [default: all cores]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub threads: Option<u32>,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,

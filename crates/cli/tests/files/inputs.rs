@@ -18,9 +18,13 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 47] = [
+const CALLS: [Call; 48] = [
     call("run case.toml", CASE),
     call("floor-spectrum case.toml --at 0.5s", CASE),
+    call(
+        "floor-spectrum case.toml --at 0.5s --records second.csv",
+        &["case.toml", "second.csv", "target.csv", "step.csv"],
+    ),
     call("explore case.toml", CASE),
     call(
         "explore case.toml --rules rules.toml",

@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Iterable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from . import _native
 from ._case import Case, as_case
 from ._errors import CaseTypeError, listed, needs, refused, text, whole
 from ._motion import _real
-from ._result import Progress, _progress
+from ._result import Progress, _progress, _threads
+from ._study import Records, _records
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -35,6 +36,8 @@ def floor_spectra(
     periods: npt.ArrayLike | None = None,
     damping: float | str = 0.05,
     *,
+    records: Records = None,
+    threads: int | None = None,
     progress: Progress | bool | None = None,
 ) -> xarray.Dataset:
     """Response spectra of floors, with pounding and of the buildings alone.
@@ -52,6 +55,10 @@ def floor_spectra(
         logarithm.
     damping : float or str
         Damping ratio of the equipment (-).
+    records : motions, files or folders of records, optional
+        A list, or a dict by name; the motion of the case by default.
+    threads : int, optional
+        For several records.
     progress : callable or bool, optional
 
     Returns
@@ -60,7 +67,9 @@ def floor_spectra(
         ``ground``, ``alone`` and ``pounding``, peak absolute accelerations (m/s2) over ``floor`` and
         ``period`` (s), and ``peak_acceleration_alone`` and ``peak_acceleration_pounding`` of the floors
         themselves, with ``building`` and ``storey`` of each. ``alone`` is NaN where buildings do not stand without
-        one another; what should be known stands in the attribute ``warnings``.
+        one another; what should be known stands in the attribute ``warnings``. With ``records`` all have the
+        dimension ``record`` before the others, and ``.mean("record")`` is what codes ask for; records under which
+        a building collapses are left out.
     """
     needs("floor_spectra", "xarray")
     import numpy as np
@@ -70,23 +79,40 @@ def floor_spectra(
     places = None if floors is None else [_place(floor) for floor in listed(floors, "floors", "floors")]
     chosen = _native.periods(0.05, 4.0, 100) if periods is None else periods
     at = _real(chosen, "periods", "periods (s)")
+    several = records is not None
     told, bar = _progress(progress, "floor spectra")
     try:
-        answer = json.loads(_native.floor_spectra_json(given._native, places, at, damping, told))
+        if several:
+            made = _native.floor_spectra_over_records_json(
+                given._native, _records(records), places, at, damping, _threads(threads), told
+            )
+        else:
+            made = _native.floor_spectra_json(given._native, places, at, damping, told)
     finally:
         if bar is not None:
             bar.close()
-    found = answer["floors"]
+    told_all = json.loads(made)
+    answers = [record["spectra"] for record in told_all["records"]] if several else [told_all]
+    found = answers[0]["floors"]
     missing = np.full(len(at), np.nan)
 
-    def accelerations(name: str) -> npt.NDArray[np.float64]:
-        spectra = [floor["spectra"][0][name] for floor in found]
-        rows = [missing if one is None else np.array(one["acceleration"]) for one in spectra]
-        return np.array(rows).reshape(len(found), len(at))
+    def shaped(values: list[list[Any]], dimensions: tuple[str, ...]) -> tuple[tuple[str, ...], Any]:
+        every = np.array(values).reshape(len(answers), len(found), *[len(at)] * (len(dimensions) - 1))
+        return (("record", *dimensions), every) if several else (dimensions, every[0])
 
-    def peaks(name: str) -> npt.NDArray[np.float64]:
-        values = [floor["peak_acceleration"][name] for floor in found]
-        return np.array([np.nan if value is None else value for value in values])
+    def accelerations(name: str) -> tuple[tuple[str, ...], Any]:
+        def of(floor: dict[str, Any]) -> npt.NDArray[np.float64]:
+            one = floor["spectra"][0][name]
+            return missing if one is None else np.array(one["acceleration"])
+
+        return shaped([[of(floor) for floor in answer["floors"]] for answer in answers], ("floor", "period"))
+
+    def peaks(name: str) -> tuple[tuple[str, ...], Any]:
+        def of(floor: dict[str, Any]) -> float:
+            value = floor["peak_acceleration"][name]
+            return np.nan if value is None else value
+
+        return shaped([[of(floor) for floor in answer["floors"]] for answer in answers], ("floor",))
 
     def attributes(long_name: str) -> dict[str, str]:
         return {"units": "m s-2", "long_name": long_name}
@@ -97,20 +123,25 @@ def floor_spectra(
         "pounding": "absolute acceleration on a floor with pounding",
     }
     variables: dict[str, tuple[object, ...]] = {
-        name: (("floor", "period"), accelerations(name), attributes(long_name))
-        for name, long_name in named.items()
+        name: (*accelerations(name), attributes(long_name)) for name, long_name in named.items()
     }
     for name in ("alone", "pounding"):
         long_name = f"peak absolute acceleration of a floor, {name}"
-        variables[f"peak_acceleration_{name}"] = ("floor", peaks(name), attributes(long_name))
-    coordinates = {
+        variables[f"peak_acceleration_{name}"] = (*peaks(name), attributes(long_name))
+    coordinates: dict[str, Any] = {
         "floor": ("floor", [f"{floor['building']} {floor['storey']}" for floor in found]),
         "building": ("floor", [floor["building"] for floor in found]),
         "storey": ("floor", [floor["storey"] for floor in found]),
         "elevation": ("floor", [floor["elevation"] for floor in found], {"units": "m"}),
         "period": ("period", at, {"units": "s", "long_name": "period"}),
     }
-    attrs = {"impacts": answer["impacts"], "warnings": "\n".join(answer["warnings"])}
+    attrs: dict[str, Any] = {"warnings": "\n".join(told_all["warnings"])}
+    impacts = [answer["impacts"] for answer in answers]
+    if several:
+        coordinates["record"] = ("record", [record["name"] for record in told_all["records"]])
+        coordinates["impacts"] = ("record", impacts)
+    else:
+        attrs["impacts"] = impacts[0]
     if found:
         attrs["damping_ratio"] = found[0]["spectra"][0]["ground"]["damping"]
     return xr.Dataset(variables, coordinates, attrs)

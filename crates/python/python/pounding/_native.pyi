@@ -170,6 +170,15 @@ def floor_spectra_json(
     damping: _Quantity,
     progress: _Progress | None = None,
 ) -> str: ...
+def floor_spectra_over_records_json(
+    case: Case,
+    motions: list[tuple[str, Any]],
+    floors: list[tuple[str, int]] | None,
+    periods: _Array,
+    damping: _Quantity,
+    threads: int,
+    progress: _Progress | None = None,
+) -> str: ...
 def gap_check_json(
     case: Case,
     motions: list[tuple[str, Any]],

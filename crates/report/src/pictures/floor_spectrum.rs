@@ -1,35 +1,33 @@
 //! Response spectra of floors.
 
 use pounding_catalogue::STANDARD_GRAVITY as G;
-use pounding_ground_motion::spectra::ResponseSpectrum;
 
 use super::motion::{over_period, percent};
 use super::{over, panel};
 use crate::chart::Chart;
 
 /// Spectra of a floor, of one damping ratio.
-#[derive(Debug, Clone, Copy)]
-pub struct Curves<'s> {
-    /// Of the ground under the building.
-    pub ground: &'s ResponseSpectrum,
-    /// With pounding.
-    pub pounding: &'s ResponseSpectrum,
-    /// Of the building alone.
-    pub alone: Option<&'s ResponseSpectrum>,
+#[derive(Debug, Clone)]
+pub struct Floor<'s> {
+    /// What the floor is called.
+    pub title: String,
+    /// Damping ratio (-).
+    pub damping: f64,
+    /// Periods (s).
+    pub periods: &'s [f64],
+    /// What each spectrum is of, and its absolute accelerations (m/s2).
+    pub spectra: Vec<(&'static str, &'s [f64])>,
 }
 
-/// Absolute acceleration over the period, axes for each floor, whose title stands above them, and damping ratio.
+/// Absolute acceleration over the period, axes for each floor and damping ratio, whose title stands above them.
 #[must_use]
-pub fn spectra(floors: &[(String, Curves<'_>)]) -> Chart {
-    let panels = floors.iter().map(|(title, curves)| {
-        let damping = percent(curves.pounding.damping);
-        let caption = format!("Absolute acceleration (g) on {title}, {damping}");
-        let curve =
-            |name: &str, s: &ResponseSpectrum| over(name, &s.periods, &s.acceleration, 1.0 / G);
-        let mut all = vec![curve("with pounding", curves.pounding)];
-        all.extend(curves.alone.map(|alone| curve("building alone", alone)));
-        all.push(curve("ground", curves.ground));
-        panel(&caption, "period (s)", all)
+pub fn spectra(floors: &[Floor<'_>]) -> Chart {
+    let panels = floors.iter().map(|floor| {
+        let damping = percent(floor.damping);
+        let caption = format!("Absolute acceleration (g) on {}, {damping}", floor.title);
+        let curves = floor.spectra.iter();
+        let curves = curves.map(|(name, values)| over(name, floor.periods, values, 1.0 / G));
+        panel(&caption, "period (s)", curves.collect())
     });
     over_period(&panels.collect::<Vec<_>>())
 }

@@ -13,11 +13,20 @@ const EQUAL: f64 = 1.0e-9;
 
 /// Its place in words.
 pub fn title(floor: &FloorWithSpectra) -> String {
-    let storey = match floor.is_roof {
+    place(
+        &floor.building,
+        (floor.storey, floor.is_roof),
+        floor.elevation,
+    )
+}
+
+/// That of the floor above a storey, which may be the roof, at an elevation (m).
+pub(super) fn place(building: &str, (storey, is_roof): (usize, bool), elevation: f64) -> String {
+    let storey = match is_roof {
         true => "roof".to_owned(),
-        false => format!("floor above storey {}", floor.storey),
+        false => format!("floor above storey {storey}"),
     };
-    format!("{}, {storey} at {} m", floor.building, floor.elevation)
+    format!("{building}, {storey} at {elevation} m")
 }
 
 /// One where both are zero, as on a floor that nothing moves.
@@ -25,50 +34,55 @@ fn ratio(with: f64, alone: f64) -> f64 {
     if with == alone { 1.0 } else { with / alone }
 }
 
-/// Where pounding raises the spectrum of the first damping ratio most, in words.
-fn most_raised(floor: &FloorWithSpectra) -> Option<String> {
-    let spectra = floor.spectra.first()?;
-    let alone = spectra.alone.as_ref()?;
-    let with = &spectra.pounding;
-    let pairs = with.acceleration.iter().zip(&alone.acceleration);
-    let ratios: Vec<f64> = pairs.map(|(with, alone)| ratio(*with, *alone)).collect();
+/// Where pounding raises accelerations (m/s2) of these periods (s) most, in words; `it` is what it raises.
+pub(super) fn most_raised(
+    it: &str,
+    periods: &[f64],
+    (with, alone): (&[f64], &[f64]),
+) -> Option<String> {
+    let ratios: Vec<f64> = with.iter().zip(alone).map(|(w, a)| ratio(*w, *a)).collect();
     let differs = |ratio: &f64| (ratio - 1.0).abs() > EQUAL;
     if !ratios.iter().any(differs) {
         return Some("pounding changes none of its peaks".to_owned());
     }
     let most = (0..ratios.len()).max_by(|a, b| ratios[*a].total_cmp(&ratios[*b]))?;
-    let (period, ratio) = (with.periods[most], ratios[most]);
+    let ratio = ratios[most];
     if ratio.is_infinite() {
         return Some("the building alone does not move".to_owned());
     }
     let accelerations = format!(
         "from {} g to {} g, at a period of {} s",
-        figures(alone.acceleration[most] / G),
-        figures(with.acceleration[most] / G),
-        figures(period)
+        figures(alone[most] / G),
+        figures(with[most] / G),
+        figures(periods[most])
     );
     Some(match ratio > 1.0 {
         true => format!(
-            "pounding raises it up to {} times, {accelerations}",
+            "pounding raises {it} up to {} times, {accelerations}",
             figures(ratio)
         ),
-        false => format!("pounding lowers it at all periods, least {accelerations}"),
+        false => format!("pounding lowers {it} at all periods, least {accelerations}"),
     })
+}
+
+/// That of the first damping ratio of a floor.
+fn most_raised_of(floor: &FloorWithSpectra) -> Option<String> {
+    let spectra = floor.spectra.first()?;
+    let alone = spectra.alone.as_ref()?;
+    let with = &spectra.pounding;
+    let accelerations = (&with.acceleration[..], &alone.acceleration[..]);
+    most_raised("it", &with.periods, accelerations)
 }
 
 /// The answer first, then a table for each floor and damping ratio.
 pub fn text(answer: &FloorSpectra, case: &str) -> String {
-    let mut text = String::new();
-    if !case.is_empty() {
-        text.push_str(&format!("{case}\n"));
-    }
-    text.push_str("Floor response spectra: peak absolute accelerations of equipment on the floors, by its period\n");
+    let mut text = heading(case);
     for floor in &answer.floors {
         text.push_str(&format!("\n{}", title(floor)));
         if let Some(first) = floor.spectra.first() {
             text.push_str(&format!(", {}", percent(first.pounding.damping)));
         }
-        if let Some(said) = most_raised(floor) {
+        if let Some(said) = most_raised_of(floor) {
             text.push_str(&format!(": {said}"));
         }
         let FloorPeaks { pounding, alone } = floor.peak_acceleration;
@@ -84,10 +98,28 @@ pub fn text(answer: &FloorSpectra, case: &str) -> String {
             text.push_str(&table(spectra));
         }
     }
-    for warning in &answer.warnings {
-        text.push_str(&format!("\nwarning: {warning}"));
-    }
-    if !answer.warnings.is_empty() {
+    text.push_str(&warned(&answer.warnings));
+    text
+}
+
+/// Title of the case, and what follows.
+pub(super) fn heading(case: &str) -> String {
+    let title = match case {
+        "" => String::new(),
+        case => format!("{case}\n"),
+    };
+    format!(
+        "{title}Floor response spectra: peak absolute accelerations of equipment on the floors, by its period\n"
+    )
+}
+
+/// What the user should know, below the answer.
+pub(super) fn warned(warnings: &[String]) -> String {
+    let lines = warnings
+        .iter()
+        .map(|warning| format!("\nwarning: {warning}"));
+    let mut text: String = lines.collect();
+    if !text.is_empty() {
         text.push('\n');
     }
     text
@@ -151,17 +183,22 @@ fn table(spectra: &SpectraOfFloor) -> String {
         let alone = spectra.alone.as_ref().map(|s| s.acceleration[i]);
         row.extend(alone.map(|alone| figures(alone / G)));
         row.push(figures(with / G));
-        row.extend(alone.map(|alone| match ratio(with, alone) {
-            ratio if ratio.is_finite() => format!("{ratio:.3}"),
-            _ => "-".to_owned(),
-        }));
+        row.extend(alone.map(|alone| shown_ratio(with, alone)));
         table.add_row(row);
     }
     format!("\n{}\n{table}\n", percent(spectra.pounding.damping))
 }
 
+/// A ratio in a table.
+pub(super) fn shown_ratio(with: f64, alone: f64) -> String {
+    match ratio(with, alone) {
+        ratio if ratio.is_finite() => format!("{ratio:.3}"),
+        _ => "-".to_owned(),
+    }
+}
+
 /// Four significant figures.
-fn figures(x: f64) -> String {
+pub(super) fn figures(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 || !x.is_finite() {
         return format!("{x}");

@@ -1,5 +1,14 @@
 //! What equipment on floors feels: response spectra of floors, with pounding and of the buildings alone.
 
+#[cfg(feature = "results")]
+mod suite;
+
+#[cfg(feature = "results")]
+pub use suite::{
+    AccelerationsOverRecords, FloorOverRecords, FloorSpectraOfRecord, FloorSpectraOverRecords,
+    RecordWithoutSpectra, SpectraOverRecords, floor_spectra_under,
+};
+
 use std::cell::Cell;
 use std::ops::ControlFlow;
 
@@ -10,6 +19,8 @@ use pounding_time_history::{
     History, Outcome, Recorder, StepView, System, TimeHistoryError, run as integrate,
 };
 use serde::Serialize;
+
+use crate::gap_check::CheckError;
 
 /// Pieces of the motions of floors in the shortest period, at least.
 const PIECES_OF_A_PERIOD: f64 = 50.0;
@@ -54,6 +65,25 @@ pub enum FloorSpectraError {
     /// A spectrum.
     #[error(transparent)]
     Spectrum(#[from] GroundMotionError),
+    /// The run with pounding under one of several records.
+    #[error("record {record}: {error}")]
+    Record {
+        /// Name of the record.
+        record: String,
+        /// Why it has no end.
+        error: Box<TimeHistoryError>,
+    },
+    /// Records of which none counts.
+    #[error("no record has spectra; {record}: {reason}")]
+    NoRecord {
+        /// Name of the first.
+        record: String,
+        /// Why it has none.
+        reason: String,
+    },
+    /// Work under several records.
+    #[error(transparent)]
+    Records(Box<CheckError>),
     /// Who asked does not want it any more.
     #[error("stopped")]
     Stopped,
@@ -73,7 +103,8 @@ impl FloorSpectraError {
                 Some("give ratios of the critical damping, such as 0.05".to_owned())
             }
             Self::Spectrum(error) => error.help(),
-            Self::Run(_) | Self::Stopped => None,
+            Self::Records(error) => error.help(),
+            Self::Run(_) | Self::Record { .. } | Self::NoRecord { .. } | Self::Stopped => None,
         }
     }
 }
@@ -191,6 +222,8 @@ pub struct FloorMotions<'a> {
     time_step: f64,
     with: (Outcome, Motions),
     alone: Option<(Outcome, Motions)>,
+    /// Why there is no run of the buildings alone.
+    alone_fails: Option<String>,
     warnings: Vec<String>,
 }
 
@@ -229,16 +262,17 @@ impl<'a> FloorMotions<'a> {
         let with = run(0.0, system)?;
         let alone = run(0.5, &system.isolated());
         let mut warnings = assembly.with_those_of_the_record(&with.0.warnings);
-        let alone = match alone {
-            Ok(alone) => Some(alone),
+        let (alone, alone_fails) = match alone {
+            Ok(alone) => (Some(alone), None),
             Err(FloorSpectraError::Stopped) => return Err(FloorSpectraError::Stopped),
-            Err(error) => {
-                warnings.push(format!(
+            Err(error) => (
+                None,
+                Some(format!(
                     "the buildings without gaps and links have no run, and so no spectrum to compare with: {error}"
-                ));
-                None
-            }
+                )),
+            ),
         };
+        warnings.extend(alone_fails.clone());
         let mut levels = system.gaps().iter().flat_map(|gap| system.levels_of(gap));
         if impacts(&with.0) > 0 && levels.any(|l| l.model.rigid_restitution().is_some()) {
             warnings.push("rigid impacts are jumps of the velocity: spectra hold what they do to equipment, peak accelerations of floors leave them out".to_owned());
@@ -250,6 +284,7 @@ impl<'a> FloorMotions<'a> {
             time_step,
             with,
             alone,
+            alone_fails,
             warnings,
         })
     }

@@ -9,7 +9,7 @@ use super::bootstrap::{FrequencyBounds, RecordCounts, frequency_bounds};
 use super::demands::{
     Demand, Lack, isolated_buildings, of_gap, of_limit, sides_of_gaps, usual, yielding_buildings,
 };
-use super::fragility::{Counts, FragilityFit, fit};
+use super::fragility::{Counts, CurveOfRuns, FragilityFit, fit};
 use super::goodness::{
     self, Capacity, Evidence, FitRemark, GoodnessOfFit, Sampled, ShownIntensity,
 };
@@ -521,7 +521,7 @@ impl Evaluation<'_> {
     fn limit(&self, name: &str, reached: &dyn Fn(&Run) -> bool) -> Result<LimitResult, StudyError> {
         let counts = self.counts(reached);
         let effect = self.design_effect(reached);
-        let fit = fit(&counts).of_alike_runs(effect);
+        let fit = self.errors_of(fit(&counts), (&counts, effect), reached);
         let evidence = self.evidence(reached);
         let goodness = match &fit {
             FragilityFit::Lognormal(f) => goodness::test(f, &counts, (&evidence, effect)),
@@ -551,6 +551,43 @@ impl Evaluation<'_> {
             counts,
             fit,
         })
+    }
+
+    /// The fit with the errors of runs that depend on one another.
+    fn errors_of(
+        &self,
+        fit: FragilityFit,
+        (counts, effect): (&[Counts], f64),
+        reached: &dyn Fn(&Run) -> bool,
+    ) -> FragilityFit {
+        let samples = self.curves_of_runs(&|run| run.sample, reached);
+        if let Some(curves) = samples {
+            return fit.of_curves(counts, &curves).of_alike_runs(effect);
+        }
+        // Structures may differ from run to run of a record, whose runs are alike all the same.
+        match self.curves_of_runs(&|run| run.record, reached) {
+            Some(curves) => fit.of_curves(counts, &curves),
+            None => fit.of_alike_runs(effect),
+        }
+    }
+
+    /// Intensities of the runs of each sample or record that did not fail; `None` where none has several.
+    fn curves_of_runs(
+        &self,
+        key: &dyn Fn(&Run) -> usize,
+        reached: &dyn Fn(&Run) -> bool,
+    ) -> Option<Vec<CurveOfRuns>> {
+        let curve = |states: Vec<Vec<Option<bool>>>| {
+            let levels = states.iter().zip(self.intensities);
+            let known = levels.map(|(runs, intensity)| {
+                let known = runs.iter().flatten().count();
+                (*intensity, known as f64)
+            });
+            known.filter(|(_, runs)| *runs > 0.0).collect()
+        };
+        let curves = self.states(key, reached).into_values().map(curve);
+        let curves: Vec<CurveOfRuns> = curves.collect();
+        curves.iter().any(|curve| curve.len() > 1).then_some(curves)
     }
 
     fn shown(&self, si: f64) -> ShownIntensity {

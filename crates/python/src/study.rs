@@ -111,7 +111,8 @@ fn run_study(
         let analysis = settings.map(|settings| {
             let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
             let result = result.map_err(|e| failed(e.into()))?;
-            let report = evaluate(&read, &result).map_err(failed)?;
+            let work = (options.threads, &|_, _| () as _);
+            let report = evaluate(&read, &result, work).map_err(failed)?;
             json(&Analysis::of(&report, settings))
         });
         Ok::<_, Problem>((finished, analysis.transpose()?, note))

@@ -1,5 +1,7 @@
 //! Confidence of a mean annual frequency: the records are drawn anew.
 
+use pounding_time_history::in_parallel;
+
 use super::fragility::{Counts, FragilityFit, fit};
 use super::hazard::mean_annual_frequency;
 use crate::design::mixing::unit;
@@ -70,7 +72,7 @@ pub(super) fn frequency_bounds(
     intensities: &[f64],
     groups: &[Vec<RecordCounts>],
     hazard: &HazardCurve,
-    confidence: f64,
+    (confidence, threads): (f64, usize),
 ) -> Option<FrequencyBounds> {
     let records = groups.concat();
     if records.len() < 2 {
@@ -105,8 +107,8 @@ pub(super) fn frequency_bounds(
     };
     let mut found = Vec::new();
     let (mut above, mut unknown) = (0, 0);
-    for set in 0..RESAMPLES {
-        match drawn(set) {
+    for of_set in in_parallel(RESAMPLES, threads, drawn) {
+        match of_set {
             Drawn::Frequency(frequency) => found.push(frequency),
             Drawn::Above => above += 1,
             Drawn::Unknown => unknown += 1,
@@ -165,8 +167,13 @@ mod tests {
                 reached.collect()
             })
             .collect();
-        let bounds =
-            frequency_bounds(&intensities, std::slice::from_ref(&records), &hazard, 0.9).unwrap();
+        let bounds = frequency_bounds(
+            &intensities,
+            std::slice::from_ref(&records),
+            &hazard,
+            (0.9, 2),
+        )
+        .unwrap();
         let exact = 1e-4 * median.powf(-k) * (0.5 * k * k * beta * beta).exp();
         let deviation = (k * k * beta * beta / n as f64 * (1.0 + 0.5 * k * k * beta * beta)).sqrt();
         let reach = 1.644_853_6 * deviation;
@@ -175,7 +182,12 @@ mod tests {
         let found = 0.5 * (high / low).ln();
         assert!((found / reach - 1.0).abs() < 0.15, "{found} {reach}");
         // Same input, same bits.
-        let again = frequency_bounds(&intensities, std::slice::from_ref(&records), &hazard, 0.9);
+        let again = frequency_bounds(
+            &intensities,
+            std::slice::from_ref(&records),
+            &hazard,
+            (0.9, 2),
+        );
         assert_eq!(again, Some(bounds));
     }
 
@@ -213,7 +225,7 @@ mod tests {
         let [s, t] = fitted.standard_errors;
         let b = fitted.dispersion;
         let variance = s * s + b * b * t * t - 2.0 * b * fitted.covariance;
-        let found = frequency_bounds(&intensities, &groups, &hazard, 0.9).unwrap();
+        let found = frequency_bounds(&intensities, &groups, &hazard, (0.9, 2)).unwrap();
         let reach = 0.5 * (found.high.unwrap() / found.low.unwrap()).ln();
         let expected = 1.644_853_6 * variance.sqrt();
         assert!((reach / expected - 1.0).abs() < 0.12, "{reach} {expected}");
@@ -223,10 +235,10 @@ mod tests {
     fn one_record_has_no_bounds() {
         let hazard = HazardCurve::new(vec![(0.1, 1e-2), (1.0, 1e-4)]).unwrap();
         let one = [vec![vec![(1, 0), (1, 1)]]];
-        assert_eq!(frequency_bounds(&[0.1, 0.2], &one, &hazard, 0.9), None);
+        assert_eq!(frequency_bounds(&[0.1, 0.2], &one, &hazard, (0.9, 2)), None);
         // All reach it already at the least intensity: no frequency, and no bounds.
         let always = [vec![vec![(1, 1), (1, 1)], vec![(1, 1), (1, 1)]]];
-        let without = frequency_bounds(&[0.1, 0.2], &always, &hazard, 0.9).unwrap();
+        let without = frequency_bounds(&[0.1, 0.2], &always, &hazard, (0.9, 2)).unwrap();
         assert_eq!((without.low, without.high), (None, None));
         assert_eq!((without.above, without.unknown), (RESAMPLES, 0));
         let counts = [Counts {
@@ -246,7 +258,7 @@ mod tests {
         let early = vec![(1, 1), (1, 1), (1, 1)];
         let late = vec![(1, 0), (1, 1), (1, 0)];
         let records = [vec![early.clone(), early.clone(), early, late]];
-        let found = frequency_bounds(&[0.1, 0.2, 0.4], &records, &hazard, 0.9).unwrap();
+        let found = frequency_bounds(&[0.1, 0.2, 0.4], &records, &hazard, (0.9, 2)).unwrap();
         assert!((250..400).contains(&found.above), "{found:?}");
         assert_eq!(found.high, None, "{found:?}");
     }

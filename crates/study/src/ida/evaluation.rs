@@ -1,5 +1,6 @@
 //! The evaluation of an incremental dynamic analysis.
 
+use std::cell::Cell;
 use std::collections::{BTreeMap, BTreeSet};
 
 use pounding_case::Dimension;
@@ -260,9 +261,16 @@ struct Run {
 
 /// Evaluates the result of a study with an `[ida]` part.
 ///
+/// Sets of records are drawn on so many threads, on whose number nothing depends, and `tell` is told how many of how many
+/// states are evaluated.
+///
 /// # Errors
 /// A study without that part, or a result that cannot be read or is not that of the study.
-pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, StudyError> {
+pub fn evaluate(
+    study: &Study,
+    result: &ResultReader,
+    (threads, tell): (usize, &dyn Fn(usize, usize)),
+) -> Result<IdaReport, StudyError> {
     let wrong = |reason: &str| StudyError::Evaluation {
         what: "incremental dynamic analysis",
         reason: reason.to_owned(),
@@ -339,10 +347,18 @@ pub fn evaluate(study: &Study, result: &ResultReader) -> Result<IdaReport, Study
         }
     }
     left_out.reverse();
+    let least = usize::from(settings.target_frequency.is_some());
+    let states = 1 + limits.len() + gaps.len() * (settings.gaps.len() + least);
+    let done = Cell::new(0);
     let evaluation = Evaluation {
         settings,
         intensities: &intensities,
         runs: &runs,
+        threads,
+        evaluated: &|| {
+            done.set((done.get() + 1).min(states));
+            tell(done.get(), states);
+        },
     };
     let first_limit = shown.len();
     let first_gap = first_limit + limits.len();
@@ -475,6 +491,10 @@ struct Evaluation<'a> {
     settings: &'a IdaSettings,
     intensities: &'a [f64],
     runs: &'a [Run],
+    /// On which sets of records are drawn.
+    threads: usize,
+    /// Told after each state.
+    evaluated: &'a dyn Fn(),
 }
 
 impl Evaluation<'_> {
@@ -536,12 +556,18 @@ impl Evaluation<'_> {
         let fitted = matches!(fit, FragilityFit::Lognormal(_));
         let bounds = hazard.filter(|_| fitted).and_then(|hazard| {
             let groups = self.of_records(reached);
-            frequency_bounds(self.intensities, &groups, hazard, confidence)
+            frequency_bounds(
+                self.intensities,
+                &groups,
+                hazard,
+                (confidence, self.threads),
+            )
         });
         let of = (&evidence, self.records());
         let mut remarks = goodness::remarks(&fit, goodness.as_ref(), &counts, of);
         remarks.extend(hazard.into_iter().flat_map(|h| self.of_frequency(&fit, h)));
         remarks.extend(bounds.iter().flat_map(of_bounds));
+        (self.evaluated)();
         Ok(LimitResult {
             name: name.to_owned(),
             remarks,
@@ -934,6 +960,8 @@ mod tests {
             settings: &settings,
             intensities: &intensities,
             runs: &runs,
+            threads: 2,
+            evaluated: &|| (),
         };
         evaluation.limit("state", &|r| r.demands[0] > 1.0).unwrap()
     }
@@ -1015,6 +1043,8 @@ mod tests {
             settings: &settings,
             intensities: &intensities,
             runs: &runs,
+            threads: 2,
+            evaluated: &|| (),
         };
         evaluation.minimum("pair", 0, target).unwrap().unwrap()
     }

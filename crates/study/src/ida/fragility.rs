@@ -273,6 +273,14 @@ fn of_motion(curve: &CurveOfRuns, (slope, centre): (f64, f64), spread: &mut [f64
     }
 }
 
+/// A step of Newton's method, of one and the parameter, below which round-off decides which value is the higher.
+const NEAR: f64 = 1.0e-6;
+/// One after which there is nothing to gain.
+const LAST: f64 = 1.0e-11;
+
+/// Part of a step below which no part of it leads higher.
+const LEAST_PART: f64 = 1.0e-12;
+
 /// Newton's method with halved steps.
 fn maximum(used: &[&Counts]) -> Option<Fragility> {
     let runs: f64 = used.iter().map(|c| c.runs as f64).sum();
@@ -295,10 +303,11 @@ fn maximum(used: &[&Counts]) -> Option<Fragility> {
             -(bb * ga - ab * gb) / determinant,
             -(aa * gb - ab * ga) / determinant,
         ];
+        let size = (step[0].abs() / (1.0 + a.abs())).max(step[1].abs() / (1.0 + b.abs()));
         let mut part = 1.0;
         let next = loop {
             let next = likelihood(used, a + part * step[0], b + part * step[1], centre);
-            if next.value >= here.value || part < 1.0e-12 {
+            if size < NEAR || next.value >= here.value || part < LEAST_PART {
                 break next;
             }
             part *= 0.5;
@@ -306,7 +315,7 @@ fn maximum(used: &[&Counts]) -> Option<Fragility> {
         a += part * step[0];
         b += part * step[1];
         here = next;
-        if step[0].abs() < 1.0e-13 * (1.0 + a.abs()) && step[1].abs() < 1.0e-13 * (1.0 + b.abs()) {
+        if size < LAST || part < LEAST_PART {
             break;
         }
     }

@@ -19,6 +19,7 @@ use crate::files::{have_a_place, reads_too};
 use crate::interruption::quoted;
 use crate::output::{comma_separated, pretty, print};
 use crate::plan::{self, Planned, path_word};
+use crate::progress::{Progress, Unit, threads};
 use crate::study::{Finished, all_failed, options, run, shard, stands_complete, summary};
 use crate::{page, plot};
 
@@ -59,7 +60,7 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     }
     let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
     let result = result.map_err(StudyError::from)?;
-    let report = evaluate(&study, &result)?;
+    let report = evaluated(&study, &result, arguments.running.threads)?;
     if let Some(path) = &arguments.plot {
         plot::write_drawn(path, fragility(&report), &arguments.figure)?;
     }
@@ -74,6 +75,17 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
         (&study, &sweep, &options),
         Some((&report, settings)),
     )
+}
+
+/// What the runs say.
+fn evaluated(
+    study: &Study,
+    result: &ResultReader,
+    asked: Option<u32>,
+) -> Result<IdaReport, Failure> {
+    let progress = Progress::begin(Unit::Part)?;
+    let tell = |done: usize, states: usize| progress.show(done, states, "evaluation");
+    Ok(evaluate(study, result, (threads(asked), &tell))?)
 }
 
 /// Prints what the runs are, and what they say, if they do.
@@ -190,7 +202,7 @@ pub fn page_of_result(
             ),
         ));
     }
-    let report = evaluate(&study, result)?;
+    let report = evaluated(&study, result, None)?;
     write_page(output, &study, result, &report)
 }
 

@@ -99,6 +99,21 @@ fn a_ball_comes_to_rest() {
     }
 }
 
+/// A ball that falls upon one that lies on the ground: its shocks go through the contact below, whose force is the weight of
+/// both in the end, whatever the step. Divided by the step they would be some hundred weights, and more for shorter ones.
+#[test]
+fn shocks_through_floors_that_are_held_are_no_forces() {
+    let ground = constant_ground(-9.81, 8.0);
+    let system = free_bodies(&[1.0, 2.0], &[1.0, 0.0], 0.5, ground);
+    for step in [1.0e-3, 3.0e-4, 1.0e-4] {
+        let outcome = go(&system, step, 8.0);
+        assert!(outcome.gaps[0].levels[0].impacts > 3);
+        let held = outcome.gaps[1].levels[0].peak_force.value;
+        // The last bounces, of which less than a thousandth is shock, count whole.
+        assert!((held / (3.0 * 9.81) - 1.0).abs() < 1e-3, "{step}: {held}");
+    }
+}
+
 /// First order on case C1, and the ledger closes to round-off with theta 1/2.
 #[test]
 fn converges_to_the_located_impacts_in_first_order() {

@@ -5,6 +5,9 @@ use super::rigid_impacts::lasting;
 use crate::dynamics::Segment;
 use crate::outcome::Peak;
 
+/// Part of an impulse that is the momentum with which floors met from which on it is a shock: floors that stay together do not meet.
+const SHOCK: f64 = 1.0e-3;
+
 impl Driver<'_> {
     /// Logs what an accepted step did at every level. An impact is a run of steps with
     /// impulses; its times are ends of steps. From the second of them on the floors are held
@@ -15,8 +18,20 @@ impl Driver<'_> {
         };
         let n = self.dynamics.layout.dofs;
         let time = segment.start + tau + step;
+        let levels = self.system.levels();
+        // The momentum with which the floors of a level met, by Newton's law.
+        let met = |l: usize, velocity: &[f64]| {
+            let approach = levels[l].relative(velocity).max(0.0);
+            let restitution = levels[l].model.rigid_restitution().unwrap_or(0.0);
+            levels[l].effective_mass * (1.0 + restitution) * approach
+        };
+        let is_shock = |l: usize, velocity: &[f64]| {
+            impulses[l] > 0.0 && met(l, velocity) > SHOCK * impulses[l]
+        };
+        let before = &self.new_state[n..2 * n];
+        let shocks = (0..levels.len()).filter(|l| is_shock(*l, before)).count();
         for (l, impulse) in impulses.iter().enumerate() {
-            let level = &self.system.levels()[l];
+            let level = &levels[l];
             let overlap = self
                 .contacts
                 .penetration(self.system, l, &self.state[..n])
@@ -35,11 +50,13 @@ impl Driver<'_> {
                     self.log.begin_lasting(l);
                     self.peaks.force[l] = Peak { value: 0.0, time };
                 }
-                // What holds them is what is left beside the momentum with which they met.
-                let approach = level.relative(&self.new_state[n..2 * n]).max(0.0);
-                let restitution = level.model.rigid_restitution().unwrap_or(0.0);
-                let met = level.effective_mass * (1.0 + restitution) * approach;
-                self.peaks.force[l].raise((impulse - met).max(0.0) / step, time);
+                // What holds them is what is left beside the momentum with which they met. Where others met, their shock
+                // goes through these floors too, and how much of the impulse it is nobody knows.
+                let before = &self.new_state[n..2 * n];
+                if shocks == usize::from(is_shock(l, before)) {
+                    let held = (impulse - met(l, before)).max(0.0);
+                    self.peaks.force[l].raise(held / step, time);
+                }
                 if self.contacts.contact(l).is_none() {
                     // For what is recorded of the next step, to which the method gives its own
                     // impulse.

@@ -205,9 +205,11 @@ fn unit_of_name(name: &str, dimension: Dimension) -> Result<Option<f64>, Refused
         let message = format!("\"{unit}\" in the column \"{name}\" is no unit of {dimension}");
         Err((message, help()))
     };
-    let (unit, marked) = match unit_in(name) {
-        Some(unit) => (unit, name.contains(['(', '[']) || unit.len() <= UNIT),
-        None => (last_word(name), false),
+    let (unit, marked) = match (unit_in(name), name.rsplit_once('/')) {
+        // What stands behind a stroke, `F/kN`, can be nothing else.
+        (None, Some((_, unit))) => (unit.trim(), true),
+        (Some(unit), _) => (unit, name.contains(['(', '[']) || unit.len() <= UNIT),
+        (None, None) => (last_word(name), false),
     };
     match parse_quantity(&format!("1 {unit}")) {
         Ok(found) if found.dimension == Some(dimension) => return Ok(Some(found.value)),
@@ -248,18 +250,23 @@ fn last_word(name: &str) -> &str {
 
 /// Whether a word is a unit of a dimension, also spelled out or with other capitals.
 fn is_nearly_unit(word: &str, dimension: Dimension) -> bool {
+    // The number before a unit, as in `1000N`, belongs to it.
+    let word = word.trim_start_matches(|c: char| c.is_ascii_digit());
     let symbols: &[&str] = match dimension == Dimension::TIME {
-        true => &["s", "ms", "us", "min"],
-        false => &["N", "kN", "MN", "lbf", "kip", "kips", "kgf", "tf"],
+        true => &["s", "ms", "us", "ns", "min", "msec", "h", "hr"],
+        false => &[
+            "N", "kN", "MN", "GN", "lbf", "lb", "klbf", "klb", "kip", "kgf", "kg", "tf", "tonf",
+            "ton", "dyn", "gf",
+        ],
     };
     let names: &[&str] = match dimension == Dimension::TIME {
-        true => &["second", "sec", "minute", "hour"],
-        false => &["newton", "pound", "kilopond"],
+        true => &["second", "sec", "minute", "hour", "day"],
+        false => &["newton", "pound", "kilopond", "tonne", "dyne"],
     };
     let lower = word.to_lowercase();
     let singular = lower.strip_suffix('s').unwrap_or(&lower);
     symbols
         .iter()
-        .any(|symbol| symbol.eq_ignore_ascii_case(word))
+        .any(|symbol| symbol.to_lowercase() == lower || symbol.to_lowercase() == singular)
         || names.iter().any(|name| singular.ends_with(name))
 }

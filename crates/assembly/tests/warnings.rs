@@ -49,3 +49,46 @@ fn columns_that_no_floor_hits_are_told() {
     assert!(told[0].contains("`levels = \"all_floors\"`"), "{told:?}");
     assert_eq!(warnings("", ""), [""; 0]);
 }
+
+/// Zeros that filters put before records: 0.75 times 4 over the corner, 30 s at 0.1 Hz and 15 s at 0.2 Hz.
+#[test]
+fn motions_that_filters_put_out_of_step_are_told() {
+    let record = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../ground_motions/el_centro_1940_ns.csv"
+    );
+    let filter = |corner: &str, more: &str| {
+        format!("process = [{{ filter = {{ high_pass = \"{corner}\", order = 4{more} }} }}]")
+    };
+    let case = |of_case: &str, building: &str| {
+        let text = format!(
+            "[[building]]\nname = \"a\"\nmass = [1e5, 1e5]\nheight = 3\nstiffness = 1e8\ndamping = {{ modal = 0.05 }}\n{building}\n[ground_motion]\nfile = \"{record}\"\n{of_case}\n"
+        );
+        let case = Case::parse(&text, Path::new("case.toml")).unwrap();
+        let told = assemble(&case).unwrap().warnings();
+        told.into_iter()
+            .filter(|w| w.contains("zeros"))
+            .collect::<Vec<_>>()
+    };
+    let own = |steps: &str| format!("ground = {{ file = \"{record}\", {steps} }}");
+    let (low, high) = (filter("0.1 Hz", ""), filter("0.2 Hz", ""));
+    let told = case(&low, &own(&high));
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(
+        told[0].contains(
+            "30.00 s of zeros before the record of the case, and 15.00 s before that of a"
+        ),
+        "{told:?}"
+    );
+    assert_eq!(case(&low, &own(&low)), [""; 0]);
+    let without = filter("0.1 Hz", ", keep_pads = false");
+    assert_eq!(case(&without, &own("process = []")), [""; 0]);
+    assert_eq!(case(&low, &own("process = []")).len(), 1);
+    let force = "[[building.force]]\nstorey = 1\npoints = [[0, 0], [1, 1e3], [2, 0]]";
+    let told = case(&low, force);
+    assert!(
+        told.len() == 1 && told[0].contains("forces on floors begin with them"),
+        "{told:?}"
+    );
+    assert_eq!(case(&without, force), [""; 0]);
+}

@@ -126,6 +126,7 @@ fn unused(case: &Case) -> Vec<String> {
     let mut told = column::never_hit(case);
     told.extend(method::without_effect(case));
     told.extend(plan::frames_outside(case));
+    told.extend(motions::out_of_step(case));
     let own = case.buildings.iter().filter_map(|b| b.ground.as_ref());
     let own = own.filter_map(|ground| ground.value.motion.as_ref());
     for motion in std::iter::once(&case.ground_motion).chain(own) {

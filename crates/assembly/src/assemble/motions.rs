@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use pounding_case::{Case, Located};
 use pounding_ground_motion::Accelerogram;
+use pounding_ground_motion::processing::ProcessingStep;
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
 
@@ -140,4 +141,55 @@ pub(super) fn on_their_ground(
         _ => System::with_motions(buildings, motions, supports)?,
     };
     on_floors(case, system)
+}
+
+/// Seconds by which times of motions may differ and be the same to people.
+const SAME_TIME: f64 = 0.05;
+
+/// Zeros (s) that the filters of a record put before it.
+fn zeros_before(motion: &pounding_case::GroundMotion) -> f64 {
+    let mut zeros = 0.0_f64;
+    for step in &motion.process {
+        match &step.value {
+            ProcessingStep::Filter(filter) => zeros += filter.zeros_at_each_end(),
+            // Whoever cuts a record knows where it begins.
+            ProcessingStep::Trim(_) => zeros = 0.0,
+            _ => {}
+        }
+    }
+    zeros
+}
+
+/// Motions and forces that were in step with one another before filters put zeros before some of them, in words.
+pub(super) fn out_of_step(case: &Case) -> Vec<String> {
+    let own = zeros_before(&case.ground_motion);
+    let remedy = "in the filters `keep_pads = false` leaves the zeros out";
+    let differs = |zeros: f64| (zeros - own).abs() > SAME_TIME;
+    let mut told = Vec::new();
+    let mut tell = |what: &str, zeros: f64| {
+        told.push(format!(
+            "filters put {own:.2} s of zeros before the record of the case, and {zeros:.2} s before {what}: they do not begin together; {remedy}"
+        ));
+    };
+    for building in &case.buildings {
+        let motion = building
+            .ground
+            .as_ref()
+            .and_then(|g| g.value.motion.as_ref());
+        if let Some(zeros) = motion.map(zeros_before).filter(|zeros| differs(*zeros)) {
+            tell(&format!("that of {}", building.name.value), zeros);
+        }
+    }
+    if let Some(across) = &case.ground_motion.across {
+        let zeros = zeros_before(&across.value);
+        if differs(zeros) {
+            tell("that across the row", zeros);
+        }
+    }
+    if own > SAME_TIME && case.buildings.iter().any(|b| !b.forces.is_empty()) {
+        told.push(format!(
+            "filters put {own:.2} s of zeros before the record, and forces on floors begin with them: {remedy}, or let forces begin later"
+        ));
+    }
+    told
 }

@@ -179,12 +179,25 @@ impl Butterworth {
         Ok((record.with_samples(samples, h)?, step))
     }
 
-    /// Filtered samples with pads, and the length of one pad: 1.5 n/fc in all for the
-    /// lowest corner (Converse and Brady 1992, USGS OFR 92-296A).
-    fn both_directions(&self, record: &Accelerogram, chain: &[Section]) -> (Vec<f64>, usize) {
+    /// Length (s) of one pad, rounded up to whole steps of the record: 1.5 n/fc in all for the lowest corner (Converse and
+    /// Brady 1992, USGS OFR 92-296A).
+    fn pad(&self) -> f64 {
         let lowest = self.high_pass.or(self.low_pass).unwrap_or(f64::INFINITY);
-        let length = 0.75 * self.order as f64 / lowest;
-        let pad = (length / record.time_step()).ceil() as usize;
+        0.75 * self.order as f64 / lowest
+    }
+
+    /// Zeros (s) that it leaves at each end of a record, but for a time step.
+    #[must_use]
+    pub fn zeros_at_each_end(&self) -> f64 {
+        match self.phase {
+            Phase::Zero { keep_pads: true } => self.pad(),
+            _ => 0.0,
+        }
+    }
+
+    /// Filtered samples with pads, and the length of one pad.
+    fn both_directions(&self, record: &Accelerogram, chain: &[Section]) -> (Vec<f64>, usize) {
+        let pad = (self.pad() / record.time_step()).ceil() as usize;
         let mut samples = with_zeros(record.samples(), pad, pad);
         for _ in 0..2 {
             chain.iter().for_each(|s| s.run(&mut samples));

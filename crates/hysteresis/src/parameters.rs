@@ -3,13 +3,24 @@
 pub use pounding_catalogue::Parameters as LawParameters;
 pub(crate) use pounding_catalogue::{non_negative, optional_positive, positive};
 
-use crate::descriptor::{ParameterDescriptor, ParameterUnit};
+use crate::descriptor::{LawDescriptor, ParameterDescriptor, ParameterUnit};
 
 /// Deformation (m) at which an element of initial stiffness `stiffness` (N/m) begins to yield or
-/// slip: its yield displacement, or its yield or friction force over that stiffness. `None` for a
-/// law without one of them.
+/// slip from rest in either direction: its yield displacement, or its yield or friction force over that stiffness. `None` for
+/// a law without one of them, and for bumpers, which a gap parts from what they act on.
 #[must_use]
-pub fn yield_deformation(parameters: &LawParameters, stiffness: f64) -> Option<f64> {
+pub fn yield_deformation(
+    law: &LawDescriptor,
+    parameters: &LawParameters,
+    stiffness: f64,
+) -> Option<f64> {
+    if law
+        .parameters
+        .iter()
+        .any(|parameter| parameter.name == "gap")
+    {
+        return None;
+    }
     let force = ["yield_force", "friction_force"]
         .iter()
         .find_map(|name| parameters.given(name));

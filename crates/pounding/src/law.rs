@@ -42,7 +42,7 @@ impl Law {
         }
         let law = build(descriptor.name, &values).map_err(refused)?;
         Ok(StoreyLaw {
-            yield_drift: yield_deformation(&values, law.initial_stiffness()),
+            yield_drift: yield_deformation(descriptor, &values, law.initial_stiffness()),
             law: law.into(),
         })
     }

@@ -111,8 +111,8 @@ fn run_study(
         let analysis = settings.map(|settings| {
             let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
             let result = result.map_err(|e| failed(e.into()))?;
-            let work = (options.threads, &|_, _| () as _);
-            let report = evaluate(&read, &result, work).map_err(failed)?;
+            let tell: &dyn Fn(usize, usize) = &|_, _| ();
+            let report = evaluate(&read, &result, (options.threads, tell)).map_err(failed)?;
             json(&Analysis::of(&report, settings))
         });
         Ok::<_, Problem>((finished, analysis.transpose()?, note))

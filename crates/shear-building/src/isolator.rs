@@ -292,7 +292,7 @@ impl Isolator {
         let parameters = LawParameters::from_pairs(&parameters);
         let law = build(name, &parameters)?;
         Ok(Some(StoreyLaw {
-            yield_drift: yield_deformation(&parameters, law.initial_stiffness()),
+            yield_drift: yield_deformation(law.descriptor(), &parameters, law.initial_stiffness()),
             law: Arc::from(law),
         }))
     }

@@ -138,7 +138,7 @@ fn built(
 ) -> Result<StoreyLaw, CaseError> {
     let law = build(descriptor.name, values).map_err(|e| at(case, model.span.clone(), &e))?;
     Ok(StoreyLaw {
-        yield_drift: yield_deformation(values, law.initial_stiffness()),
+        yield_drift: yield_deformation(descriptor, values, law.initial_stiffness()),
         law: Arc::from(law),
     })
 }

@@ -200,7 +200,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
         let Some(quantity) = layout.quantities.iter().find(|q| q.name == *name) else {
             continue;
         };
-        let found = columns(layout, name);
+        let found = drawn_columns(result, name);
         let most = greatest(runs, &found);
         let jumps = *name == "peak_force" && has_rigid_impacts(result, runs);
         // Where velocities jump there is no force: zero is that of levels that nothing hits.
@@ -208,7 +208,7 @@ fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
             continue;
         }
         let place = found.iter().find(|c| runs.values[**c].contains(&most));
-        let at = place.map(|c| of_column(layout, quantity, c - found[0]));
+        let at = place.map(|c| of_column(layout, quantity, c - layout.range(name).start));
         let row = place.and_then(|c| runs.values[*c].iter().position(|x| *x == most));
         let (factor, unit) = unit_of(quantity.unit);
         let from = format!("maximum {name}");
@@ -252,6 +252,27 @@ fn has_rigid_impacts(result: &ResultReader, runs: &Runs) -> bool {
         let mut rows = runs.values[*impacts].iter().zip(&runs.values[*force]);
         rows.any(|(impacts, force)| *impacts > 0.0 && force.is_nan())
     })
+}
+
+/// Columns of a quantity that has figures. Isolators go through many times the displacement at which they yield, for which
+/// they are there: their ductility is none of a storey.
+fn drawn_columns(result: &ResultReader, name: &str) -> Vec<usize> {
+    let d = &result.description;
+    let all = columns(&d.layout, name);
+    if name != "peak_ductility" {
+        return all;
+    }
+    let case = d.case.parse::<toml::Table>().unwrap_or_default();
+    let buildings = case.get("building").and_then(toml::Value::as_array);
+    let on_isolators = buildings.into_iter().flatten().filter_map(|building| {
+        building.get("isolator")?;
+        building.get("name")?.as_str()
+    });
+    let on_isolators: Vec<&str> = on_isolators.collect();
+    let storeys = all.into_iter().zip(&d.layout.storeys);
+    let above = storeys
+        .filter(|(_, storey)| storey.storeys != [1] || !on_isolators.contains(&storey.of.as_str()));
+    above.map(|(column, _)| column).collect()
 }
 
 /// Columns of a quantity among the values of a row.
@@ -441,7 +462,7 @@ fn sensitivities<'r>(result: &'r ResultReader, runs: &Runs) -> Vec<(&'r str, Sen
     });
     let inputs: Vec<Input<'_>> = inputs.collect();
     let found = DRAWN.iter().filter_map(|name| {
-        let of = columns(&d.layout, name);
+        let of = drawn_columns(result, name);
         let quantity = d.layout.quantities.iter().find(|q| q.name == *name)?;
         let rows = 0..runs.numbers.len();
         let values: Vec<f64> = rows.map(|row| of_run(runs, name, &of, row)).collect();
@@ -530,7 +551,7 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
         let (scale, _) = unit_of(&coordinate.unit);
         let mut panels = Vec::new();
         for name in DRAWN {
-            let found = columns(&d.layout, name);
+            let found = drawn_columns(result, name);
             let Some(quantity) = d.layout.quantities.iter().find(|q| q.name == name) else {
                 continue;
             };

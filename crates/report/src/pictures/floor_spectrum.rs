@@ -26,7 +26,12 @@ pub fn spectra(floors: &[Floor<'_>]) -> Chart {
         let damping = percent(floor.damping);
         let caption = format!("Absolute acceleration (g) on {}, {damping}", floor.title);
         let curves = floor.spectra.iter();
-        let curves = curves.map(|(name, values)| over(name, floor.periods, values, 1.0 / G));
+        let curves = curves.map(|(name, values)| {
+            let mut curve = over(name, floor.periods, values, 1.0 / G);
+            // In the order of the periods, which stand as they were asked for.
+            curve.points.sort_by(|a, b| a.0.total_cmp(&b.0));
+            curve
+        });
         panel(&caption, "period (s)", curves.collect())
     });
     over_period(&panels.collect::<Vec<_>>())

@@ -84,7 +84,7 @@ pub(super) fn draw(comparison: &Comparison) -> Vec<Conclusion> {
             let amplification = quantity.kind.amplification();
             conclusions.push(Conclusion {
                 statement: format!("pounding raises the peak {words} of {}", quantity.of),
-                statistic: quantity.kind.statistic(),
+                statistic: quantity.statistic(),
                 judgement: judged(comparison, |model, record| {
                     truth(comparison.ratio_of_maxima(model, record, q), raised)
                 }),

@@ -116,8 +116,7 @@ impl QuantityKind {
     }
 
     /// How one value comes from storeys, or from levels and impacts.
-    #[must_use]
-    pub fn statistic(self) -> &'static str {
+    fn statistic(self) -> &'static str {
         match self {
             Self::Displacement
             | Self::DriftRatio
@@ -183,9 +182,23 @@ pub struct Quantity {
     pub of: String,
     /// Its number, from zero.
     pub index: usize,
+    /// Whether it is of a building on isolators.
+    pub on_isolators: bool,
 }
 
 impl Quantity {
+    /// How one value comes from storeys, or from levels and impacts.
+    #[must_use]
+    pub fn statistic(&self) -> &'static str {
+        use QuantityKind::{DriftRatio, Ductility, ResidualDriftRatio};
+        match self.kind {
+            DriftRatio | Ductility | ResidualDriftRatio if self.on_isolators => {
+                "maximum over storeys above isolators"
+            }
+            kind => kind.statistic(),
+        }
+    }
+
     /// Whether it belongs to a building, and has a value without pounding.
     #[must_use]
     pub fn is_of_building(&self) -> bool {
@@ -221,6 +234,7 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
         kind,
         of: of.to_owned(),
         index,
+        on_isolators: false,
     };
     let mut all = Vec::new();
     for (index, b) in system.buildings().iter().enumerate() {
@@ -236,6 +250,9 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
         let has = |r: &&Response| b.responses().iter().any(|row| r.is(&row.name));
         let responses = RESPONSES.iter().filter(has);
         all.extend(responses.map(|r| quantity(QuantityKind::Response(r), b.name(), index)));
+    }
+    for own in &mut all {
+        own.on_isolators = system.buildings()[own.index].isolator().is_some();
     }
     for (index, g) in system.gaps().iter().enumerate() {
         all.extend(QuantityKind::OF_GAPS.map(|kind| quantity(kind, &g.name, index)));

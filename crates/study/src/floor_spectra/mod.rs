@@ -22,6 +22,8 @@ use serde::Serialize;
 
 use crate::gap_check::CheckError;
 
+/// What is to be known of rigid impacts.
+const RIGID: &str = "rigid impacts are jumps of the velocity: spectra hold what they do to equipment, peak accelerations of floors leave them out";
 /// Pieces of the motions of floors in the shortest period, at least.
 const PIECES_OF_A_PERIOD: f64 = 50.0;
 /// The shortest period (s): equipment of shorter ones feels the peak acceleration of the floor.
@@ -74,12 +76,10 @@ pub enum FloorSpectraError {
         error: Box<TimeHistoryError>,
     },
     /// Records of which none counts.
-    #[error("no record has spectra; {record}: {reason}")]
+    #[error("no record has spectra; {}", reasons.join("; "))]
     NoRecord {
-        /// Name of the first.
-        record: String,
-        /// Why it has none.
-        reason: String,
+        /// Why each has none, by its name.
+        reasons: Vec<String>,
     },
     /// Work under several records.
     #[error(transparent)]
@@ -104,7 +104,8 @@ impl FloorSpectraError {
             }
             Self::Spectrum(error) => error.help(),
             Self::Records(error) => error.help(),
-            Self::Run(_) | Self::Record { .. } | Self::NoRecord { .. } | Self::Stopped => None,
+            Self::NoRecord { .. } => Some("take weaker records, or a smaller `scale`".to_owned()),
+            Self::Run(_) | Self::Record { .. } | Self::Stopped => None,
         }
     }
 }
@@ -275,7 +276,7 @@ impl<'a> FloorMotions<'a> {
         warnings.extend(alone_fails.clone());
         let mut levels = system.gaps().iter().flat_map(|gap| system.levels_of(gap));
         if impacts(&with.0) > 0 && levels.any(|l| l.model.rigid_restitution().is_some()) {
-            warnings.push("rigid impacts are jumps of the velocity: spectra hold what they do to equipment, peak accelerations of floors leave them out".to_owned());
+            warnings.push(RIGID.to_owned());
         }
         Ok(Self {
             assembly,

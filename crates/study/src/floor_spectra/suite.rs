@@ -7,11 +7,11 @@ use pounding_ground_motion::spectra::ResponseSpectrum;
 use pounding_time_history::TimeHistoryError;
 use serde::Serialize;
 
-use super::{FloorMotions, FloorSpectra, FloorSpectraError, FloorSpectraWanted, FloorWithSpectra};
-use crate::fractiles::fractiles;
-use crate::gap_check::{
-    CaseUnderRecord, CheckError, Progress, Repeated, in_parallel, of_reading, warnings,
+use super::{
+    FloorMotions, FloorSpectra, FloorSpectraError, FloorSpectraWanted, FloorWithSpectra, RIGID,
 };
+use crate::fractiles::fractiles;
+use crate::gap_check::{CaseUnderRecord, CheckError, Progress, Repeated, in_parallel, warnings};
 
 /// The spectra of the floors under one record.
 #[derive(Debug, Clone, Serialize)]
@@ -142,10 +142,10 @@ pub fn floor_spectra_under(
         };
         left_out.push(RecordWithoutSpectra { name, reason });
     }
-    if let (true, Some(first)) = (left_out.len() == records.len(), left_out.first()) {
+    if left_out.len() == records.len() && !records.is_empty() {
+        let reasons = left_out.iter().map(|r| format!("{}: {}", r.name, r.reason));
         return Err(FloorSpectraError::NoRecord {
-            record: first.name.clone(),
-            reason: first.reason.clone(),
+            reasons: reasons.collect(),
         });
     }
     let mut told = warnings(case, records);
@@ -154,14 +154,12 @@ pub fn floor_spectra_under(
             .iter()
             .map(|record| format!("record {} counts nowhere: {}", record.name, record.reason)),
     );
-    if let Some(answers) = answers.first() {
-        let own = answers.iter().map(|record: &FloorSpectraOfRecord| {
-            let mut own = record.spectra.warnings.clone();
-            own.retain(|text| !told.iter().any(|known| known.contains(text.as_str())));
-            (record.name.as_str(), own)
-        });
-        let own = of_reading(own);
-        told.extend(own);
+    let mut spectra = answers
+        .iter()
+        .flatten()
+        .map(|record: &FloorSpectraOfRecord| &record.spectra);
+    if spectra.any(|spectra| spectra.warnings.iter().any(|text| text == RIGID)) {
+        told.push(RIGID.to_owned());
     }
     let names: Vec<&str> = records.iter().map(|r| r.name.as_str()).collect();
     told.extend(Repeated::among(records).warnings(&names));

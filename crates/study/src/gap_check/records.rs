@@ -86,16 +86,18 @@ fn and_more(text: String, more: usize) -> String {
 
 /// Warnings of one kind about records by their names: the first record of each kind, with how many are like it.
 pub(crate) fn of_each_record<'r>(found: impl Iterator<Item = (&'r str, Warning)>) -> Vec<String> {
-    let mut kinds: Vec<(&str, Warning, usize)> = Vec::new();
+    let mut kinds: Vec<(&str, Warning, BTreeSet<&str>)> = Vec::new();
     for (name, warning) in found {
-        let same = |k: &&mut (&str, Warning, usize)| discriminant(&k.1) == discriminant(&warning);
-        match kinds.iter_mut().find(same) {
-            Some(known) => known.2 += 1,
-            None => kinds.push((name, warning, 0)),
+        let known = kinds
+            .iter_mut()
+            .find(|known| discriminant(&known.1) == discriminant(&warning));
+        match known {
+            Some((_, _, of)) => drop(of.insert(name)),
+            None => kinds.push((name, warning, BTreeSet::from([name]))),
         }
     }
     let told = kinds.into_iter();
-    told.map(|(name, warning, more)| and_more(format!("{name}: {warning}"), more))
+    told.map(|(name, warning, of)| and_more(format!("{name}: {warning}"), of.len() - 1))
         .collect()
 }
 

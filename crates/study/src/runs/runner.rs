@@ -21,6 +21,8 @@ use super::motions::{Motion, Motions};
 use super::proportion::{factors_of_further, intensity_of_case};
 use super::structures::{looked_at, warnings_of_structures};
 use super::varied::leave_out_varied;
+use pounding_results::study::isolated_peaks;
+
 use super::{Ending, ID, IsolatedQuantities, IsolatedRun, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
 use crate::design::Design;
@@ -103,7 +105,18 @@ impl<'s> Runner<'s> {
         let mut missing = Vec::new();
         if let Some(names) = &study.quantities {
             let has = |name: &&String| layout.quantities.iter().any(|q| q.name == name.as_str());
-            missing.extend(names.iter().filter(|name| !has(name)).cloned());
+            // All that storeys have without pounding are chosen together.
+            let without_pounding: Vec<&str> = isolated_peaks().collect();
+            let all = without_pounding
+                .iter()
+                .all(|own| names.iter().any(|name| name == own));
+            let chosen = |name: &&String| !(all && without_pounding.contains(&name.as_str()));
+            missing.extend(
+                names
+                    .iter()
+                    .filter(|name| !has(name) && chosen(name))
+                    .cloned(),
+            );
             layout.keep(names);
         }
         let varied = leave_out_varied(&mut layout, study, &system);

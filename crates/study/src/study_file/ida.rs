@@ -684,6 +684,17 @@ impl LimitTable {
         let levels = self.level.stated().map(list);
         let link = self.link.stated();
         let (building, storeys, levels, link) = (building?, storeys?, levels?, link?);
+        for places in [&storeys, &levels] {
+            let twice = |(i, place): &(usize, &Located<Whole<1>>)| {
+                places[..*i]
+                    .iter()
+                    .any(|other| other.value.0 == place.value.0)
+            };
+            if let Some((_, place)) = places.iter().enumerate().find(twice) {
+                let message = format!("{} stands twice", place.value.0);
+                return reader.refuse(place.span.clone(), message, "name it once");
+            }
+        }
         let link = match (demand, demand_at.clone()) {
             (Some(value), Some(span)) => {
                 let at = [places.0.clone(), places.1.clone(), places.2.clone()];
@@ -774,6 +785,15 @@ impl LimitTable {
             if let Some((message, help)) = without {
                 let span = places.1.or(places.0).unwrap_or(demand_at?);
                 return reader.refuse(span, message, help);
+            }
+            let has = |storey: usize| {
+                let own = laws.iter().find(|law| law.storey + 1 == storey);
+                own.is_some_and(|law| law.yields || demand != DemandKind::Ductility)
+            };
+            if let Some(storey) = storeys.iter().find(|storey| !has(storey.value.0)) {
+                let message =
+                    "this storey has none: it stays linear, or its law has no yield force";
+                return reader.refuse(storey.span.clone(), message, "leave it out");
             }
         }
         // What not all levels have, and what to do where the asked ones have it not.

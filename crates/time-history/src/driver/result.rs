@@ -136,11 +136,14 @@ impl Driver<'_> {
             match element.place {
                 ElementPlace::Storey { building, storey } => {
                     let elastic = force / element.law.initial_stiffness();
+                    let plastic = deformation - elastic;
+                    // What round-off leaves of a storey that stayed elastic is none.
+                    let stays = plastic.abs() > ROUND_OFF * peaks.deformation.value;
                     let height = system.buildings()[building].height()[storey];
                     buildings[building].yielding[storey] = Some(YieldingStorey {
                         law,
                         ductility,
-                        residual_drift_ratio: (deformation - elastic) / height,
+                        residual_drift_ratio: if stays { plastic / height } else { 0.0 },
                         hysteretic_energy: energy,
                     });
                 }
@@ -165,6 +168,9 @@ impl Driver<'_> {
         links
     }
 }
+
+/// Part of the maximum drift of a storey that round-off may leave of it.
+const ROUND_OFF: f64 = 1.0e-13;
 
 /// What the isolators under a building went through, from the peaks of its first storey.
 fn isolator(building: &ShearBuilding, first: &StoreyPeaks) -> Option<IsolatorOutcome> {

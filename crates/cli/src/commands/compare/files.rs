@@ -23,7 +23,7 @@ pub fn table(c: &Comparison) -> Result<String, Failure> {
                     c.value(m, r, q).to_string(),
                     c.isolated[r][q].to_string(),
                     failure.clone(),
-                    quantity.kind.statistic().to_owned(),
+                    quantity.statistic().to_owned(),
                     String::new(),
                     String::new(),
                 ]);

@@ -309,7 +309,7 @@ impl<'c> Quantity<'c> {
             name: quantity.kind.name(),
             of: &quantity.of,
             unit: quantity.kind.unit(),
-            statistic: quantity.kind.statistic(),
+            statistic: quantity.statistic(),
             isolated: c.isolated.iter().map(|r| r[q]).collect(),
             values: (0..c.models.len()).map(of_model).collect(),
             spread: Spread {

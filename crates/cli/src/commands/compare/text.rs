@@ -205,7 +205,7 @@ fn spreads(c: &Comparison) -> String {
         };
         table.add_row([
             q.label().replace('_', " "),
-            q.kind.statistic().to_owned(),
+            q.statistic().to_owned(),
             percent(s.between_models),
             percent(s.between_records),
             ratio,

@@ -65,9 +65,8 @@ pub(super) fn most_raised(
     })
 }
 
-/// That of the first damping ratio of a floor.
-fn most_raised_of(floor: &FloorWithSpectra) -> Option<String> {
-    let spectra = floor.spectra.first()?;
+/// That of a floor, where there is something to compare with.
+fn most_raised_of(spectra: &SpectraOfFloor) -> Option<String> {
     let alone = spectra.alone.as_ref()?;
     let with = &spectra.pounding;
     let accelerations = (&with.acceleration[..], &alone.acceleration[..]);
@@ -78,12 +77,12 @@ fn most_raised_of(floor: &FloorWithSpectra) -> Option<String> {
 pub fn text(answer: &FloorSpectra, case: &str) -> String {
     let mut text = heading(case);
     for floor in &answer.floors {
-        text.push_str(&format!("\n{}", title(floor)));
-        if let Some(first) = floor.spectra.first() {
-            text.push_str(&format!(", {}", percent(first.pounding.damping)));
-        }
-        if let Some(said) = most_raised_of(floor) {
-            text.push_str(&format!(": {said}"));
+        for spectra in &floor.spectra {
+            let damping = percent(spectra.pounding.damping);
+            text.push_str(&format!("\n{}, {damping}", title(floor)));
+            if let Some(said) = most_raised_of(spectra) {
+                text.push_str(&format!(": {said}"));
+            }
         }
         let FloorPeaks { pounding, alone } = floor.peak_acceleration;
         let pounding = figures(pounding / G);

@@ -32,6 +32,8 @@ const SMOOTH: usize = 200;
 pub fn floor_spectrum(arguments: &FloorSpectrumArguments, files: FileUse) -> Result<(), Failure> {
     let periods = periods(arguments)?;
     let dampings = list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    once("at", &periods, " s")?;
+    once("damping", &dampings, "")?;
     let case = read_case(&arguments.case, arguments.records.is_empty())?;
     // A picture is smooth unless its periods are given.
     let smooth = match arguments.at.is_none() && arguments.count.is_none() && periods.len() > 1 {
@@ -182,6 +184,18 @@ impl<'a> Asked<'a> {
 /// An error of the library under the option that it comes from.
 fn named(option: &str, error: &FloorSpectraError) -> Failure {
     Failure::input(format!("--{option}: {error}"), error.help())
+}
+
+/// Refuses a number that stands twice in a list.
+fn once(option: &str, numbers: &[f64], unit: &str) -> Result<(), Failure> {
+    let twice = |(place, number): &(usize, &f64)| numbers[..*place].contains(number);
+    match numbers.iter().enumerate().find(twice) {
+        None => Ok(()),
+        Some((_, number)) => Err(Failure::input(
+            format!("--{option}: {number}{unit} stands twice"),
+            Some("give it once".to_owned()),
+        )),
+    }
 }
 
 /// The floors of these names, `BUILDING:STOREY`; without any the roof of every building.

@@ -30,11 +30,10 @@ pub fn text(answer: &FloorSpectraOverRecords, case: &str) -> String {
         ),
     });
     for floor in &answer.floors {
-        text.push_str(&format!("\n{}", title(floor)));
-        if let Some(first) = floor.spectra.first() {
-            text.push_str(&format!(", {}", percent(first.damping)));
-            let means = (&first.pounding.mean[..], &first.alone.mean[..]);
-            if let Some(said) = most_raised("the mean", &first.periods, means) {
+        for spectra in &floor.spectra {
+            text.push_str(&format!("\n{}, {}", title(floor), percent(spectra.damping)));
+            let means = (&spectra.pounding.mean[..], &spectra.alone.mean[..]);
+            if let Some(said) = most_raised("the mean", &spectra.periods, means) {
                 text.push_str(&format!(": {said}"));
             }
         }

@@ -306,12 +306,18 @@ fn held_and_widened(levels: &[LevelOutcome], places: &[ContactLevel]) -> String 
     for (l, at) in levels.iter().zip(places) {
         let level = at.place;
         if l.sticks > 0 {
-            text.push_str(&format!(
-                "Level {level}: floors held together {}, maximum contact force {:.1} kN at {:.2} s\n",
-                counted(l.sticks, "time"),
-                l.peak_force.value * 1e-3,
-                l.peak_force.time
-            ));
+            let times = counted(l.sticks, "time");
+            text.push_str(&match l.peak_force.value > 0.0 {
+                true => format!(
+                    "Level {level}: floors held together {times}, maximum contact force {:.1} kN at {:.2} s\n",
+                    l.peak_force.value * 1e-3,
+                    l.peak_force.time
+                ),
+                // An impact that returns nothing, after which they part at once.
+                false => format!(
+                    "Level {level}: floors held together {times} for an instant, without a contact force\n"
+                ),
+            });
         }
         if l.gap_widening > 0.0 {
             text.push_str(&format!(

@@ -52,3 +52,20 @@ pub(crate) const HARDENING_RATIO: ParameterDescriptor = non_negative(
 )
 .within((0.0, true), (1.0, false))
 .default_to(0.0);
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    /// A bumper yields on the side on which it acts, behind its gap; a bilinear element of the same numbers at 4e5 / 5e7 m on
+    /// both.
+    #[test]
+    fn bumpers_yield_from_rest_nowhere() {
+        let numbers = [("stiffness", 5.0e7), ("yield_force", 4.0e5)];
+        let parameters = LawParameters::from_pairs(&numbers);
+        let of = |name| yield_deformation(crate::find(name).unwrap(), &parameters, 5.0e7);
+        assert_eq!(of("elastoplastic_gap"), None);
+        assert_eq!(of("bilinear"), Some(8.0e-3));
+    }
+}

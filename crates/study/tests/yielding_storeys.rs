@@ -120,9 +120,9 @@ fn comparisons_have_them_of_buildings_that_yield() {
         assert_eq!(of(QuantityKind::Ductility), Some(most));
         assert_eq!(most > 1.0, yields);
         let most = residual.iter().map(|r| r.abs()).fold(0.0, f64::max);
-        let expected = if yields { most } else { 0.0 };
-        assert_eq!(of(QuantityKind::ResidualDriftRatio), Some(expected));
-        assert_eq!(most > 1.0e-6, yields);
+        assert_eq!(of(QuantityKind::ResidualDriftRatio), Some(most));
+        // Round-off leaves nothing of an elastic storey.
+        assert_eq!(most != 0.0, yields);
         assert_eq!(value(&comparison, QuantityKind::Ductility, "heavy"), None);
     }
     let file = root().join("examples/isolated_building/case.toml");

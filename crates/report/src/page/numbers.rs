@@ -5,8 +5,7 @@ const SMALL: [&str; 4] = ["mean_annual_frequency", "/hazard/", "residual", "p_va
 
 /// Four figures of the number of this name or path; a dash for what is not known.
 pub(super) fn figures_of(name: &str, x: f64) -> String {
-    let small = |part: &str| name.contains(part) && !name.contains("residual_drift");
-    match SMALL.iter().any(|part| small(part)) {
+    match SMALL.iter().any(|part| name.contains(part)) {
         true => figures_above(0.0, x),
         false => figures(x),
     }
@@ -96,7 +95,6 @@ mod tests {
         assert_eq!(figures_of("energy_residual", 2.8e-15), "2.800e-15");
         assert_eq!(figures_of("/limits/*/mean_annual_frequency", 0.0), "0");
         assert_eq!(figures_of("peak_force", 2.8e-15), "0");
-        assert_eq!(figures_of("residual_drift_ratio", 2.8e-21), "0");
         assert_eq!(percent(1.0, 8.0), "12.5 %");
         assert_eq!(percent(-2.3e-8, 5.0e7), "0.0 %");
     }

@@ -309,12 +309,10 @@ pub(super) fn of_building(kind: QuantityKind, building: &BuildingOutcome) -> f64
             return all.map(|d| d.value).reduce(f64::max).unwrap_or(f64::NAN);
         }
         QuantityKind::ResidualDriftRatio => {
-            // What round-off leaves of storeys that stayed elastic is none.
-            let inelastic = building.inelastic_storeys();
-            let above = inelastic.iter().filter(|(storey, _)| *storey >= first);
-            let left = above.filter_map(|(storey, _)| building.yielding[*storey]);
-            let left = left.map(|law| law.residual_drift_ratio.abs());
-            return left.fold(0.0, f64::max);
+            let laws = building.yielding.iter().skip(first).flatten();
+            return laws
+                .map(|law| law.residual_drift_ratio.abs())
+                .fold(0.0, f64::max);
         }
         QuantityKind::DriftRatio => {
             let above = building.storeys.iter().skip(first);

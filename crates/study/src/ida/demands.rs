@@ -55,8 +55,6 @@ pub(super) enum Lack {
 /// The quantity that rigid impacts do not have.
 const FORCE: &str = "peak_force";
 const DRIFT_RATIO: &str = "peak_drift_ratio";
-/// Residual drift ratio that no storey has.
-const NO_DRIFT: f64 = 1.0e-12;
 /// Those of storeys, which isolators are not.
 const DRIFTS: [&str; 3] = [DRIFT_RATIO, DUCTILITY, RESIDUAL];
 const DUCTILITY: &str = "peak_ductility";
@@ -70,8 +68,6 @@ impl Demand {
     /// not happen, count as none.
     fn of(&self, values: &[f64]) -> f64 {
         let value = |column: &usize| match self.signed {
-            // What round-off leaves of storeys that stayed elastic is none.
-            true if values[*column].abs() < NO_DRIFT => 0.0,
             true => values[*column].abs(),
             false => values[*column],
         };

@@ -25,7 +25,11 @@ fn laws(name: &str, stiffness: &[f64], yield_force: &[f64], hardening: f64) -> V
         }
         let parameters = LawParameters::from_pairs(&values);
         StoreyLaw {
-            yield_drift: yield_deformation(&parameters, *k),
+            yield_drift: yield_deformation(
+                pounding_hysteresis::find(name).unwrap(),
+                &parameters,
+                *k,
+            ),
             law: pounding_hysteresis::build(name, &parameters)
                 .unwrap()
                 .into(),
@@ -223,13 +227,12 @@ fn random_pair(seed: u64) -> System {
             ShearBuilding::new(title, mass, stiffness.clone(), height, damping).unwrap();
         if !name.is_empty() {
             let law = |k: &f64| {
-                let mut all = pounding_hysteresis::find(name)
-                    .unwrap()
-                    .example_parameters();
+                let descriptor = pounding_hysteresis::find(name).unwrap();
+                let mut all = descriptor.example_parameters();
                 let own = [("stiffness", *k), ("yield_force", yield_force)];
                 all.values.extend(LawParameters::from_pairs(&own).values);
                 Some(StoreyLaw {
-                    yield_drift: yield_deformation(&all, *k),
+                    yield_drift: yield_deformation(descriptor, &all, *k),
                     law: pounding_hysteresis::build(name, &all).unwrap().into(),
                 })
             };

@@ -31,7 +31,7 @@ pub fn el_centro() -> GroundAcceleration {
 pub fn law(name: &str, parameters: &LawParameters) -> StoreyLaw {
     let law = build(name, parameters).unwrap();
     StoreyLaw {
-        yield_drift: yield_deformation(parameters, law.initial_stiffness()),
+        yield_drift: yield_deformation(law.descriptor(), parameters, law.initial_stiffness()),
         law: law.into(),
     }
 }

@@ -588,11 +588,12 @@ impl Evaluation<'_> {
     ) -> FragilityFit {
         let samples = self.curves_of_runs(&|run| run.sample, reached);
         if let Some(curves) = samples {
-            return fit.of_curves(counts, &curves).of_alike_runs(effect);
+            let curves = (&curves[..], self.records());
+            return fit.of_curves(counts, curves).of_alike_runs(effect);
         }
         // Structures may differ from run to run of a record, whose runs are alike all the same.
         match self.curves_of_runs(&|run| run.record, reached) {
-            Some(curves) => fit.of_curves(counts, &curves),
+            Some(curves) => fit.of_curves(counts, (&curves, self.records())),
             None => fit.of_alike_runs(effect),
         }
     }

@@ -1,6 +1,8 @@
 //! Fragility from counts: a lognormal curve by maximum likelihood.
 
-use pounding_ground_motion::distributions::{normal_density, normal_distribution, normal_quantile};
+use pounding_ground_motion::distributions::{
+    beta_quantile, normal_density, normal_distribution, normal_quantile,
+};
 
 /// How often a state was reached at one intensity.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -25,6 +27,8 @@ pub struct Fragility {
     pub standard_errors: [f64; 2],
     /// Covariance of the two.
     pub covariance: f64,
+    /// Independent records that the errors are of, by whose number bounds are Student's; `None`: normal ones.
+    pub records: Option<usize>,
     /// Logarithm of the likelihood, without the binomial coefficients.
     pub log_likelihood: f64,
 }
@@ -67,18 +71,30 @@ impl Fragility {
         normal_distribution((intensity / self.median).ln() / self.dispersion)
     }
 
-    /// Bounds of the median, with this confidence: normal in its logarithm.
+    /// How many standard errors bounds with this confidence lie off on either side.
+    fn reach(&self, confidence: f64) -> f64 {
+        match self.records {
+            Some(records) if records > 1 => {
+                // Student's t from the beta distribution (Abramowitz and Stegun 1964, 26.5.27).
+                let freedom = records as f64 - 1.0;
+                let x = beta_quantile(0.5 * freedom, 0.5, 1.0 - confidence);
+                (freedom * (1.0 - x) / x).sqrt()
+            }
+            _ => normal_quantile(0.5 * (1.0 + confidence)),
+        }
+    }
+
+    /// Bounds of the median, with this confidence: even in its logarithm.
     #[must_use]
     pub fn median_bounds(&self, confidence: f64) -> [f64; 2] {
-        let reach = normal_quantile(0.5 * (1.0 + confidence)) * self.standard_errors[0];
+        let reach = self.reach(confidence) * self.standard_errors[0];
         [self.median * (-reach).exp(), self.median * reach.exp()]
     }
 
-    /// Bounds of the dispersion, with this confidence: normal in its logarithm.
+    /// Bounds of the dispersion, with this confidence: even in its logarithm.
     #[must_use]
     pub fn dispersion_bounds(&self, confidence: f64) -> [f64; 2] {
-        let reach =
-            normal_quantile(0.5 * (1.0 + confidence)) * self.standard_errors[1] / self.dispersion;
+        let reach = self.reach(confidence) * self.standard_errors[1] / self.dispersion;
         [
             self.dispersion * (-reach).exp(),
             self.dispersion * reach.exp(),
@@ -93,7 +109,7 @@ impl Fragility {
         let (a, b) = (-1.0 / self.dispersion, -z / self.dispersion);
         let [s, t] = self.standard_errors;
         let variance = a * a * s * s + b * b * t * t + 2.0 * a * b * self.covariance;
-        let reach = normal_quantile(0.5 * (1.0 + confidence)) * variance.max(0.0).sqrt();
+        let reach = self.reach(confidence) * variance.max(0.0).sqrt();
         [
             normal_distribution(z - reach),
             normal_distribution(z + reach),
@@ -110,7 +126,11 @@ impl FragilityFit {
     /// the more intensities, the smaller its errors become, however few motions there are. These are from its derivatives,
     /// of which each motion is one independent sum (Liang and Zeger 1986, Biometrika 73, 13); the variance of a sum
     /// follows from the intensities between which the fitted curve expects the motion to reach the state.
-    pub(super) fn of_curves(self, counts: &[Counts], curves: &[CurveOfRuns]) -> Self {
+    pub(super) fn of_curves(
+        self,
+        counts: &[Counts],
+        (curves, records): (&[CurveOfRuns], usize),
+    ) -> Self {
         let Self::Lognormal(fit) = self else {
             return self;
         };
@@ -142,6 +162,7 @@ impl FragilityFit {
                 of_dispersion * variance[2].max(0.0).sqrt(),
             ],
             covariance: of_median * of_dispersion * variance[1],
+            records: Some(records),
             ..fit
         })
     }
@@ -339,6 +360,7 @@ fn parameters(here: &Likelihood, a: f64, b: f64, centre: f64) -> Fragility {
         standard_errors: [variance.max(0.0).sqrt(), spread.abs() * vb.max(0.0).sqrt()],
         covariance: spread * (median[0] * vab + median[1] * vb),
         log_likelihood: here.value,
+        records: None,
     }
 }
 
@@ -394,7 +416,7 @@ mod tests {
     fn fractions_of_the_same_records_go_together() {
         let table = counts(&[(0.2, 40, 6), (0.5, 40, 27)]);
         let curves = vec![vec![(0.2, 1.0), (0.5, 1.0)]; 40];
-        let FragilityFit::Lognormal(f) = fit(&table).of_curves(&table, &curves) else {
+        let FragilityFit::Lognormal(f) = fit(&table).of_curves(&table, (&curves, 40)) else {
             panic!("a curve goes through two fractions");
         };
         let p = [6.0 / 40.0, 27.0 / 40.0];
@@ -424,26 +446,28 @@ mod tests {
     fn errors_are_those_of_sets_of_records() {
         use crate::design::mixing::unit;
         const SETS: u64 = 600;
-        const RECORDS: u64 = 40;
         const DISPERSION: f64 = 0.3;
-        for levels in [8_u64, 24] {
+        for (records, levels) in [(40_u64, 8_u64), (40, 24), (10, 24)] {
             let intensity = |level| 5.0_f64.powf(2.0 * level as f64 / (levels - 1) as f64 - 1.0);
             let intensities: Vec<f64> = (0..levels).map(intensity).collect();
-            let curves = vec![intensities.iter().map(|i| (*i, 1.0)).collect(); RECORDS as usize];
+            let curves = vec![intensities.iter().map(|i| (*i, 1.0)).collect(); records as usize];
             let (mut found, mut held, mut errors, mut alone) = (Vec::new(), [0; 2], [0.0; 2], 0.0);
             for set in 0..SETS {
-                let first = (0..RECORDS).map(|record| {
-                    let random = normal_quantile(unit(&[7, levels, set, record]));
+                let first = (0..records).map(|record| {
+                    let random = normal_quantile(unit(&[7, levels, set, records, record]));
                     (DISPERSION * random).exp()
                 });
                 let first: Vec<f64> = first.collect();
                 let row = |intensity: &f64| Counts {
                     intensity: *intensity,
-                    runs: RECORDS as usize,
+                    runs: records as usize,
                     reached: first.iter().filter(|x| *x < intensity).count(),
                 };
                 let table: Vec<Counts> = intensities.iter().map(row).collect();
-                let (of_counts, of_curves) = (fit(&table), fit(&table).of_curves(&table, &curves));
+                let (of_counts, of_curves) = (
+                    fit(&table),
+                    fit(&table).of_curves(&table, (&curves, records as usize)),
+                );
                 let (FragilityFit::Lognormal(counted), FragilityFit::Lognormal(f)) =
                     (of_counts, of_curves)
                 else {
@@ -465,17 +489,39 @@ mod tests {
                 let squares = found.iter().map(|f| (f[which] - mean).powi(2)).sum::<f64>();
                 let deviation = (squares / (sets - 1.0)).sqrt();
                 let error = errors[which] / sets;
+                // Of few records the likelihood itself is off.
                 assert!(
-                    (error / deviation - 1.0).abs() < 0.1,
+                    records == 10 || (error / deviation - 1.0).abs() < 0.1,
                     "{levels} {which}: {error} {deviation}"
                 );
                 let held = held[which] as f64 / sets;
                 assert!((0.91..0.98).contains(&held), "{levels} {which}: {held}");
             }
-            if levels == 24 {
+            if (records, levels) == (40, 24) {
                 assert!(alone < 0.55 * errors[0], "{alone} {errors:?}");
             }
         }
+    }
+
+    /// Quantiles of Student's t by SciPy 1.17 (`t.ppf(0.975, n - 1)`).
+    #[test]
+    fn few_records_have_wider_bounds() {
+        let counted = lognormal(&EXAMPLE);
+        for (records, reach) in [
+            (7, 2.446_911_851_144_979),
+            (10, 2.262_157_162_798_205),
+            (40, 2.022_690_920_036_761),
+        ] {
+            let of_records = Fragility {
+                records: Some(records),
+                ..counted
+            };
+            assert!(
+                (of_records.reach(0.95) / reach - 1.0).abs() < 1e-9,
+                "{records}"
+            );
+        }
+        assert!((counted.reach(0.95) - 1.959963984540054).abs() < 1e-12);
     }
 
     /// Values by SciPy 1.17: the binomial likelihood brought to its maximum without

@@ -665,6 +665,7 @@ mod tests {
 
     fn curve(median: f64, dispersion: f64) -> Fragility {
         Fragility {
+            records: None,
             median,
             dispersion,
             standard_errors: [0.0; 2],

@@ -307,6 +307,7 @@ mod tests {
 
     fn fragility(median: f64, dispersion: f64) -> Fragility {
         Fragility {
+            records: None,
             median,
             dispersion,
             standard_errors: [0.0; 2],

@@ -23,7 +23,7 @@ pub struct Fragility {
     /// Standard deviation of the logarithm.
     pub dispersion: f64,
     /// Standard errors of the logarithm of the median and of the dispersion: of runs that do not depend on one another from
-    /// the observed information of the likelihood, else as [`FragilityFit::of_curves`] says.
+    /// the observed information of the likelihood, else those of independent records with all their runs.
     pub standard_errors: [f64; 2],
     /// Covariance of the two.
     pub covariance: f64,

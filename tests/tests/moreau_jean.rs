@@ -109,8 +109,8 @@ fn shocks_through_floors_that_are_held_are_no_forces() {
         let outcome = go(&system, step, 8.0);
         assert!(outcome.gaps[0].levels[0].impacts > 3);
         let held = outcome.gaps[1].levels[0].peak_force.value;
-        // The last bounces, of which less than a thousandth is shock, count whole.
-        assert!((held / (3.0 * 9.81) - 1.0).abs() < 1e-3, "{step}: {held}");
+        // The last bounces, with shocks of less than a thousandth of the impulse by the mass of the pair, count whole.
+        assert!((held / (3.0 * 9.81) - 1.0).abs() < 2e-3, "{step}: {held}");
     }
 }
 

@@ -5,7 +5,7 @@ use super::rigid_impacts::lasting;
 use crate::dynamics::Segment;
 use crate::outcome::Peak;
 
-/// Part of an impulse that is the momentum with which floors met from which on it is a shock: floors that stay together do not meet.
+/// Part of an impulse that shocks of other floors may be where it still tells the force that holds floors together.
 const SHOCK: f64 = 1.0e-3;
 
 impl Driver<'_> {
@@ -25,11 +25,9 @@ impl Driver<'_> {
             let restitution = levels[l].model.rigid_restitution().unwrap_or(0.0);
             levels[l].effective_mass * (1.0 + restitution) * approach
         };
-        let is_shock = |l: usize, velocity: &[f64]| {
-            impulses[l] > 0.0 && met(l, velocity) > SHOCK * impulses[l]
-        };
         let before = &self.new_state[n..2 * n];
-        let shocks = (0..levels.len()).filter(|l| is_shock(*l, before)).count();
+        let meeting = (0..levels.len()).filter(|l| impulses[*l] > 0.0);
+        let shock: f64 = meeting.map(|l| met(l, before)).sum();
         for (l, impulse) in impulses.iter().enumerate() {
             let level = &levels[l];
             let overlap = self
@@ -52,10 +50,9 @@ impl Driver<'_> {
                 }
                 // What holds them is what is left beside the momentum with which they met. Where others met, their shock
                 // goes through these floors too, and how much of the impulse it is nobody knows.
-                let before = &self.new_state[n..2 * n];
-                if shocks == usize::from(is_shock(l, before)) {
-                    let held = (impulse - met(l, before)).max(0.0);
-                    self.peaks.force[l].raise(held / step, time);
+                let own = met(l, &self.new_state[n..2 * n]);
+                if shock - own <= SHOCK * impulse {
+                    self.peaks.force[l].raise((impulse - own).max(0.0) / step, time);
                 }
                 if self.contacts.contact(l).is_none() {
                     // For what is recorded of the next step, to which the method gives its own

@@ -27,6 +27,7 @@ __all__ = [
     "run_study",
     "has_ida",
     "floor_spectra_json",
+    "floor_spectra_over_records_json",
     "gap_check_json",
     "compare_json",
 ]

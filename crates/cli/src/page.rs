@@ -4,7 +4,7 @@ use std::path::Path;
 
 use pounding_case::{Case, Separation};
 use pounding_files::checksum::{WithoutChecksum, hexadecimal};
-use pounding_report::page::{self as pages, Inputs};
+use pounding_report::page::{self as pages, Inputs, SweepAnswer};
 use pounding_report::{Answered, ReportError, RunResult};
 use pounding_study::ResultReader;
 use pounding_study::gap_check::CaseUnderRecord;
@@ -107,11 +107,20 @@ pub fn of_run(path: &Path, output: &Path) -> Result<(), Failure> {
     write_run(&result, path, output)
 }
 
+/// The result of a sweep that has just been written.
+pub fn read_sweep(path: &Path) -> Result<ResultReader, Failure> {
+    let result = ResultReader::open(path, WithoutChecksum::Refuse);
+    result.map_err(|e| failed(ReportError::Study(e)))
+}
+
+/// What the runs of a sweep come to.
+pub fn answer_of_sweep(result: &ResultReader) -> Result<SweepAnswer, Failure> {
+    SweepAnswer::of(result).map_err(|e| failed(ReportError::Study(e)))
+}
+
 /// The page of a sweep that has just been written.
 pub fn of_sweep(path: &Path, output: &Path) -> Result<(), Failure> {
-    let result = ResultReader::open(path, WithoutChecksum::Refuse);
-    let result = result.map_err(|e| failed(ReportError::Study(e)))?;
-    write_sweep(&result, path, output)
+    write_sweep(&read_sweep(path)?, path, output)
 }
 
 /// The page of a sweep that was read.

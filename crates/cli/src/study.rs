@@ -8,6 +8,7 @@ use pounding_case::Dimension;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_files::checksum::{WithoutChecksum, check, hexadecimal};
 use pounding_files::{FileUse, free_name};
+use pounding_report::page::SweepAnswer;
 use pounding_results::{Kind, Label};
 use pounding_study::{
     Progress as Stand, Shard, ShardName, Study, StudyError, StudyFileError, SweepOptions,
@@ -408,6 +409,13 @@ pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> S
         text.push_str(&format!("Table written to {}\n", csv.display()));
     }
     text
+}
+
+/// What the runs of a sweep come to, a line for each sentence.
+pub fn told(answer: &SweepAnswer) -> Vec<String> {
+    let sentences = answer.sentences();
+    let lines = sentences.iter().map(|s| format!("{}\n", s.text()));
+    lines.collect()
 }
 
 /// The first few runs of a kind, a line each.

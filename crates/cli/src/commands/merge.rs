@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
+use pounding_report::page::SweepAnswer;
 use pounding_results::{Kind, Label};
 use pounding_study::{Fault, MergeOptions, Survey, ranges, read_by_study, survey, writable};
 use serde::Serialize;
@@ -14,8 +15,9 @@ use crate::arguments::MergeArguments;
 use crate::failure::Failure;
 use crate::files::{Replaced, reads_too, shard_files};
 use crate::output::{pretty, print, warn};
+use crate::page;
 use crate::separate::{Reading, by_child, reading, warnings};
-use crate::study::{none_succeeded, shows_a_run, table_has_a_place};
+use crate::study::{none_succeeded, shows_a_run, table_has_a_place, told as sentences};
 
 /// Merges the results of shards, or says whether they can be merged.
 pub fn merge(arguments: &MergeArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -107,6 +109,11 @@ fn merged(
         warn(text);
     }
     let (missing, count) = &merged.missing;
+    // What some of the shards come to is nobody's question.
+    let answer = match missing.is_empty() {
+        true => Some(page::answer_of_sweep(&page::read_sweep(output)?)?),
+        false => None,
+    };
     // A study of which all runs failed, as one call would say; of some shards that is not known.
     let ending = match merged.failed == merged.runs && missing.is_empty() {
         true => Err(Failure::computation(
@@ -123,6 +130,7 @@ fn merged(
             output: output.display().to_string(),
             missing,
             warnings: reported,
+            answer: answer.as_ref(),
         })?)?;
         return ending;
     }
@@ -141,6 +149,8 @@ fn merged(
             ranges(missing)
         ));
     }
+    text.push('\n');
+    text.push_str(&answer.iter().flat_map(sentences).collect::<String>());
     print(&text)?;
     ending
 }
@@ -154,6 +164,9 @@ struct MergedShards<'m> {
     output: String,
     missing: &'m [usize],
     warnings: Vec<String>,
+    /// What the runs come to; absent where shards are missing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    answer: Option<&'m SweepAnswer>,
 }
 
 /// Says what the files are; exit code 1 if they do not make one result.

@@ -1,7 +1,9 @@
 //! `pounding sweep`: many runs of one case.
 
 use pounding_files::FileUse;
+use pounding_report::page::SweepAnswer;
 use pounding_study::{Study, case_of_run};
+use serde::Serialize;
 
 use crate::arguments::SweepArguments;
 use crate::failure::Failure;
@@ -9,7 +11,17 @@ use crate::files::have_a_place;
 use crate::output::{pretty, print, print_as_it_is};
 use crate::page;
 use crate::plan::{self, Planned};
-use crate::study::{Finished, all_failed, options, run, shard, stands_complete, summary};
+use crate::study::{Finished, all_failed, options, run, shard, stands_complete, summary, told};
+
+/// What `sweep --json` prints.
+#[derive(Serialize)]
+struct Answer<'s> {
+    #[serde(flatten)]
+    finished: Finished<'s>,
+    /// What the runs come to; absent of a shard.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    answer: Option<&'s SweepAnswer>,
+}
 
 /// Runs a study, or shows what it would run.
 pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -35,13 +47,24 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
     }
     have_a_place([arguments.running.report.as_deref()])?;
     let report = run(&study, &options, into)?;
+    let result = page::read_sweep(&options.output)?;
     if let Some(path) = &arguments.running.report {
-        page::of_sweep(&options.output, path)?;
+        page::write_sweep(&result, &options.output, path)?;
     }
+    // What a shard comes to is nobody's question.
+    let answer = match shard {
+        Some(_) => None,
+        None => Some(page::answer_of_sweep(&result)?),
+    };
     if arguments.json {
-        print(&pretty(&Finished::of(&report, &options))?)?;
+        print(&pretty(&Answer {
+            finished: Finished::of(&report, &options),
+            answer: answer.as_ref(),
+        })?)?;
     } else {
-        print(&summary(&study, &report, &options))?;
+        let mut text = summary(&study, &report, &options);
+        text.push_str(&answer.iter().flat_map(told).collect::<String>());
+        print(&text)?;
     }
     all_failed(&report, shard)
 }

@@ -194,6 +194,44 @@ fn uncertain_pair() {
     let wider = demands.iter().filter(|x| **x > 0.119).count();
     assert_eq!(wider, 940);
     close(demands[1899], 0.1527);
+    // What the terminal says of them, first by itself, then of the shards that were merged.
+    let (hardest, at) = rows.iter().enumerate().filter(|(_, row)| closes(row)).fold(
+        (0.0, 0),
+        |(most_yet, at), (run, row)| match most(row, "peak_force: ") {
+            force if force > most_yet => (force, run),
+            _ => (most_yet, at),
+        },
+    );
+    let said = [
+        "In 568 runs a gap closes (28.4 %), with up to 5 impacts at a level.".to_owned(),
+        format!(
+            "The peak contact force is at most {:.0} kN, at light-heavy 3-3 in run {at}.",
+            1e-3 * hardest
+        ),
+    ];
+    let told = bench.text(&format!("sweep {study} -o out.h5 --resume"));
+    let answer: Value =
+        serde_json::from_str(&bench.text(&format!("sweep {study} -o out.h5 --resume --json")))
+            .unwrap();
+    let answer = &answer["answer"];
+    assert_eq!(answer["runs_with_contact"], 568);
+    let force = &answer["maxima"][0];
+    assert_eq!(force["quantity"], "peak_force");
+    assert_eq!(force["value"].as_f64().unwrap(), hardest);
+    assert_eq!(force["run"], at);
+    for shard in 1..=2 {
+        let part = bench.text(&format!(
+            "sweep {study} --shard {shard}/2 -o part{shard}.h5"
+        ));
+        assert!(!part.contains("a gap closes"), "{part}");
+    }
+    let merged = bench.text("merge part1.h5 part2.h5 -o merged.h5");
+    for said in said {
+        assert!(
+            told.contains(&said) && merged.contains(&said),
+            "{said}\n{told}\n{merged}"
+        );
+    }
     let shown = bench.text(&format!("sweep {study} --show 4"));
     let motions = root().join("ground_motions");
     let shown = shown.replace("../../ground_motions", &motions.display().to_string());

@@ -10,8 +10,10 @@ mod ida;
 mod motion;
 mod numbers;
 mod run;
+mod sentence;
 mod studies;
 mod sweep;
+mod sweep_answer;
 mod table;
 
 pub use comparison::comparison;
@@ -21,5 +23,7 @@ pub use html::escaped;
 pub use ida::ida;
 pub use motion::motion;
 pub use run::page as run;
+pub use sentence::Sentence;
 pub use studies::{Inputs, Picture};
 pub use sweep::sweep;
+pub use sweep_answer::{Maximum, SweepAnswer};

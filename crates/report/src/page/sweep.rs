@@ -1,15 +1,17 @@
 //! The page of the result of a sweep.
 
-use pounding_catalogue::wording::{agreeing, counted};
+use pounding_catalogue::wording::counted;
 use pounding_study::sensitivity::{Input, Sensitivity, sensitivity};
-use pounding_study::{Axis, Coordinate, Layout, Quantity, ResultReader, StudyFileError, fractile};
+use pounding_study::{Axis, Coordinate, Quantity, ResultReader, StudyFileError, fractile};
 use pounding_time_history::VELOCITY_JUMPS_HAVE_NO_FORCE;
 
 use super::answer::{in_parentheses, unit_of};
 use super::document::Document;
 use super::document::listing;
-use super::html::{figure, named, note, number, section, sentences, warnings};
+use super::html::{figure, named, note, section, sentences, warnings};
 use super::numbers::{self, figures};
+use super::sentence::Sentence;
+use super::sweep_answer::{DRAWN, SweepAnswer, columns, drawn_columns, of_column};
 use super::table::{Column, Row, facts, table};
 use crate::error::ReportError;
 use crate::figure::{Curve, Panel, figure_of_size};
@@ -24,15 +26,6 @@ const PARTS: usize = 24;
 const SIZE: (u32, u32) = (718, 230);
 /// Part of a variance from which on it is worth a sentence.
 const WORTH_SAYING: f64 = 0.1;
-/// Quantities that have figures: of the run's levels or storeys the greatest.
-const DRAWN: [&str; 5] = [
-    "impacts",
-    "peak_force",
-    "peak_displacement",
-    "peak_acceleration_absolute",
-    "peak_ductility",
-];
-
 /// All rows, column by column.
 struct Runs {
     /// For each variable its numbers; of choices their places.
@@ -59,12 +52,14 @@ pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
         true => sensitivities(result, &runs),
         false => Vec::new(),
     };
-    let mut points = points(result, &runs);
+    let answer = SweepAnswer::of(result).map_err(ReportError::Study)?;
+    let mut points = counts(result, &answer);
+    points.extend(answer.sentences().iter().map(Sentence::html));
     points.extend(depends_most(result, &sensitivities));
     let mut body = section("Summary", &(sentences(&points) + &warnings(&d.warnings)));
     body.push_str(&section("What varied", &variables(result, &runs)));
     let mut peaks = statistics(result, &runs);
-    if has_rigid_impacts(result, &runs) {
+    if answer.rigid_impacts {
         peaks.insert_str(0, &note(VELOCITY_JUMPS_HAVE_NO_FORCE));
     }
     body.push_str(&section("Peaks over the runs", &peaks));
@@ -151,161 +146,28 @@ fn read(result: &ResultReader) -> Result<Runs, StudyFileError> {
     Ok(runs)
 }
 
-fn points(result: &ResultReader, runs: &Runs) -> Vec<String> {
+/// How many runs there are, and of what.
+fn counts(result: &ResultReader, answer: &SweepAnswer) -> Vec<String> {
     let d = &result.description;
-    let layout = &d.layout;
-    let mut points = vec![format!(
-        "<strong>{}</strong>: {} failed and {} collapsed.",
-        counted(result.rows, "run"),
-        runs.failed.len(),
-        runs.collapsed.len()
-    )];
-    if !d.part.is_whole() {
-        points.push(format!(
-            "<strong>A part of the study</strong>, {}: {} of its {}. All that follows is of these.",
-            named(&d.part.to_string()),
-            result.rows,
-            counted(d.runs, "run")
+    let runs = Sentence::default()
+        .emphasis(counted(result.rows, "run"))
+        .words(format!(
+            ": {} failed and {} collapsed.",
+            answer.failed, answer.collapsed
         ));
-    }
-    let ended = runs.failed.len() + runs.collapsed.len();
-    let impacts = columns(layout, "impacts");
-    if ended == result.rows {
-        points.push(
-            match (runs.failed.len(), runs.collapsed.len()) {
-                (0, 0) => "There is no run.",
-                (0, _) => "No run stood: peaks and impacts are not known.",
-                _ => "No run was completed without a collapse: peaks and impacts are not known.",
-            }
-            .to_owned(),
-        );
-    } else if !impacts.is_empty() {
-        let touches = |row: &usize| impacts.iter().any(|c| runs.values[*c][*row] > 0.0);
-        let closed = (0..result.rows).filter(touches).count();
-        points.push(format!(
-            "In {}{} a gap closes ({:.1}\u{a0}%), with up to {} at a level.",
-            counted(closed, "run"),
-            match ended {
-                0 => String::new(),
-                _ => format!(
-                    " of the {} that neither failed nor collapsed",
-                    result.rows - ended
-                ),
-            },
-            100.0 * closed as f64 / (result.rows - ended) as f64,
-            counted_impacts(greatest(runs, &impacts)),
-        ));
-    }
-    for name in &DRAWN[1..] {
-        let Some(quantity) = layout.quantities.iter().find(|q| q.name == *name) else {
-            continue;
-        };
-        let found = drawn_columns(result, name);
-        let most = greatest(runs, &found);
-        let jumps = *name == "peak_force" && has_rigid_impacts(result, runs);
-        // Where velocities jump there is no force: zero is that of levels that nothing hits.
-        if !most.is_finite() || (jumps && most == 0.0) {
-            continue;
-        }
-        let place = found.iter().find(|c| runs.values[**c].contains(&most));
-        let at = place.map(|c| of_column(layout, quantity, c - layout.range(name).start));
-        let row = place.and_then(|c| runs.values[*c].iter().position(|x| *x == most));
-        let (factor, unit) = unit_of(quantity.unit);
-        let from = format!("maximum {name}");
-        let most_shown = number(&from, factor, &figures(factor * most));
-        points.push(format!(
-            "The {} is at most {}{}{}{}{}.",
-            quantity
-                .long_name
-                .replace("maximum ", "peak ")
-                .split(',')
-                .next()
-                .unwrap_or_default(),
-            most_shown,
-            match unit {
-                "" => String::new(),
-                unit => format!(" {unit}"),
-            },
-            at.map_or(String::new(), |at| format!(", at {}", named(&at))),
-            row.map_or(String::new(), |row| format!(
-                " in run {}",
-                runs.numbers[row]
-            )),
-            match (runs.collapsed.len(), jumps) {
-                (0, false) => "",
-                (0, true) => "; rigid impacts have none",
-                (_, false) => "; of runs that collapsed it is not known",
-                (_, true) =>
-                    "; rigid impacts have none, and of runs that collapsed it is not known",
-            },
-        ));
-    }
-    points
-}
-
-/// Whether floors met at a level without a contact force.
-fn has_rigid_impacts(result: &ResultReader, runs: &Runs) -> bool {
-    let layout = &result.description.layout;
-    let [impacts, forces] = ["impacts", "peak_force"].map(|name| columns(layout, name));
-    let mut levels = impacts.iter().zip(&forces);
-    levels.any(|(impacts, force)| {
-        let mut rows = runs.values[*impacts].iter().zip(&runs.values[*force]);
-        rows.any(|(impacts, force)| *impacts > 0.0 && force.is_nan())
-    })
-}
-
-/// Columns of a quantity that has figures. Isolators go through many times the displacement at which they yield, for which
-/// they are there: their ductility is none of a storey.
-fn drawn_columns(result: &ResultReader, name: &str) -> Vec<usize> {
-    let d = &result.description;
-    let all = columns(&d.layout, name);
-    if name != "peak_ductility" {
-        return all;
-    }
-    let case = d.case.parse::<toml::Table>().unwrap_or_default();
-    let buildings = case.get("building").and_then(toml::Value::as_array);
-    let on_isolators = buildings.into_iter().flatten().filter_map(|building| {
-        building.get("isolator")?;
-        building.get("name")?.as_str()
+    let part = (!d.part.is_whole()).then(|| {
+        Sentence::default()
+            .emphasis("A part of the study")
+            .words(", ")
+            .name(d.part.to_string())
+            .words(format!(
+                ": {} of its {}. All that follows is of these.",
+                result.rows,
+                counted(d.runs, "run")
+            ))
     });
-    let on_isolators: Vec<&str> = on_isolators.collect();
-    let storeys = all.into_iter().zip(&d.layout.storeys);
-    let above = storeys
-        .filter(|(_, storey)| storey.storeys != [1] || !on_isolators.contains(&storey.of.as_str()));
-    above.map(|(column, _)| column).collect()
-}
-
-/// Columns of a quantity among the values of a row.
-fn columns(layout: &Layout, name: &str) -> Vec<usize> {
-    match layout.quantities.iter().any(|q| q.name == name) {
-        true => layout.range(name).collect(),
-        false => Vec::new(),
-    }
-}
-
-fn greatest(runs: &Runs, columns: &[usize]) -> f64 {
-    let values = columns.iter().flat_map(|c| &runs.values[*c]);
-    values.copied().fold(f64::NAN, f64::max)
-}
-
-/// A greatest number of impacts with its noun.
-fn counted_impacts(most: f64) -> String {
-    let noun = agreeing(&most, "impact", "impacts");
-    let shown = number("maximum impacts", 1.0, &most.to_string());
-    format!("{shown} {noun}")
-}
-
-/// What a column of a quantity is of.
-fn of_column(layout: &Layout, quantity: &Quantity, index: usize) -> String {
-    let labels = match quantity.axis {
-        Axis::Run => return "the run".to_owned(),
-        Axis::Storey => &layout.storeys,
-        Axis::Level => &layout.levels,
-        Axis::LinkLevel => &layout.link_levels,
-        Axis::Building => return layout.buildings.get(index).cloned().unwrap_or_default(),
-    };
-    let place = labels.get(index);
-    place.map_or(String::new(), |p| p.label.clone())
+    let told = std::iter::once(runs).chain(part);
+    told.map(|sentence| sentence.html()).collect()
 }
 
 fn variables(result: &ResultReader, runs: &Runs) -> String {

@@ -4,10 +4,11 @@
 //! HTML file of it, and of what studies answer, that needs nothing else: words, tables, figures. [`figure()`] draws
 //! panels of curves for the command line as well. Values are SI as in the result
 //! file; [`Answered`] is the file of what other commands answer; the page shows them in the units that engineers write. [`documentation`] has the
-//! reference pages of impact models and laws, and [`pictures`] draws what runs, studies,
+//! reference pages of impact models and laws, [`openquake`] the fragilities for another program, and [`pictures`] draws what runs, studies,
 //! laboratories and motions show.
 
 pub mod documentation;
+pub mod openquake;
 pub mod page;
 pub mod pictures;
 

@@ -192,6 +192,9 @@ pub struct IdaArguments {
     /// Write the counts of every state at every intensity as a CSV table
     #[arg(long, value_name = "FILE", value_parser = csv_file(), conflicts_with = "shard")]
     pub table: Option<OutputPath>,
+    /// Write the fragilities as a fragility model of OpenQuake (NRML 0.5)
+    #[arg(long, value_name = "FILE", conflicts_with = "shard")]
+    pub openquake: Option<OutputPath>,
     /// Draw fragilities and frequencies into this file (.svg, .png, .pdf)
     #[arg(long, value_parser = figure_file(), group = FIGURES, value_name = "FILE", conflicts_with = "shard")]
     pub plot: Option<OutputPath>,

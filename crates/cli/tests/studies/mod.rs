@@ -11,6 +11,7 @@ mod figures;
 mod interrupted;
 mod merging;
 mod open_answers;
+mod openquake;
 mod output;
 mod parquet;
 mod plans;

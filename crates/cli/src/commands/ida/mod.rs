@@ -7,20 +7,22 @@ use std::path::Path;
 
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
+use pounding_report::openquake::{Measure, fragility_model};
 use pounding_report::page::{Inputs, Picture};
 use pounding_report::pictures::ida::fragility;
 use pounding_study::{
-    IdaReport, IdaSettings, ResultReader, Study, StudyError, SweepOptions, SweepReport, evaluate,
+    IdaReport, IdaSettings, IntensityMeasure, ResultReader, Study, StudyError, SweepOptions,
+    SweepReport, evaluate,
 };
 
 use crate::arguments::IdaArguments;
 use crate::failure::Failure;
 use crate::files::{have_a_place, reads_too};
 use crate::interruption::quoted;
-use crate::output::{comma_separated, pretty, print};
+use crate::output::{comma_separated, pretty, print, warn};
 use crate::plan::{self, Planned, path_word};
 use crate::progress::{Progress, Unit, threads};
-use crate::study::{Finished, all_failed, options, run, shard, stands_complete, summary};
+use crate::study::{Finished, all_failed, name, options, run, shard, stands_complete, summary};
 use crate::{page, plot};
 
 /// Runs all records at all intensities and evaluates them.
@@ -39,6 +41,10 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
         };
         return plan::print_plan(&study, &planned, scheduler, arguments.json);
     }
+    let openquake = match &arguments.openquake {
+        Some(path) => Some((path, measure_of_openquake(&settings.measure)?)),
+        None => None,
+    };
     let shard = shard(&arguments.sharing, &arguments.running)?;
     let into = arguments.sharing.into.as_deref();
     let options = options(&study, &arguments.running, (shard, into), &mut files)?;
@@ -48,6 +54,7 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     have_a_place([
         arguments.plot.as_deref(),
         arguments.table.as_deref(),
+        arguments.openquake.as_deref(),
         arguments.running.report.as_deref(),
     ])?;
     let sweep = run(&study, &options, into)?;
@@ -66,6 +73,9 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     }
     if let Some(path) = &arguments.table {
         write_table(path, &report)?;
+    }
+    if let Some((path, measure)) = openquake {
+        write_openquake(path, &study, (&report, &measure))?;
     }
     if let Some(path) = &arguments.running.report {
         write_page(path, &study, &result, &report)?;
@@ -130,7 +140,11 @@ fn part(
 
 /// Options of the analysis of the whole study.
 fn at_the_end(arguments: &IdaArguments) -> Vec<String> {
-    let files = [("--table", &arguments.table), ("--plot", &arguments.plot)];
+    let files = [
+        ("--table", &arguments.table),
+        ("--openquake", &arguments.openquake),
+        ("--plot", &arguments.plot),
+    ];
     let given = files.iter().filter_map(|(option, path)| {
         let path = path_word(path.as_ref()?);
         Some([(*option).to_owned(), path])
@@ -159,6 +173,32 @@ fn write_table(path: &Path, report: &IdaReport) -> Result<(), Failure> {
         })
     });
     plot::write(path, &comma_separated(&header, rows)?)
+}
+
+/// The intensity measure of a study as OpenQuake knows it.
+fn measure_of_openquake(measure: &IntensityMeasure) -> Result<Measure, Failure> {
+    Measure::of(measure).map_err(|e| Failure::input(e.to_string(), Some(e.help())))
+}
+
+/// Writes the fragilities for OpenQuake, and says which states have none.
+fn write_openquake(
+    path: &Path,
+    study: &Study,
+    (report, measure): (&IdaReport, &Measure),
+) -> Result<(), Failure> {
+    let model = fragility_model(report, measure, (&name(&study.file), &study.title));
+    let file = path.display();
+    let Some(xml) = model.xml else {
+        warn(&format!("{file} is not written: no state has a fragility"));
+        return Ok(());
+    };
+    if !model.left_out.is_empty() {
+        warn(&format!(
+            "{file} has no function for states without a fragility: {}",
+            model.left_out.join(", ")
+        ));
+    }
+    plot::write(path, &xml)
 }
 
 /// Writes the page of a result of the study; one of another study is refused.

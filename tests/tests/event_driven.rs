@@ -212,3 +212,35 @@ fn peaks_at_the_start_are_found() {
     let roof = outcome.buildings[0].storeys[5].displacement;
     assert_eq!((roof.value, roof.time), (0.042, 0.0));
 }
+
+/// A sample that is a billion seconds long costs what the run takes of it: constants and peaks of a whole one would take hours.
+/// Truth is the same straight line in samples of one second.
+#[test]
+fn samples_end_where_the_run_does() {
+    let ground = |step: f64| GroundAcceleration {
+        samples: [1.0, 1.0 + 0.5 * step, 1.0 + step].to_vec().into(),
+        time_step: step,
+    };
+    let floors = |storeys| building(storeys, Damping::StiffnessProportional { ratio: 0.05 });
+    let go = |step: f64| {
+        let mut system = System::new(vec![floors(1), floors(3)], ground(step));
+        let names = ["a".to_owned(), "b".to_owned()];
+        let level = (Floor::Storey(0, 0), Floor::Storey(1, 0), 1.0e-3, spring());
+        system.add_gap("gap", names, vec![level]).unwrap();
+        let options = RunOptions {
+            method: event_driven(1e-10),
+            duration: Some(1.0),
+            energy_tolerance: None,
+        };
+        run(&system, &options, &mut [], &mut |_| {}).unwrap()
+    };
+    let (coarse, fine) = (go(1.0e9), go(1.0));
+    assert!(!fine.impacts.is_empty());
+    assert_eq!(coarse.impacts.len(), fine.impacts.len());
+    for (a, b) in coarse.buildings.iter().zip(&fine.buildings) {
+        for (a, b) in a.storeys.iter().zip(&b.storeys) {
+            let off = a.displacement.value / b.displacement.value - 1.0;
+            assert!(off.abs() < 1e-7, "{off:e}");
+        }
+    }
+}

@@ -92,3 +92,49 @@ fn motions_that_filters_put_out_of_step_are_told() {
     );
     assert_eq!(case(&without, force), [""; 0]);
 }
+
+/// A sine whose velocity at the first sample is stated moves nowhere; displacements of the ground from rest have it drift by
+/// that velocity.
+#[test]
+fn initial_motions_that_displacements_of_the_ground_leave_out_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let rate = 2.0 * std::f64::consts::PI;
+    let write = |name: &str, head: &str, amplitude: f64| {
+        let mut text = format!("{head}time_s,acceleration_m_s2\n");
+        for i in 0..=1000 {
+            let t = 0.01 * f64::from(i);
+            text.push_str(&format!("{t:.2},{:.9}\n", -amplitude * (rate * t).sin()));
+        }
+        std::fs::write(folder.path().join(name), text).unwrap();
+    };
+    let stated = format!("# Initial velocity: {:.9} m/s\n", 1.0 / rate);
+    write("moving.csv", &stated, 1.0);
+    write("still.csv", "", 1.0);
+    write("again.csv", &stated, 0.5);
+    let told = |of_case: &str, of_building: &str| {
+        let text = format!(
+            "[[building]]\nname = \"a\"\nmass = 1e5\nstoreys = 1\nheight = 3\nstiffness = 1e8\ndamping = {{ modal = 0.05 }}\nground = {{ file = \"{of_building}\" }}\n[ground_motion]\nfile = \"{of_case}\"\n"
+        );
+        let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+        let told = assemble(&case).unwrap().warnings();
+        let of_them = told.into_iter().filter(|w| w.contains("states an initial"));
+        of_them.collect::<Vec<_>>()
+    };
+    let said = told("moving.csv", "still.csv");
+    assert_eq!(said.len(), 1, "{said:?}");
+    assert!(
+        said[0].contains("the record of the case states"),
+        "{said:?}"
+    );
+    assert!(
+        said[0].contains("leave them out, 1.592 m at the end"),
+        "{said:?}"
+    );
+    let said = told("still.csv", "moving.csv");
+    assert!(
+        said.len() == 1 && said[0].contains("the record of a states"),
+        "{said:?}"
+    );
+    assert_eq!(told("moving.csv", "again.csv"), [""; 0]);
+    assert_eq!(told("still.csv", "still.csv"), [""; 0]);
+}

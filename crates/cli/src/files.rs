@@ -492,6 +492,9 @@ impl Replaced<'_> {
             None if other_text && (self.named || found.file.is_empty()) => Ok(Some(format!(
                 "{output} is replaced, the result of another study, or of another version of this one"
             ))),
+            None if other_text => Ok(Some(format!(
+                "{output} is replaced, the result of another version of this study"
+            ))),
             None if found.file.is_empty() && self.kind == Kind::Run && !self.named => {
                 Ok(Some(format!(
                     "{output} is replaced, the result of a run that does not say of which case file it is"

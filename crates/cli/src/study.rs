@@ -320,6 +320,9 @@ pub struct Finished<'s> {
     records: Vec<Motion<'s>>,
     output: String,
     csv: Option<String>,
+    /// What the runs come to; absent of a shard, and where they are evaluated otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    answer: Option<SweepAnswer>,
 }
 
 /// A run by its number, and what is to be said of it.
@@ -367,7 +370,13 @@ impl<'s> Finished<'s> {
             records: records.collect(),
             output: options.output.display().to_string(),
             csv: options.csv.as_ref().map(|p| p.display().to_string()),
+            answer: None,
         }
+    }
+
+    /// The same with what the runs come to.
+    pub fn with_answer(self, answer: Option<SweepAnswer>) -> Self {
+        Self { answer, ..self }
     }
 }
 

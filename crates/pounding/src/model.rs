@@ -5,6 +5,8 @@ use std::ops::ControlFlow;
 #[cfg(feature = "toml")]
 use pounding_case::Case;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
+#[cfg(feature = "toml")]
+use pounding_shear_building::{NAMES, NameFault};
 use pounding_time_history::{Outcome, Recorder, RunOptions, System, run};
 
 use crate::error::Error;
@@ -227,7 +229,16 @@ impl Model {
     /// # Errors
     /// What cannot be, with line and column of the text where it stands, or stood before it was changed.
     pub fn of_case(case: &Case) -> Result<Self, Error> {
+        case.check_gaps()?;
         let mut model = Self::assembled(case)?;
+        model.system.check_names().map_err(|error| Error::Name {
+            reason: match error.fault {
+                NameFault::Form => NAMES,
+                NameFault::Taken => "another one has it",
+            },
+            name: error.name,
+            what: error.what,
+        })?;
         let read = Case::parse(&case.source, &case.file).map(|read| Case {
             given_files: case.given_files.clone(),
             ..read

@@ -14,6 +14,7 @@ use pounding_cli::answers::{
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_ground_motion::Accelerogram;
+use pounding_report::page::SweepAnswer;
 use pounding_results::Kind;
 use pounding_study::comparison::{ComparisonOptions, RestitutionRule, StiffnessRule, compare};
 use pounding_study::gap_check::{
@@ -106,7 +107,15 @@ fn run_study(
             }
         });
         let report = report.map_err(failed)?;
-        let finished = json(&Finished::of(&report, &options))?;
+        let answer = match (evaluated && read.ida.is_some(), part) {
+            (false, None) => {
+                let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);
+                let result = result.map_err(|e| failed(e.into()))?;
+                Some(SweepAnswer::of(&result).map_err(|e| failed(e.into()))?)
+            }
+            _ => None,
+        };
+        let finished = json(&Finished::of(&report, &options).with_answer(answer))?;
         let settings = read.ida.as_ref().filter(|_| evaluated);
         let analysis = settings.map(|settings| {
             let result = ResultReader::open(&options.output, WithoutChecksum::Refuse);

@@ -96,16 +96,25 @@ impl DampingMatrix {
     }
 }
 
+/// Negative eigenvalue, over the largest one, that rounded digits of a matrix may leave of zero.
+const ROUNDED: f64 = 1.0e-6;
+
 impl Damping {
     /// A given matrix, row after row, one a coordinate, floors first from the bottom (N s/m; N m s/rad on
     /// the diagonal of rotations). Entries on both sides of the diagonal may differ by 1e-6 of the largest
-    /// one: their mean is taken. That no motion gains energy by it is for its author to see to.
+    /// one: their mean is taken.
     ///
     /// # Errors
-    /// No rows, rows that are not as long as there are rows, entries that are not finite, and a matrix
-    /// that is not symmetric.
+    /// No rows, rows that are not as long as there are rows, entries that are not finite, a matrix
+    /// that is not symmetric, and one that gives energy to a motion: negative eigenvalues, but for what rounded digits leave
+    /// of those that are zero.
     pub fn from_rows(rows: &[Vec<f64>]) -> Result<Self, LateralStiffnessError> {
         let (matrix, _) = symmetric(rows)?;
+        let eigenvalues = matrix.symmetric_eigenvalues();
+        let (smallest, largest) = (eigenvalues.min(), eigenvalues.max());
+        if smallest < -ROUNDED * eigenvalues.amax() {
+            return Err(LateralStiffnessError::NotPositiveSemidefinite { smallest, largest });
+        }
         Ok(Self::Matrix { matrix })
     }
 

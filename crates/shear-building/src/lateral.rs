@@ -66,6 +66,16 @@ pub enum LateralStiffnessError {
         /// Largest eigenvalue.
         largest: f64,
     },
+    /// Damping that gives energy to a motion.
+    #[error(
+        "the damping matrix gives energy to some motions: its smallest eigenvalue is {smallest:e}, its largest {largest:e}; is a sign wrong?"
+    )]
+    NotPositiveSemidefinite {
+        /// Smallest eigenvalue.
+        smallest: f64,
+        /// Largest eigenvalue.
+        largest: f64,
+    },
     /// A flexibility whose inverse is round-off.
     #[error(
         "the flexibility matrix cannot be inverted: its smallest eigenvalue is round-off, 1/{condition:.0e} of the largest; give more digits, or the stiffness matrix"
@@ -101,6 +111,9 @@ impl LateralStiffnessError {
     #[must_use]
     pub fn help(&self) -> &'static str {
         match self {
+            Self::NotPositiveSemidefinite { .. } => {
+                "give the coefficients that multiply velocities in the forces against them: positive on the diagonal"
+            }
             Self::Length { .. } | Self::Value { .. } => {
                 "give one value for each storey, the lowest first, and greater than zero"
             }

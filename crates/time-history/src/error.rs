@@ -330,7 +330,7 @@ impl TimeHistoryError {
                 "correct `initial_displacement` and `initial_velocity` of the buildings"
             }
             Self::Chatter { .. } => {
-                "try another method, another separation rule for that gap, or a small gap in place of none for that link, and report the case"
+                "at a gap try another separation rule, at a storey or a link another law, or a method of fixed steps such as `newmark` or `runge_kutta_4`; and report the case"
             }
             Self::EnergyResidual { name, .. } => match *name {
                 "adaptive" | "event_driven" => "use a smaller `relative_tolerance`",

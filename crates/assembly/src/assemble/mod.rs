@@ -4,6 +4,7 @@ mod again;
 mod column;
 mod forces;
 mod foundation;
+mod initial_motion;
 mod lateral;
 mod laws;
 mod method;
@@ -108,7 +109,7 @@ pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, As
         models,
         options,
     } = parts;
-    let system = on_their_ground(case, buildings, &accelerogram)?;
+    let (system, left_out) = on_their_ground(case, buildings, &accelerogram)?;
     let system = with_gaps(case, &models, system)?;
     options.check(&system)?;
     Ok(Assembly {
@@ -116,7 +117,7 @@ pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, As
         options,
         output_step: case.analysis.output_step,
         accelerogram,
-        unused: unused(case),
+        unused: unused(case).into_iter().chain(left_out).collect(),
     })
 }
 

@@ -9,6 +9,7 @@ use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
 
 use super::forces::on_floors;
+use super::initial_motion;
 use crate::error::AssemblyError;
 use crate::excitation::further_record;
 
@@ -64,8 +65,9 @@ pub(super) fn on_their_ground(
     case: &Case,
     buildings: Vec<Arc<ShearBuilding>>,
     accelerogram: &Accelerogram,
-) -> Result<System, AssemblyError> {
+) -> Result<(System, Vec<String>), AssemblyError> {
     let first = ground(accelerogram);
+    let mut records = vec![("of the case".to_owned(), accelerogram.clone())];
     let mut motions = vec![GroundMotion {
         acceleration: first.clone(),
         delay: 0.0,
@@ -103,7 +105,9 @@ pub(super) fn on_their_ground(
                         None => (first.clone(), Vec::new()),
                         Some(motion) => {
                             let record = further_record(case, motion)?;
-                            (ground(&record), record.echo())
+                            let found = (ground(&record), record.echo());
+                            records.push((format!("of {}", building.name.value), record));
+                            found
                         }
                     };
                     motions.push(GroundMotion {
@@ -140,7 +144,7 @@ pub(super) fn on_their_ground(
         1 => System::new(buildings, first),
         _ => System::with_motions(buildings, motions, supports)?,
     };
-    on_floors(case, system)
+    Ok((on_floors(case, system)?, initial_motion::left_out(&records)))
 }
 
 /// Seconds by which times of motions may differ and be the same to people.

@@ -290,7 +290,7 @@ pub(super) fn sides(
 
 /// What keeps two sides from facing each other in the row, and whether the other
 /// order would do.
-fn row_problem(left: Side, right: Side, last: usize) -> Option<(&'static str, bool)> {
+pub(crate) fn row_problem(left: Side, right: Side, last: usize) -> Option<(&'static str, bool)> {
     match (left, right) {
         (Side::Wall, Side::Wall) => Some(("a gap cannot lie between two walls", false)),
         (Side::Wall, Side::Building(i)) if i != 0 => Some((

@@ -38,6 +38,7 @@ mod separation;
 mod tree;
 
 pub use ground_motion::ground_motion_schema;
+pub(crate) use levels::row_problem;
 pub use process::{ProcessSteps, process_steps};
 pub(crate) use rule::file as rule_file;
 pub(crate) use separation::keys as separation_keys;

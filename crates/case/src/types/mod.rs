@@ -1,5 +1,6 @@
 //! A case in SI units, with the place of what the layers above may refuse.
 
+mod changed;
 mod laws;
 mod rule;
 mod usual;

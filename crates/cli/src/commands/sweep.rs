@@ -1,9 +1,7 @@
 //! `pounding sweep`: many runs of one case.
 
 use pounding_files::FileUse;
-use pounding_report::page::SweepAnswer;
 use pounding_study::{Study, case_of_run};
-use serde::Serialize;
 
 use crate::arguments::SweepArguments;
 use crate::failure::Failure;
@@ -12,16 +10,6 @@ use crate::output::{pretty, print, print_as_it_is};
 use crate::page;
 use crate::plan::{self, Planned};
 use crate::study::{Finished, all_failed, options, run, shard, stands_complete, summary, told};
-
-/// What `sweep --json` prints.
-#[derive(Serialize)]
-struct Answer<'s> {
-    #[serde(flatten)]
-    finished: Finished<'s>,
-    /// What the runs come to; absent of a shard.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    answer: Option<&'s SweepAnswer>,
-}
 
 /// Runs a study, or shows what it would run.
 pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -57,10 +45,8 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
         None => Some(page::answer_of_sweep(&result)?),
     };
     if arguments.json {
-        print(&pretty(&Answer {
-            finished: Finished::of(&report, &options),
-            answer: answer.as_ref(),
-        })?)?;
+        let finished = Finished::of(&report, &options);
+        print(&pretty(&finished.with_answer(answer))?)?;
     } else {
         let mut text = summary(&study, &report, &options);
         text.push_str(&answer.iter().flat_map(told).collect::<String>());

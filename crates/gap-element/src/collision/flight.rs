@@ -280,15 +280,24 @@ impl<'a> Flight<'a> {
 
     /// The first event in the last step, by signs at places inside it: steps are
     /// shorter than half the time since closure, so that no event of a motion as
-    /// simple as that of two bodies comes and goes between places. Of several
+    /// simple as that of two bodies comes and goes between places, but for bodies that a
+    /// lasting force presses together: they leave one another for a moment, around the
+    /// least penetration, which is a place more. Of several
     /// between two places, the interpolant tells which comes first.
     fn event(&self, new: &[f64; 3]) -> Option<(Event, f64)> {
         let (delta, velocity) = (*self.pair.polynomial(0), *self.pair.polynomial(1));
         let inside = |theta: f64| [value(&delta, theta), value(&velocity, theta), 0.0];
         let transitions = self.model.transitions(self.phase).len();
-        for place in 1..=PLACES {
-            let theta = place as f64 / PLACES as f64;
-            let state = if place == PLACES { *new } else { inside(theta) };
+        let even = |place: usize| place as f64 / PLACES as f64;
+        let places = (1..=PLACES).flat_map(|place| {
+            let (from, to) = (even(place - 1), even(place));
+            let speed = |part: f64| value(&velocity, from + part);
+            let turns = self.pressing > 0.0 && speed(0.0) < 0.0 && speed(to - from) > 0.0;
+            let nearest = turns.then(|| from + rising_root(to - from, speed));
+            nearest.into_iter().chain([to])
+        });
+        for theta in places {
+            let state = if theta == 1.0 { *new } else { inside(theta) };
             let first = (0..transitions)
                 .map(Event::Transition)
                 .chain([Event::Separation])

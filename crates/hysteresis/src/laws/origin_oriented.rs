@@ -49,10 +49,20 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
     }))
 }
 
-/// The line through the origin to the farthest point of a side.
-fn secant(side: f64, peak: Point) -> Branch {
-    let slope = peak.force / peak.deformation;
-    Branch::line(SECANT, side, Point::default(), slope).between(0.0, peak.deformation)
+/// The line through the origin to the farthest point of a side. Where that of the other side is the same line, as before any
+/// yielding, it goes on there: without a kink there is nothing to change at the origin, where an element at rest would not
+/// know its side.
+fn secant(history: &History, side: f64) -> Branch {
+    let slope = |side: f64| {
+        let peak = history.side(side).peak;
+        peak.force / peak.deformation
+    };
+    let end = |side: f64| history.side(side).peak.deformation;
+    let back = match slope(side) == slope(-side) {
+        true => -end(-side),
+        false => 0.0,
+    };
+    Branch::line(SECANT, side, Point::default(), slope(side)).between(back, end(side))
 }
 
 impl OriginOriented {
@@ -83,11 +93,12 @@ impl PathLaw for OriginOriented {
             deformation: self.yield_force / self.stiffness,
             force: self.yield_force,
         };
-        let mut history = History::new(secant(1.0, peak));
+        let mut history = History::new(Branch::default());
         history.sides = [Side {
             peak,
             ..Side::default()
         }; 2];
+        history.branch = secant(&history, 1.0);
         history
     }
     fn stored(&self, history: &History, deformation: f64) -> f64 {
@@ -100,14 +111,17 @@ impl PathLaw for OriginOriented {
         history.side_mut(side).peak = peak;
         let work = self.work(history, deformation);
         // The secant begins at the origin; its work is counted from there.
-        history.branch = secant(side, peak);
+        history.branch = secant(history, side);
         history.branch.work = work - 0.5 * peak.force * peak.deformation;
     }
     fn leave(&self, history: &mut History, end: f64) {
-        let next = if end == history.branch.side {
-            self.backbone(end, history.side(end).peak.deformation)
-        } else {
-            secant(end, history.side(end).peak)
+        let left = match end > 0.0 {
+            true => history.branch.upper,
+            false => history.branch.lower,
+        };
+        let next = match left == 0.0 {
+            true => secant(history, end),
+            false => self.backbone(end, history.side(end).peak.deformation),
         };
         self.switch(history, next);
     }

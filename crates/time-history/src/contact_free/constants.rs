@@ -65,18 +65,26 @@ pub(crate) struct Fine {
 /// less than 1e-8 of the amplitude of the fastest mode.
 const FINE: f64 = 0.7;
 
+/// Maximum product of the fastest rate and the step. Constants of a step and its peaks are worked out part by part, whatever
+/// the duration leaves of it; other steps end where the run does.
+const COARSEST: f64 = 1.0e4;
+
 impl ContactFree {
     /// For these buildings and this step (s); `None` if the damping of a building
-    /// couples its modes.
+    /// couples its modes, or if the step holds so many periods that a whole one costs more than the run may be long.
     pub(crate) fn new(system: &System, step: f64) -> Option<Self> {
         let coupled = |b: &ShearBuilding| b.damping().couples_modes();
         if system.buildings().iter().any(|b| coupled(b)) || !(step > 0.0) {
             return None;
         }
+        let fastest = fastest_rate(system.buildings());
+        if fastest * step > COARSEST {
+            return None;
+        }
         let mut this = Self::with_step(system, step);
         this.add_rows();
         this.decays = Decay::of_modes(system, step);
-        this.fastest = fastest_rate(system.buildings());
+        this.fastest = fastest;
         this.rows = FloorRows::new(&this, system);
         this.add_sections();
         this.bands = system.bands().filter(|_| is_tall(system)).cloned();

@@ -729,7 +729,7 @@ impl System {
                     }
                 };
                 let rest = duration - start;
-                if rest <= 1.0e-9 * step {
+                if sample > 0 && rest <= 1.0e-9 * step {
                     return None;
                 }
                 let whole = rest > length * (1.0 - 1.0e-9) && rest < length * (1.0 + 1.0e-9);
@@ -748,9 +748,10 @@ impl System {
     fn segment_of_samples(&self, sample: usize, duration: f64) -> Option<Segment> {
         let ground = &self.ground;
         let start = sample as f64 * ground.time_step;
-        // The last interval may be round-off: duration is often a whole number of steps.
+        // The last interval may be round-off: duration is often a whole number of steps. The first one is none, however long
+        // the step.
         let rest = duration - start;
-        if rest <= 1.0e-9 * ground.time_step {
+        if sample > 0 && rest <= 1.0e-9 * ground.time_step {
             return None;
         }
         let (a, b) = match (ground.samples.get(sample), ground.samples.get(sample + 1)) {

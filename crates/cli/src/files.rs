@@ -231,8 +231,19 @@ pub fn no_result_stands(path: &Path) -> Result<(), Failure> {
     }
 }
 
+/// Refuses to put anything into the place of a file in TOML, which no command writes: a case, a study or rules that somebody
+/// wrote, whether or not this call reads it.
+fn nothing_written_by_hand_stands(path: &Path) -> Result<(), Failure> {
+    let ending = path.extension().unwrap_or_default();
+    match ending.eq_ignore_ascii_case("toml") && holds_something(path) {
+        true => Err(stands(path, "in TOML, as cases, studies and rules are")),
+        false => Ok(()),
+    }
+}
+
 /// Refuses to put anything but a result into the place of one, or of a shard of a check.
 fn no_run_stands(path: &Path) -> Result<(), Failure> {
+    nothing_written_by_hand_stands(path)?;
     match Label::of(path) {
         Some(found) => Err(stands(path, &format!("the result of {}", found.kind))),
         None if is_shard_of_check(path) => {
@@ -446,6 +457,7 @@ impl Replaced<'_> {
     /// # Errors
     /// As [`spared`](Self::spared).
     pub fn judged(&self, goes_on: bool) -> Result<Option<String>, Failure> {
+        nothing_written_by_hand_stands(self.output)?;
         // Looked at before the label: a result that comes meanwhile is none of somebody else.
         let stood = holds_something(self.output);
         let Some(found) = Label::of(self.output) else {
@@ -483,6 +495,14 @@ impl Replaced<'_> {
                 refused(&format!("that of {here} does not take its place unasked"))
             }
             _ if goes_on => Ok(None),
+            None if found.file.is_empty() && found.study.is_none() && !self.named => refused(
+                "another program has opened it for writing since, or it is of an early version, so that it does not say of which file it is, and nothing takes its place unasked",
+            ),
+            None if found.file.is_empty() && found.study.is_none() && kind == Kind::Study => {
+                Ok(Some(format!(
+                    "{output} is replaced, the result of a study that does not say of which"
+                )))
+            }
             Some(_) if other_text => Ok(Some(format!(
                 "{output} is replaced, the result of another study{of}"
             ))),
@@ -495,11 +515,6 @@ impl Replaced<'_> {
             None if other_text => Ok(Some(format!(
                 "{output} is replaced, the result of another version of this study"
             ))),
-            None if found.file.is_empty() && self.kind == Kind::Run && !self.named => {
-                Ok(Some(format!(
-                    "{output} is replaced, the result of a run that does not say of which case file it is"
-                )))
-            }
             None => Ok(None),
         }
     }

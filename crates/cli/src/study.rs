@@ -6,7 +6,7 @@ use std::time::Duration;
 
 use pounding_case::Dimension;
 use pounding_catalogue::wording::{agreeing, counted};
-use pounding_files::checksum::{WithoutChecksum, check, hexadecimal};
+use pounding_files::checksum::{ChecksumError, WithoutChecksum, check, hexadecimal};
 use pounding_files::{FileUse, free_name};
 use pounding_report::page::SweepAnswer;
 use pounding_results::{Kind, Label};
@@ -171,8 +171,9 @@ pub fn stands_complete(
 /// In a folder of shards nobody looks at each: a result that is damaged makes room for a new one, and
 /// is kept beside it.
 fn damaged_goes_aside(output: &Path) -> Result<(), Failure> {
-    match check(output, WithoutChecksum::Accept) {
-        Err(error) if error.is_damage() => {
+    match check(output, WithoutChecksum::Refuse) {
+        // Another program has opened it for writing since: what it is of is not known any more.
+        Err(error) if error.is_damage() || matches!(error, ChecksumError::Absent) => {
             let aside = free_name(output);
             std::fs::rename(output, &aside)
                 .map_err(|e| Failure::output(&e, &aside.display().to_string()))?;

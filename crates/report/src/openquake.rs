@@ -44,8 +44,8 @@ impl NoMeasure {
 /// Fragilities for OpenQuake.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct FragilityModel {
-    /// The file; `None`: no state has a fragility.
-    pub xml: Option<String>,
+    /// The file.
+    pub xml: String,
     /// States without a fragility, which the file does not have.
     pub left_out: Vec<String>,
 }
@@ -160,7 +160,7 @@ pub fn fragility_model(
         xml.end_element();
     }
     FragilityModel {
-        xml: (!functions.is_empty()).then(|| xml.end_document()),
+        xml: xml.end_document(),
         left_out,
     }
 }

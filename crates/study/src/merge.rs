@@ -139,8 +139,15 @@ pub(crate) fn refuse_name_of_shard(output: &Path, own: Option<Shard>) -> Result<
 /// loses one.
 fn spare_what_is_not_merged(shards: &Shards, output: &Path) -> Result<(), StudyError> {
     let merged = shards.description();
-    let Some(found) = Label::of(output).and_then(|label| label.study) else {
+    let Some(label) = Label::of(output) else {
         return Ok(());
+    };
+    let Some(found) = label.study else {
+        return Err(StudyError::NotMerged {
+            path: output.to_owned(),
+            reason: "another program has opened it for writing since, so that it may hold a shard"
+                .to_owned(),
+        });
     };
     let merges = |shard: &usize| merged.part.is_whole() || merged.part.shards().contains(shard);
     let held = match found.part.is_whole() {

@@ -497,7 +497,7 @@ fn levels_at_equal_elevation(
 }
 
 /// What to do where floors are not level.
-const AT_DIFFERENT_ELEVATIONS: &str = "correct the storey heights, or name the pairs of storeys that may touch with `levels = [[1, 1], ...]`; floors that hit columns need `column = {...}`; `floor_to_floor = true` lets pairs at different elevations act on each other as if they were level";
+const AT_DIFFERENT_ELEVATIONS: &str = "correct the storey heights, or name the pairs of storeys that may touch with `levels = [[1, 1], ...]`, which with `floor_to_floor = true` may stand at different elevations and act on each other as if they were level; floors that hit columns need `column = {...}`";
 
 /// Some elevations, for a message.
 fn shown(elevations: &[f64]) -> String {

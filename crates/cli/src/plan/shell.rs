@@ -21,7 +21,7 @@ pub fn script(plan: &Plan) -> String {
     let log = quoted(&format!("{}/log", plan.folder));
     let shards = plan.shards;
     format!(
-        "#!/bin/bash\n{}{}{}# With GNU parallel: the same with `parallel -j` in the place of `xargs -P`.\necho \"$shards\" | xargs -r -n 1 -P {at_once} bash -c {}\n{}\n",
+        "#!/bin/bash\n{}{}{}# With GNU parallel: the same with `parallel -j` in the place of `xargs -P`.\necho \"$shards\" | xargs -r -n 1 -P {at_once} bash -c {} || {{ code=$?; echo \"some shards did not come to their end: see \"{log}\", and \"{} >&2; exit \"$code\"; }}\n{}\n",
         plan.head("on one machine", &again),
         plan.begin(),
         plan.list_of_shards(),
@@ -29,6 +29,7 @@ pub fn script(plan: &Plan) -> String {
             "{limit}{} >> {log}/\"$0\".txt 2>&1",
             plan.of_shard(&format!("\"$0/{shards}\""))
         )),
+        quoted(&shell_line(&plan.unfinished[..plan.unfinished.len() - 1])),
         plan.last_lines()
     )
 }

@@ -43,10 +43,11 @@ pub fn script(plan: &Plan) -> String {
         options.push(format!("--time={}", clock(seconds)));
         options.push(format!("--signal=B:USR1@{BEFORE_LIMIT}"));
     }
+    let task = task(plan);
+    let end = end_of_document("ARRAY", &task);
     text.push_str(&format!(
-        "after=\nif [ -n \"$tasks\" ]; then\narray=$(sbatch {} <<'ARRAY'\n{}ARRAY\n)\nafter=--dependency=afterok:$array\nfi\n",
-        options.join(" \\\n  "),
-        task(plan)
+        "after=\nif [ -n \"$tasks\" ]; then\narray=$(sbatch {} <<'{end}'\n{task}{end}\n)\nafter=--dependency=afterok:$array\nfi\n",
+        options.join(" \\\n  ")
     ));
     let merge = [
         "--parsable".to_owned(),
@@ -57,13 +58,23 @@ pub fn script(plan: &Plan) -> String {
         "--ntasks=1".to_owned(),
         format!("--output={}", log("merge")),
     ];
+    let last = plan.last_lines();
+    let end = end_of_document("MERGE", &last);
     text.push_str(&format!(
-        "merge=$(sbatch {} <<'MERGE'\n#!/bin/bash\nset -e\n{}\nMERGE\n)\necho \"array ${{array:-none}}, merge $merge; {shards} shards: see \"{}\n",
+        "merge=$(sbatch {} <<'{end}'\n#!/bin/bash\nset -e\n{last}\n{end}\n)\necho \"array ${{array:-none}}, merge $merge; {shards} shards: see \"{}\n",
         merge.join(" \\\n  "),
-        plan.last_lines(),
         quoted(&shell_line(&plan.unfinished[..plan.unfinished.len() - 1]))
     ));
     text
+}
+
+/// The line at which a document within a script ends: none of its own, which a name of several lines may have.
+fn end_of_document(word: &str, document: &str) -> String {
+    let mut end = word.to_owned();
+    while document.lines().any(|line| line == end) {
+        end.push('_');
+    }
+    end
 }
 
 /// What a task of the array does. A signal before the time limit goes to this shell alone, which
@@ -109,7 +120,17 @@ fn clock(seconds: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::clock;
+    use super::{clock, end_of_document};
+
+    /// A document in a script ends at its own end, whatever names stand in it.
+    #[test]
+    fn no_line_of_a_document_ends_it() {
+        assert_eq!(end_of_document("MERGE", "a\nb"), "MERGE");
+        assert_eq!(
+            end_of_document("MERGE", "a -o 'o\nMERGE\n)\nMERGE_\n.h5'"),
+            "MERGE__"
+        );
+    }
 
     /// The forms of `sbatch --time`.
     #[test]

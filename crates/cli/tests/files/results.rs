@@ -249,6 +249,46 @@ fn only_an_answer_takes_the_place_of_an_answer() {
     );
 }
 
+/// Cases, studies and rules are written by hand, and no command writes TOML: nothing takes their place, whether or not the call
+/// reads them.
+#[test]
+fn files_in_toml_stay() {
+    let fixture = Fixture::new();
+    let text = "title = \"of another project\"\n";
+    std::fs::write(fixture.path("victim.toml"), text).unwrap();
+    for command in [
+        "run case.toml -o victim.toml",
+        "run case.toml --no-output --plot victim.toml",
+        "gap case.toml --points 0 --codes-csv victim.toml",
+        "gap case.toml --points 0 -o victim.toml",
+        "sweep study.toml -o new.h5 --csv victim.toml",
+        "impact exact_hunt_crossley --example --csv victim.toml",
+        "motion info record.csv --report victim.toml",
+    ] {
+        let output = fixture.run(&command.split(' ').collect::<Vec<_>>());
+        let said = message(&output);
+        assert_ne!(output.status.code(), Some(0), "{command}: {said}");
+        assert_eq!(
+            std::fs::read_to_string(fixture.path("victim.toml")).unwrap(),
+            text,
+            "{command}"
+        );
+    }
+    let output = fixture.run(&[
+        "impact",
+        "exact_hunt_crossley",
+        "--example",
+        "--csv",
+        "victim.toml",
+    ]);
+    assert_eq!(output.status.code(), Some(4));
+    assert!(
+        message(&output).contains("victim.toml is in TOML"),
+        "{}",
+        message(&output)
+    );
+}
+
 /// What another program has written stays under a default name; under a given one it is replaced,
 /// and that is said. An empty file holds nothing, and results and pages of ours are replaced.
 #[test]
@@ -343,7 +383,7 @@ fn what_is_replaced_is_named() {
     let fixture = Fixture::new();
     let run = |command: &str| fixture.run(&command.split(' ').collect::<Vec<_>>());
     for (command, file, again) in [
-        ("motion convert record.csv -o", "mine.toml", true),
+        ("motion convert record.csv -o", "mine.txt", true),
         ("motion spectrum record.csv --csv", "mine.csv", true),
         ("motion spectrum record.csv --svg", "mine.svg", true),
         ("sweep study.toml -o new.h5 --csv", "table.csv", true),
@@ -366,8 +406,8 @@ fn what_is_replaced_is_named() {
         assert_eq!(!told.contains(&note), again, "{command}: {told}");
     }
     // A record of another file, and the pages of a folder.
-    let told = message(&run("motion convert second.csv -o mine.toml"));
-    assert!(told.contains("mine.toml is replaced"), "{told}");
+    let told = message(&run("motion convert second.csv -o mine.txt"));
+    assert!(told.contains("mine.txt is replaced"), "{told}");
     std::fs::create_dir(fixture.path("man")).unwrap();
     std::fs::write(fixture.path("man/pounding-run.1"), "mine\n").unwrap();
     let told = message(&run("man --pages man"));

@@ -139,6 +139,59 @@ fn a_file_that_was_opened_for_writing_is_refused() {
     );
 }
 
+/// What it is of such a file does not say any more: nothing takes its place unasked, no merge does, and in a folder of
+/// shards it makes room.
+#[test]
+fn a_file_that_was_opened_for_writing_stays() {
+    let bench = bench();
+    for (command, name) in [
+        ("run case.toml", "case.h5"),
+        ("sweep study.toml", "study.study.h5"),
+    ] {
+        let found = |bench: &Bench| bench.path(name).exists();
+        bench.text(command);
+        // Both are called by the folder where they are called `case` and `study`.
+        let name = match found(&bench) {
+            true => name.to_owned(),
+            false => {
+                let folder = bench.path("").canonicalize().unwrap();
+                let folder = folder.file_name().unwrap().to_str().unwrap().to_owned();
+                let ending = name.split_once('.').unwrap().1;
+                format!("{folder}.{ending}")
+            }
+        };
+        edit(&bench.path(&name), |_| ());
+        let before = bench.bytes(&name);
+        let told = bench.complaint(command, 4);
+        assert!(told.contains("another program has opened it"), "{told}");
+        assert!(bench.bytes(&name) == before, "{name}");
+        let output = bench.run(&format!("{command} -o {name}"));
+        let said = String::from_utf8(output.stderr).unwrap();
+        assert!(
+            output.status.success() && said.contains("is replaced"),
+            "{said}"
+        );
+    }
+    edit(&bench.path("1.h5"), |_| ());
+    let told = bench.complaint("merge 2.h5 --partial -o 1.h5", 2);
+    assert!(told.contains("it may hold a shard"), "{told}");
+    bench.text("sweep study.toml --shard 1/3 --into all");
+    let shards = std::fs::read_dir(bench.path("all")).unwrap();
+    let shard = shards
+        .map(|e| e.unwrap().path())
+        .find(|p| p.is_file())
+        .unwrap();
+    let whole = std::fs::read(&shard).unwrap();
+    edit(&shard, |_| ());
+    let output = bench.run("sweep study.toml --shard 1/3 --into all --resume");
+    let said = String::from_utf8(output.stderr).unwrap();
+    assert!(
+        output.status.success() && said.contains("its runs are made again"),
+        "{said}"
+    );
+    assert!(std::fs::read(&shard).unwrap() == whole);
+}
+
 #[test]
 fn files_of_earlier_versions_are_read_with_a_warning() {
     let bench = bench();

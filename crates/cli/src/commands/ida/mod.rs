@@ -188,17 +188,13 @@ fn write_openquake(
 ) -> Result<(), Failure> {
     let model = fragility_model(report, measure, (&name(&study.file), &study.title));
     let file = path.display();
-    let Some(xml) = model.xml else {
-        warn(&format!("{file} is not written: no state has a fragility"));
-        return Ok(());
-    };
     if !model.left_out.is_empty() {
         warn(&format!(
             "{file} has no function for states without a fragility: {}",
             model.left_out.join(", ")
         ));
     }
-    plot::write(path, &xml)
+    plot::write(path, &model.xml)
 }
 
 /// Writes the page of a result of the study; one of another study is refused.

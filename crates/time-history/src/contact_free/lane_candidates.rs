@@ -7,7 +7,8 @@ use multiversion::multiversion;
 use super::block::{BLOCK, products};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
-use super::lanes::{Ground, Lane, Track, WIDTH, step_modes, sum_of_products};
+use super::lanes::{Ground, Lane, Track, WIDTH, derive, step_modes, sum_of_products};
+use super::overdamped::Decay;
 
 /// Samples at which a block is looked at, its start included.
 const TIMES: usize = BLOCK + 1;
@@ -225,7 +226,7 @@ fn follow(
     for (c, m) in constants.modes.iter().enumerate() {
         let mut state = [displacement[c], velocity[c], Lane::ZERO, Lane::ZERO];
         let (mut largest, mut beside) = ([Lane::ZERO; 2], [Lane::ZERO; 2]);
-        let decay = constants.decays.get(c);
+        let decay = Decay::of_lane(&constants.decays, c);
         for (s, start) in samples.iter().copied().enumerate() {
             let end = samples.get(s + 1).copied().unwrap_or(start);
             let ground = Ground {
@@ -234,24 +235,19 @@ fn follow(
                 slope: (end - start) / constants.step,
             };
             let [q, p, ..] = state;
-            let (mut absolute, mut rate) = (Lane::ZERO, Lane::ZERO);
-            for l in 0..WIDTH {
-                let (damping, stiffness) = (m.damping[l], m.stiffness[l]);
-                let omega = m.circular_frequency[l];
-                absolute[l] = -(damping * p[l] + stiffness * q[l]);
-                let second = absolute[l] - m.participation[l] * ground.start;
-                rate[l] = -(damping * second + stiffness * p[l]);
-                let third = rate[l] - m.participation[l] * ground.slope;
-                let fourth = -(damping * third + stiffness * second);
-                let fifth = -(damping * fourth + stiffness * third);
-                let factor = omega + damping;
-                let of = [(second, third), (fourth, fifth)];
-                for (k, (y, rate)) in of.into_iter().enumerate() {
-                    let any = factor * (rate.abs() + omega * y.abs());
-                    let bound = decay.map_or((any, 0.0), |d| d.bound(l, (y, rate), any));
-                    largest[k][l] = largest[k][l].max(bound.0);
-                    beside[k][l] = beside[k][l].max(bound.1);
+            let ([absolute, rate], derivatives) = derive(m, (&q, &p), ground);
+            for (k, [y, rate]) in derivatives.iter().enumerate() {
+                let mut any = Lane::ZERO;
+                for l in 0..WIDTH {
+                    let omega = m.circular_frequency[l];
+                    any[l] = (omega + m.damping[l]) * (rate[l].abs() + omega * y[l].abs());
                 }
+                if let Some(decay) = decay {
+                    let [fourth, rest] = decay.bound([y, rate, &any]);
+                    any = fourth;
+                    beside[k] = larger(&rest, &beside[k]);
+                }
+                largest[k] = larger(&any, &largest[k]);
             }
             let place = s * count + c;
             (displacements[place], velocities[place]) = (q, p);
@@ -262,4 +258,14 @@ fn follow(
             (look.fourth[k][c], look.rest[k][c]) = (largest[k], beside[k]);
         }
     }
+}
+
+/// Larger values, place by place.
+#[inline(always)]
+fn larger(a: &Lane, b: &Lane) -> Lane {
+    let mut out = *b;
+    for l in 0..WIDTH {
+        out[l] = if a[l] > b[l] { a[l] } else { b[l] };
+    }
+    out
 }

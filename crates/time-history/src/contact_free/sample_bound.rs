@@ -1,12 +1,15 @@
 //! Bounds of floors' functions over one sample, from values and slopes at both ends: what stays
 //! below its peak by them needs no closer look.
 
+use std::ops::Range;
+
 use multiversion::multiversion;
 
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{Ground, Lane, Modal, WIDTH, derive};
 use super::overdamped::Decay;
+use crate::contact_episode::ModalRow;
 use crate::polynomial::hermite_range;
 
 /// The modes at both ends of a sample: displacement and velocity, absolute acceleration and
@@ -33,10 +36,15 @@ impl SampleBound {
         }
     }
 
-    /// Takes the sample that begins with these modes. A derivative `y` of a mode from the second
+    /// Takes the sample that begins with these lanes of modes. A derivative `y` of a mode from the second
     /// on swings freely, so that `y'^2 + omega^2 y^2` never grows, and with it
     /// `|y''| <= omega sqrt(1 + 4 zeta^2)` times its root; beyond critical damping by its decay.
-    pub(super) fn take(&mut self, constants: &ContactFree, now: &Modal, ground: Ground) {
+    pub(super) fn take(
+        &mut self,
+        constants: &ContactFree,
+        now: (Range<usize>, &Modal),
+        ground: Ground,
+    ) {
         take(constants, now, ground, self);
     }
 
@@ -54,21 +62,34 @@ impl SampleBound {
             Quantity::Acceleration => (&rows.floors[floor], 1),
             Quantity::SectionForce => (&rows.sections[floor], 0),
         };
-        let ends = [
-            &self.start[2 * of],
-            &self.start[2 * of + 1],
-            &self.end[2 * of],
-            &self.end[2 * of + 1],
-        ];
-        let fourth = row.dot_magnitudes(&self.fourth[of]);
-        let rest = if constants.decays.is_empty() {
-            0.0
-        } else {
-            row.dot_magnitudes(&self.rest[of])
-        };
-        let (least, most) = hermite_range(ends.map(|x| row.dot(x)), fourth, self.step);
+        let (ends, fourth, rest) = values(self, (row, of), constants.decays.is_empty());
+        let (least, most) = hermite_range(ends, fourth, self.step);
         most.max(-least) + rest <= peak && most.is_finite()
     }
+}
+
+/// Values and rates of a function at both ends, bound of its fourth derivative, and what fast decays
+/// depart by, if there are any.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn values(bound: &SampleBound, (row, of): (&ModalRow, usize), slow: bool) -> ([f64; 4], f64, f64) {
+    let ends = [
+        &bound.start[2 * of],
+        &bound.start[2 * of + 1],
+        &bound.end[2 * of],
+        &bound.end[2 * of + 1],
+    ];
+    let fourth = row.dot_magnitudes(&bound.fourth[of]);
+    let rest = if slow {
+        0.0
+    } else {
+        row.dot_magnitudes(&bound.rest[of])
+    };
+    (ends.map(|x| row.dot(x)), fourth, rest)
 }
 
 #[multiversion(targets(
@@ -77,13 +98,19 @@ impl SampleBound {
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn take(constants: &ContactFree, now: &Modal, ground: Ground, bound: &mut SampleBound) {
+fn take(
+    constants: &ContactFree,
+    (lanes, now): (Range<usize>, &Modal),
+    ground: Ground,
+    bound: &mut SampleBound,
+) {
     bound.step = constants.step;
     let at_end = Ground {
         start: ground.end,
         ..ground
     };
-    for (c, m) in constants.modes.iter().enumerate() {
+    for c in lanes {
+        let m = &constants.modes[c];
         let (q, p) = (&now.displacement[c], &now.velocity[c]);
         let after = |k: &[Lane; 4]| {
             let mut out = Lane::ZERO;

@@ -182,8 +182,8 @@ impl Loads {
 }
 
 impl BlockStep {
-    /// Lanes of modes up to which this costs less than to go from sample to sample: the factors of
-    /// more are larger than the cache, and mode shapes are most of the work by then.
+    /// Lanes of modes up to which this is done: the factors of more are larger than any cache, where
+    /// this saves less the more there are.
     pub(super) const LANES: usize = 128;
 
     /// For these modes over one sample of this length (s), and over a part of it, one of

@@ -91,7 +91,7 @@ const CANDIDATES: usize = 512;
 const SNAPSHOTS: usize = 64;
 const TALL_SNAPSHOTS: usize = 512;
 /// Lanes of floors for every state that tall buildings keep, of all that could be put off.
-const LANES_PUT_OFF: f64 = 0.25;
+const LANES_PUT_OFF: f64 = 0.5;
 
 /// Tracks of displacement, drift, acceleration and forces in sections.
 pub(super) type AllTracks<'a> = [&'a mut Track; 4];
@@ -380,17 +380,20 @@ impl Candidates {
             end,
             slope: (end - start) / constants.step,
         };
-        self.bound
-            .take(constants, (lanes.clone(), &self.scratch), whole);
-        for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
-            let (quantity, floor) = (candidate.quantity, candidate.floor);
-            let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
-            if self.bound.is_below(constants, (quantity, floor), peak) {
-                candidate.upper = f64::NEG_INFINITY;
+        // Of tall buildings the look at a sample that is not cut begins with such a bound.
+        if self.ends.is_empty() || constants.fine.parts > 1 {
+            let now = (lanes.clone(), &self.scratch);
+            self.bound.take(constants, now, whole);
+            for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
+                let (quantity, floor) = (candidate.quantity, candidate.floor);
+                let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
+                if self.bound.is_below(constants, (quantity, floor), peak) {
+                    candidate.upper = f64::NEG_INFINITY;
+                }
             }
-        }
-        if !group.iter().any(|c| is_above(c, tracks)) {
-            return;
+            if !group.iter().any(|c| is_above(c, tracks)) {
+                return;
+            }
         }
         let alive = group.iter().filter(|c| is_above(c, tracks));
         let functions = alive.map(|c| (c.quantity, c.floor));

@@ -17,7 +17,7 @@ use super::constants::ContactFree;
 use super::lanes::{
     Lane, Modal, Track, WIDTH, add, at, is_low, modal_acceleration_overshoots, scale, spread,
 };
-use super::reach::{Bounds, QUANTITIES, Reach};
+use super::reach::{Bounds, OneLane, QUANTITIES, Reach};
 use super::transform::{STRIP, rows_of_four, rows_of_two, transform_four, transform_two};
 use crate::bands::Bands;
 use crate::contact::Contacts;
@@ -53,6 +53,7 @@ pub(super) struct BlockEnds {
     /// and absolute acceleration what the ground's is at the ends.
     beyond: [Vec<Lane>; QUANTITIES],
     buildings: Vec<Reach>,
+    one_lane: Option<OneLane>,
     /// What could have a peak in the block.
     suspects: Vec<Suspect>,
     bands: Option<ByBands>,
@@ -100,6 +101,7 @@ impl BlockEnds {
         let (dofs, lanes) = (constants.building.len(), constants.modes.len());
         let zeros = || vec![Lane::ZERO; lanes];
         let end = || std::array::from_fn(|_| zeros());
+        let buildings = Reach::of_buildings(constants);
         Self {
             small: constants.bands.is_none() && constants.shapes.iter().all(|b| b.modes <= STRIP),
             modes: end(),
@@ -112,7 +114,8 @@ impl BlockEnds {
                 .as_ref()
                 .map_or_else(MadeLoad::default, BlockStep::space),
             beyond: std::array::from_fn(|_| zeros()),
-            buildings: Reach::of_buildings(constants),
+            one_lane: OneLane::of(constants, &buildings),
+            buildings,
             suspects: Vec::with_capacity(3 * lanes),
             bands: constants.bands.as_ref().map(|bands| ByBands {
                 displacement: vec![0.0; dofs + 2],
@@ -315,6 +318,13 @@ fn bound_all(
 #[inline(always)]
 fn bound_floors(ends: &mut BlockEnds, load: Option<BlockLoad<'_>>) {
     let added = load.unwrap_or(ends.load.view()).bounds;
+    if let Some(one_lane) = &ends.one_lane {
+        let bounds = one_lane.bounds(&ends.bounds, added);
+        for (beyond, bound) in ends.beyond.iter_mut().zip(bounds) {
+            beyond[0] = bound;
+        }
+        return;
+    }
     let mut made = 0;
     for (index, building) in ends.buildings.iter().enumerate() {
         let mut sums = building.sums(&ends.bounds);

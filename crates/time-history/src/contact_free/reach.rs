@@ -4,7 +4,7 @@ use std::hint::black_box;
 use std::ops::Range;
 
 use super::constants::ContactFree;
-use super::lanes::{Lane, WIDTH, mul, sum};
+use super::lanes::{Lane, WIDTH, add, mul, scale, sum};
 
 /// What floors are bounded in: displacement, drift and absolute acceleration, and the maximum of
 /// absolute acceleration.
@@ -83,5 +83,111 @@ impl Reach {
         }
         // Keeps the compiler from taking the vectors before it apart for the sake of the sums.
         black_box(sums).map(|lane| sum(&[lane]))
+    }
+}
+
+/// Buildings whose floors all stand in one lane: products with a small matrix cost less there than
+/// sums for every building.
+#[derive(Debug, Clone)]
+pub(super) struct OneLane {
+    /// For every mode its maximum magnitude at the floors of its building, and that of differences
+    /// from floor to floor.
+    size: [Lane; WIDTH],
+    drift_size: [Lane; WIDTH],
+    /// One for the floors of every building.
+    own: Vec<Lane>,
+}
+
+impl OneLane {
+    /// `None` for more lanes.
+    pub(super) fn of(constants: &ContactFree, buildings: &[Reach]) -> Option<Self> {
+        (constants.modes.len() == 1).then(|| Self::of_buildings(buildings))
+    }
+
+    fn of_buildings(buildings: &[Reach]) -> Self {
+        let own: Vec<Lane> = buildings.iter().map(|b| b.own[0]).collect();
+        // A size is that of one building alone.
+        let spread = |of: fn(&Reach) -> &Lane| -> [Lane; WIDTH] {
+            std::array::from_fn(|mode| {
+                let mut out = Lane::ZERO;
+                for building in buildings {
+                    out = add(out, scale(of(building)[mode], building.own[0]));
+                }
+                out
+            })
+        };
+        Self {
+            size: spread(|b| &b.size[0]),
+            drift_size: spread(|b| &b.drift_size[0]),
+            own,
+        }
+    }
+
+    /// What these bounds of the modes, and what the accelerations add for each building, come to at
+    /// the floors.
+    #[inline(always)]
+    pub(super) fn bounds(
+        &self,
+        bounds: &Bounds,
+        added: &[[f64; QUANTITIES]],
+    ) -> [Lane; QUANTITIES] {
+        let of = [&bounds.displacement, &bounds.acceleration, &bounds.most].map(|of| &of[0]);
+        let mut out = [Lane::ZERO; QUANTITIES];
+        for (own, added) in self.own.iter().zip(added) {
+            for (out, added) in out.iter_mut().zip(added) {
+                *out = add(*out, scale(*added, *own));
+            }
+        }
+        for mode in 0..WIDTH {
+            let (size, drift_size) = (self.size[mode], self.drift_size[mode]);
+            out[0] = add(out[0], scale(of[0][mode], size));
+            out[1] = add(out[1], scale(of[0][mode], drift_size));
+            out[2] = add(out[2], scale(of[1][mode], size));
+            out[3] = add(out[3], scale(of[2][mode], size));
+        }
+        out
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Three buildings of three, one and two storeys.
+    #[test]
+    fn one_lane_has_the_sums_of_every_building() {
+        let value = |k: usize, l: usize| libm::sin((3 * k + 7 * l) as f64).abs();
+        let some = |k: usize| Lane::from_fn(|l| value(k, l));
+        let buildings: Vec<Reach> = [0..3, 3..4, 4..6]
+            .into_iter()
+            .map(|floors: Range<usize>| {
+                let own = Lane::from_fn(|l| f64::from(floors.contains(&l)));
+                Reach {
+                    lane: 0,
+                    size: vec![mul(own, some(1))],
+                    drift_size: vec![mul(own, some(2))],
+                    own: vec![own],
+                }
+            })
+            .collect();
+        let bounds = Bounds {
+            displacement: vec![some(3)],
+            acceleration: vec![some(4)],
+            most: vec![some(5)],
+        };
+        let added: Vec<[f64; QUANTITIES]> = (0..3)
+            .map(|b| std::array::from_fn(|k| value(k, b)))
+            .collect();
+        let seen = OneLane::of_buildings(&buildings).bounds(&bounds, &added);
+        for (b, building) in buildings.iter().enumerate() {
+            let sums = building.sums(&bounds);
+            for (k, (seen, sum)) in seen.iter().zip(sums).enumerate() {
+                for l in (0..WIDTH).filter(|l| building.own[0][*l] > 0.0) {
+                    let error = (seen[l] - (sum + added[b][k])).abs();
+                    assert!(error <= 1e-14, "{b} {k} {l}: {error:e}");
+                }
+            }
+        }
+        assert!(seen.iter().all(|lane| lane[6] == 0.0 && lane[7] == 0.0));
     }
 }

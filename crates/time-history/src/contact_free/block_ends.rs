@@ -150,7 +150,7 @@ impl BlockEnds {
                 if load.is_none() {
                     step.load(samples, &mut self.load);
                 }
-                self.step_over(constants, (step, now), (samples, load), &mut block.end);
+                self.step_over((step, now), (samples, load), &mut block.end);
                 bound_all((samples[0], samples[BLOCK]), load, peak, self)
             }
             None => advance_modes(constants, (now, samples), peak, block, self),
@@ -168,7 +168,6 @@ impl BlockEnds {
     /// Advances the modes by one step over the block, whose load is at hand or was worked out.
     fn step_over(
         &mut self,
-        constants: &ContactFree,
         (step, now): (&BlockStep, &Modal),
         (samples, load): (&[f64; BLOCK + 1], Option<BlockLoad<'_>>),
         end: &mut Modal,
@@ -176,7 +175,7 @@ impl BlockEnds {
         let load = load.unwrap_or(self.load.view());
         let ends = (samples[0], samples[BLOCK]);
         let bounds = &mut self.bounds;
-        step.advance(&constants.modes, (now, ends), load, (end, bounds));
+        step.advance((now, ends), load, (end, bounds));
     }
 
     /// Works out the floors, from these displacements and velocities of the modes and this
@@ -187,7 +186,9 @@ impl BlockEnds {
         (q, p, ground): (&[Lane], &[Lane], f64),
         low: bool,
     ) {
-        derive_end(constants, (q, p, ground), &mut self.modes);
+        // Accelerations of tall buildings are those of the floors.
+        let speeds_alone = low || self.bands.is_some() && !self.small;
+        derive_end(constants, (q, p, ground), speeds_alone, &mut self.modes);
         let [_, rate, absolute, absolute_rate] = &self.modes;
         let (shapes, rows) = (&constants.shapes, &constants.floor_rows);
         match (&constants.bands, &mut self.bands) {
@@ -445,7 +446,7 @@ fn third(constants: &ContactFree) -> f64 {
     BLOCK as f64 * constants.step / 3.0
 }
 
-/// What is transformed to floors beside displacements.
+/// What is transformed to floors beside displacements, or thirds of speeds alone.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -455,12 +456,21 @@ fn third(constants: &ContactFree) -> f64 {
 fn derive_end(
     constants: &ContactFree,
     (displacement, velocity, ground): (&[Lane], &[Lane], f64),
+    speeds_alone: bool,
     modes: &mut End,
 ) {
     let third = third(constants);
     let count = constants.modes.len();
     let [_, rates, absolutes, absolute_rates] = modes.each_mut().map(|modes| &mut modes[..count]);
     let (displacement, velocity) = (&displacement[..count], &velocity[..count]);
+    if speeds_alone {
+        for (rate, p) in rates.iter_mut().zip(velocity) {
+            for l in 0..WIDTH {
+                rate[l] = third * p[l];
+            }
+        }
+        return;
+    }
     for (c, m) in constants.modes.iter().enumerate() {
         let (q, p) = (&displacement[c], &velocity[c]);
         let mut out = [Lane::ZERO; 3];

@@ -59,6 +59,8 @@ struct Start {
     /// Of magnitudes of displacement and velocity less those of the motion under the line, in
     /// [`Bounds`].
     bounds: [[Lane; 2]; 3],
+    /// The motion under the line, as [`ModeLanes`] has it: beside the others it is in the cache.
+    steady: [Lane; 2],
 }
 
 /// Factors of the accelerations.
@@ -253,13 +255,12 @@ impl BlockStep {
     /// accelerations add. `ends` are the accelerations there.
     pub(super) fn advance(
         &self,
-        modes: &[ModeLanes],
         (now, ends): (&Modal, (f64, f64)),
         load: BlockLoad<'_>,
         (end, bounds): (&mut Modal, &mut Bounds),
     ) {
         let slope = (ends.1 - ends.0) / self.length;
-        let steps = (modes, self.start.as_slice(), load.modes);
+        let steps = (self.start.as_slice(), load.modes);
         advance_all(steps, (now, ends.0, slope), end, bounds);
     }
 }
@@ -271,19 +272,19 @@ impl BlockStep {
     "aarch64+neon"
 ))]
 fn advance_all(
-    (modes, starts, loads): (&[ModeLanes], &[Start], &[Load]),
+    (starts, loads): (&[Start], &[Load]),
     (now, ground, slope): (&Modal, f64, f64),
     end: &mut Modal,
     bounds: &mut Bounds,
 ) {
-    let count = modes.len();
+    let count = starts.len();
     let now = [
         &now.displacement[..count],
         &now.velocity[..count],
         &now.input[..count],
         &now.viscous[..count],
     ];
-    let (starts, loads) = (&starts[..count], &loads[..count]);
+    let loads = &loads[..count];
     let ends = [
         &mut end.displacement[..count],
         &mut end.velocity[..count],
@@ -293,11 +294,11 @@ fn advance_all(
     let [end_q, end_p, end_input, end_viscous] = ends;
     let departures = &mut bounds.displacement[..count];
     let (faster, most) = (&mut bounds.acceleration[..count], &mut bounds.most[..count]);
-    for (c, m) in modes.iter().enumerate() {
-        let (k, load) = (&starts[c], &loads[c]);
+    for (c, k) in starts.iter().enumerate() {
+        let load = &loads[c];
         let [x, v, input, viscous] = now.map(|now| now[c]);
         let [q_load, p_load, by_q, by_p, damped_by_q, damped_by_p] = &load.linear;
-        let [by_value, by_slope] = &m.steady;
+        let [by_value, by_slope] = &k.steady;
         let mut motion = [Lane::ZERO; 4];
         let mut bounds = [Lane::ZERO; 3];
         for l in 0..WIDTH {
@@ -528,6 +529,7 @@ fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights, BoundWe
                 })
             })
         }),
+        steady: m.steady,
     };
     let weights = Weights {
         linear: [

@@ -15,7 +15,7 @@ use super::block_step::{BlockLoad, BlockStep, MadeLoad};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Lane, Modal, Track, WIDTH, add, at, is_low, modal_acceleration_overshoots, scale, spread,
+    Lane, Modal, Track, WIDTH, add, is_low, modal_acceleration_overshoots, scale, spread,
 };
 use super::reach::{Bounds, OneLane, QUANTITIES, Reach};
 use super::transform::{STRIP, rows_of_four, rows_of_two, transform_four, transform_two};
@@ -219,20 +219,27 @@ impl BlockEnds {
         if are_within(0.5 * widths.fold(f64::INFINITY, f64::min), self) {
             return true;
         }
-        let (start, end, beyond) = (&self.start, &self.end, &self.beyond[0]);
-        let floor = |i: Option<usize>| {
-            i.map_or(([0.0; CUBIC], 0.0), |i| {
-                let value = |lanes: &[Lane]| at(lanes, i);
-                let (a, b) = (value(&start[0]), value(&end[0]));
-                let cubic = [a, a + value(&start[1]), b - value(&end[1]), b];
-                (cubic, value(beyond))
-            })
-        };
         system.levels().iter().enumerate().all(|(l, level)| {
-            let ((left, over), (right, under)) = (floor(level.left), floor(level.right));
-            let closing = left.iter().zip(right).map(|(a, b)| a - b);
-            closing.fold(f64::NEG_INFINITY, f64::max) + (over + under) <= contacts.width(l)
+            let (left, over) = self.hull_of(level.left);
+            let (right, under) = self.hull_of(level.right);
+            let mut most = f64::NEG_INFINITY;
+            for k in 0..CUBIC {
+                most = most.max(left[k] - right[k]);
+            }
+            most + (over + under) <= contacts.width(l)
         })
+    }
+
+    /// Coefficients of a floor's displacement, and what it may exceed their hull by; none of a wall.
+    #[inline(always)]
+    fn hull_of(&self, floor: Option<usize>) -> ([f64; CUBIC], f64) {
+        let Some(i) = floor else {
+            return ([0.0; CUBIC], 0.0);
+        };
+        let (c, l) = (i / WIDTH, i % WIDTH);
+        let (a, b) = (self.start[0][c][l], self.end[0][c][l]);
+        let (out, back) = (self.start[1][c][l], self.end[1][c][l]);
+        ([a, a + out, b - back, b], self.beyond[0][c][l])
     }
 
     /// Whether present accelerations, which are worked out, are those of the modes.

@@ -155,7 +155,8 @@ impl Loads {
         let samples = &system.ground().samples;
         let blocks = samples.len().saturating_sub(1) / BLOCK;
         let (lanes, buildings) = step.counts();
-        let bytes = blocks * lanes * size_of::<Load>();
+        let bytes =
+            blocks * (lanes * size_of::<Load>() + buildings * size_of::<[f64; QUANTITIES]>());
         if bytes > BYTES || !self.asked.swap(true, Ordering::Relaxed) {
             return;
         }

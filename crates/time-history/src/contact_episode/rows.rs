@@ -116,6 +116,11 @@ impl ModalRow {
         dot_all(self, x, lanes, out);
     }
 
+    /// Two values, with the bits of [`ModalRow::dot`].
+    pub(crate) fn dot_two(&self, x: [&[Lane]; 2]) -> [f64; 2] {
+        dot_two(self, x)
+    }
+
     /// Four values in the time of one, with the bits of [`ModalRow::dot`].
     #[inline(always)]
     fn dot_four(&self, [a, b, c, d]: [&[Lane]; 4]) -> [f64; 4] {
@@ -190,6 +195,17 @@ pub(crate) fn total(x: &Lane) -> f64 {
     let half: [f64; 4] = std::array::from_fn(|l| x[l] + x[l + 4]);
     let quarter = [half[0] + half[2], half[1] + half[3]];
     quarter[0] + quarter[1]
+}
+
+/// Two values of a row.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn dot_two(row: &ModalRow, x: [&[Lane]; 2]) -> [f64; 2] {
+    x.map(|x| row.dot(x))
 }
 
 /// Values of a row for displacements that stand one after another.

@@ -1,6 +1,8 @@
 //! Contact-free motion over a block of samples at once: most blocks neither touch nor peak,
 //! and one comparison of every floor, storey and level says so.
 
+use std::ops::Range;
+
 use multiversion::multiversion;
 
 use super::candidates::Quantity;
@@ -285,15 +287,20 @@ fn bound_sections(constants: &ContactFree, block: &mut Block) {
     }
 }
 
-/// Advances the modes alone by some samples.
+/// Advances these lanes of the modes alone by some samples.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn advance(constants: &ContactFree, samples: &[f64], now: &mut Modal) {
-    for (c, m) in constants.modes.iter().enumerate() {
+pub(super) fn advance(
+    constants: &ContactFree,
+    (lanes, samples): (Range<usize>, &[f64]),
+    now: &mut Modal,
+) {
+    for c in lanes {
+        let m = &constants.modes[c];
         let mut state = [
             now.displacement[c],
             now.velocity[c],

@@ -20,6 +20,7 @@ use multiversion::multiversion;
 use super::block::BLOCK;
 use super::constants::ContactFree;
 use super::lanes::{Lane, Modal, ModeLanes, WIDTH};
+use super::reach::{Bounds, QUANTITIES, Reach};
 use crate::system::System;
 
 /// Samples of a block, with both ends.
@@ -44,7 +45,7 @@ const LONGEST: f64 = 2.5;
 /// [`ROUND_OFF`] is to be more.
 const FASTEST: f64 = 300.0;
 /// Bytes that the loads of one record and set of buildings may take.
-const BYTES: usize = 8 << 20;
+const BYTES: usize = 32 << 20;
 
 /// Factors of the state at the start, of eight modes.
 #[derive(Debug, Clone, Copy)]
@@ -58,6 +59,8 @@ struct Start {
     /// Of magnitudes of displacement and velocity less those of the motion under the line, in
     /// [`Bounds`].
     bounds: [[Lane; 2]; 3],
+    /// The motion under the line, as [`ModeLanes`] has it: beside the others it is in the cache.
+    steady: [Lane; 2],
 }
 
 /// Factors of the accelerations.
@@ -69,28 +72,59 @@ struct Weights {
     linear: [[Lane; TIMES]; 6],
     /// Of products of two accelerations in both works.
     pairs: [[Lane; PAIRS]; 2],
-    /// Of magnitudes of departures from the line in [`Bounds`].
-    bounds: [[Lane; INSIDE]; 3],
-    /// What round-off adds to them: of the largest acceleration, and of the line's slope.
-    round_off: [[Lane; 2]; 3],
 }
+
+/// What accelerations add to [`Bounds`], all of magnitudes: factors of departures from the line at
+/// the samples inside, and, for round-off, of the largest acceleration and of the line's slope.
+type BoundWeights<T> = [T; INSIDE + 2];
 
 /// What the accelerations of a block do to eight modes.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Load {
     linear: [Lane; 6],
     works: [Lane; 2],
-    bounds: [Lane; 3],
 }
 
-/// Bounds of the modes over a block, all magnitudes.
-#[derive(Debug, Clone)]
-pub(super) struct Bounds {
-    /// What displacement and absolute acceleration depart from the cubic through both ends by.
-    pub displacement: Vec<Lane>,
-    pub acceleration: Vec<Lane>,
-    /// Absolute acceleration beside that under the line, which is the ground's.
-    pub most: Vec<Lane>,
+/// What the accelerations of a block do to all modes, and what they add to the bounds of the floors
+/// of every building.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct BlockLoad<'a> {
+    modes: &'a [Load],
+    pub bounds: &'a [[f64; QUANTITIES]],
+}
+
+/// The same, made for one block or for many.
+#[derive(Debug, Clone, Default)]
+pub(super) struct MadeLoad {
+    modes: Vec<Load>,
+    bounds: Vec<[f64; QUANTITIES]>,
+}
+
+impl MadeLoad {
+    fn new(blocks: usize, (lanes, buildings): (usize, usize)) -> Self {
+        Self {
+            modes: vec![Load::default(); blocks * lanes],
+            bounds: vec![[0.0; QUANTITIES]; blocks * buildings],
+        }
+    }
+
+    /// That of a single block.
+    pub(super) fn view(&self) -> BlockLoad<'_> {
+        BlockLoad {
+            modes: &self.modes,
+            bounds: &self.bounds,
+        }
+    }
+
+    /// That of the block of this number, if it is there.
+    fn of(&self, block: usize, (lanes, buildings): (usize, usize)) -> Option<BlockLoad<'_>> {
+        Some(BlockLoad {
+            modes: self.modes.get(block * lanes..(block + 1) * lanes)?,
+            bounds: self
+                .bounds
+                .get(block * buildings..(block + 1) * buildings)?,
+        })
+    }
 }
 
 /// All modes of a set of buildings.
@@ -98,6 +132,8 @@ pub(super) struct Bounds {
 pub(crate) struct BlockStep {
     start: Vec<Start>,
     weights: Vec<Weights>,
+    /// What accelerations add to the bounds of the floors of every building.
+    bounds: Vec<BoundWeights<[f64; QUANTITIES]>>,
     /// Length of a block (s).
     length: f64,
 }
@@ -107,7 +143,7 @@ pub(crate) struct BlockStep {
 #[derive(Debug, Default)]
 pub(crate) struct Loads {
     asked: AtomicBool,
-    all: OnceLock<Vec<Load>>,
+    all: OnceLock<MadeLoad>,
 }
 
 impl Loads {
@@ -118,16 +154,20 @@ impl Loads {
         };
         let samples = &system.ground().samples;
         let blocks = samples.len().saturating_sub(1) / BLOCK;
-        let bytes = blocks * step.start.len() * size_of::<Load>();
+        let (lanes, buildings) = step.counts();
+        let bytes =
+            blocks * (lanes * size_of::<Load>() + buildings * size_of::<[f64; QUANTITIES]>());
         if bytes > BYTES || !self.asked.swap(true, Ordering::Relaxed) {
             return;
         }
         self.all.get_or_init(|| {
-            let mut loads = vec![Load::default(); blocks * step.start.len()];
-            for (block, loads) in loads.chunks_exact_mut(step.start.len()).enumerate() {
-                step.load(&samples[block * BLOCK..], loads);
+            let mut all = MadeLoad::new(blocks, (lanes, buildings));
+            let modes = all.modes.chunks_exact_mut(lanes);
+            let bounds = all.bounds.chunks_exact_mut(buildings);
+            for (block, (modes, bounds)) in modes.zip(bounds).enumerate() {
+                step.load_into(&samples[block * BLOCK..], (modes, bounds));
             }
-            loads
+            all
         });
     }
 
@@ -138,45 +178,43 @@ impl Loads {
     }
 
     /// That of the block from this sample on; none where it is not at hand.
-    pub(super) fn of(&self, constants: &ContactFree, sample: usize) -> &[Load] {
-        let lanes = constants.modes.len();
-        let first = sample / BLOCK * lanes;
-        match self.all.get() {
-            Some(all) if sample.is_multiple_of(BLOCK) => {
-                all.get(first..first + lanes).unwrap_or(&[])
-            }
-            _ => &[],
-        }
-    }
-}
-
-impl Bounds {
-    pub(super) fn new(lanes: usize) -> Self {
-        let zeros = || vec![Lane::ZERO; lanes];
-        Self {
-            displacement: zeros(),
-            acceleration: zeros(),
-            most: zeros(),
-        }
+    pub(super) fn of(&self, constants: &ContactFree, sample: usize) -> Option<BlockLoad<'_>> {
+        let all = self.all.get().filter(|_| sample.is_multiple_of(BLOCK))?;
+        all.of(sample / BLOCK, constants.block_step.as_ref()?.counts())
     }
 }
 
 impl BlockStep {
-    /// Lanes of modes up to which this costs less than to go from sample to sample: the factors of
-    /// more are larger than the cache, and mode shapes are most of the work by then.
-    pub(super) const LANES: usize = 16;
+    /// Lanes of modes up to which this is done: the factors of more are larger than any cache, where
+    /// this saves less the more there are.
+    pub(super) const LANES: usize = 128;
 
     /// For these modes over one sample of this length (s), and over a part of it, one of
     /// [`BlockStep::parts`].
-    pub(super) fn new(modes: &[ModeLanes], parts: &[ModeLanes], step: f64) -> Self {
-        let made = modes
-            .iter()
-            .zip(parts)
-            .map(|(m, part)| lanes(m, part, step));
-        let (start, weights) = made.unzip();
+    pub(super) fn new(
+        (modes, parts): (&[ModeLanes], &[ModeLanes]),
+        buildings: &[Reach],
+        step: f64,
+    ) -> Self {
+        let (mut start, mut weights) = (Vec::new(), Vec::new());
+        let mut bounds: BoundWeights<Bounds> = std::array::from_fn(|_| Bounds::new(modes.len()));
+        for (c, (m, part)) in modes.iter().zip(parts).enumerate() {
+            let (of_start, of_load, of_bounds) = lanes(m, part, step);
+            start.push(of_start);
+            weights.push(of_load);
+            for (bounds, of_bounds) in bounds.iter_mut().zip(of_bounds) {
+                [
+                    bounds.displacement[c],
+                    bounds.acceleration[c],
+                    bounds.most[c],
+                ] = of_bounds;
+            }
+        }
+        let of = |building: &Reach| bounds.each_ref().map(|bounds| building.sums(bounds));
         Self {
             start,
             weights,
+            bounds: buildings.iter().map(of).collect(),
             length: BLOCK as f64 * step,
         }
     }
@@ -193,24 +231,37 @@ impl BlockStep {
         step / POINTS as f64
     }
 
-    /// What a block does whose accelerations are the first of these.
-    pub(super) fn load(&self, samples: &[f64], loads: &mut [Load]) {
-        let mut block = [0.0; TIMES];
-        block.copy_from_slice(&samples[..TIMES]);
-        load_all(&self.weights, &block, self.length, loads);
+    /// Numbers of lanes and of buildings.
+    fn counts(&self) -> (usize, usize) {
+        (self.start.len(), self.bounds.len())
     }
 
-    /// Takes the motion over a block to its end, and bounds it inside. `ends` are the accelerations
-    /// there.
+    /// Space for what one block does.
+    pub(super) fn space(&self) -> MadeLoad {
+        MadeLoad::new(1, self.counts())
+    }
+
+    /// What a block does whose accelerations are the first of these.
+    pub(super) fn load(&self, samples: &[f64], load: &mut MadeLoad) {
+        self.load_into(samples, (&mut load.modes, &mut load.bounds));
+    }
+
+    fn load_into(&self, samples: &[f64], out: (&mut [Load], &mut [[f64; QUANTITIES]])) {
+        let mut block = [0.0; TIMES];
+        block.copy_from_slice(&samples[..TIMES]);
+        load_all(self, &block, out);
+    }
+
+    /// Takes the motion over a block to its end, and bounds what it does inside beside what the
+    /// accelerations add. `ends` are the accelerations there.
     pub(super) fn advance(
         &self,
-        modes: &[ModeLanes],
         (now, ends): (&Modal, (f64, f64)),
-        loads: &[Load],
+        load: BlockLoad<'_>,
         (end, bounds): (&mut Modal, &mut Bounds),
     ) {
         let slope = (ends.1 - ends.0) / self.length;
-        let steps = (modes, self.start.as_slice(), loads);
+        let steps = (self.start.as_slice(), load.modes);
         advance_all(steps, (now, ends.0, slope), end, bounds);
     }
 }
@@ -222,19 +273,19 @@ impl BlockStep {
     "aarch64+neon"
 ))]
 fn advance_all(
-    (modes, starts, loads): (&[ModeLanes], &[Start], &[Load]),
+    (starts, loads): (&[Start], &[Load]),
     (now, ground, slope): (&Modal, f64, f64),
     end: &mut Modal,
     bounds: &mut Bounds,
 ) {
-    let count = modes.len();
+    let count = starts.len();
     let now = [
         &now.displacement[..count],
         &now.velocity[..count],
         &now.input[..count],
         &now.viscous[..count],
     ];
-    let (starts, loads) = (&starts[..count], &loads[..count]);
+    let loads = &loads[..count];
     let ends = [
         &mut end.displacement[..count],
         &mut end.velocity[..count],
@@ -244,11 +295,11 @@ fn advance_all(
     let [end_q, end_p, end_input, end_viscous] = ends;
     let departures = &mut bounds.displacement[..count];
     let (faster, most) = (&mut bounds.acceleration[..count], &mut bounds.most[..count]);
-    for (c, m) in modes.iter().enumerate() {
-        let (k, load) = (&starts[c], &loads[c]);
+    for (c, k) in starts.iter().enumerate() {
+        let load = &loads[c];
         let [x, v, input, viscous] = now.map(|now| now[c]);
         let [q_load, p_load, by_q, by_p, damped_by_q, damped_by_p] = &load.linear;
-        let [by_value, by_slope] = &m.steady;
+        let [by_value, by_slope] = &k.steady;
         let mut motion = [Lane::ZERO; 4];
         let mut bounds = [Lane::ZERO; 3];
         for l in 0..WIDTH {
@@ -265,8 +316,7 @@ fn advance_all(
             let place = (x[l] + (by_value[l] * ground - by_slope[l] * slope)).abs();
             let speed = (v[l] + by_value[l] * slope).abs();
             for b in 0..3 {
-                bounds[b][l] =
-                    k.bounds[b][0][l] * place + k.bounds[b][1][l] * speed + load.bounds[b][l];
+                bounds[b][l] = k.bounds[b][0][l] * place + k.bounds[b][1][l] * speed;
             }
         }
         [end_q[c], end_p[c], end_input[c], end_viscous[c]] = motion;
@@ -280,7 +330,11 @@ fn advance_all(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn load_all(weights: &[Weights], samples: &[f64; TIMES], length: f64, loads: &mut [Load]) {
+fn load_all(
+    step: &BlockStep,
+    samples: &[f64; TIMES],
+    (loads, bounds): (&mut [Load], &mut [[f64; QUANTITIES]]),
+) {
     let mut pairs = [0.0; PAIRS];
     let mut place = 0;
     for i in 0..TIMES {
@@ -289,26 +343,29 @@ fn load_all(weights: &[Weights], samples: &[f64; TIMES], length: f64, loads: &mu
             place += 1;
         }
     }
-    let rise = (samples[BLOCK] - samples[0]) / BLOCK as f64;
-    let departures: [f64; INSIDE] =
-        std::array::from_fn(|k| (samples[k + 1] - (samples[0] + rise * (k + 1) as f64)).abs());
-    let largest = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
-    let slope = (samples[BLOCK] - samples[0]).abs() / length;
-    for (weights, load) in weights.iter().zip(loads) {
+    for (weights, load) in step.weights.iter().zip(loads) {
         for (out, weights) in load.linear.iter_mut().zip(&weights.linear) {
             *out = weighted(weights, samples);
         }
         for (out, weights) in load.works.iter_mut().zip(&weights.pairs) {
             *out = weighted(weights, &pairs);
         }
-        let bounds = weights.bounds.iter().zip(&weights.round_off);
-        for (out, (weights, [by_value, by_slope])) in load.bounds.iter_mut().zip(bounds) {
-            let mut sum = weighted(weights, &departures);
-            for l in 0..WIDTH {
-                sum[l] += by_value[l] * largest + by_slope[l] * slope;
+    }
+    let rise = (samples[BLOCK] - samples[0]) / BLOCK as f64;
+    let mut magnitudes: BoundWeights<f64> = [0.0; INSIDE + 2];
+    for k in 0..INSIDE {
+        magnitudes[k] = (samples[k + 1] - (samples[0] + rise * (k + 1) as f64)).abs();
+    }
+    magnitudes[INSIDE] = samples.iter().fold(0.0_f64, |m, a| m.max(a.abs()));
+    magnitudes[INSIDE + 1] = (samples[BLOCK] - samples[0]).abs() / step.length;
+    for (weights, out) in step.bounds.iter().zip(bounds) {
+        let mut sums = [0.0; QUANTITIES];
+        for (weights, magnitude) in weights.iter().zip(magnitudes) {
+            for b in 0..QUANTITIES {
+                sums[b] += weights[b] * magnitude;
             }
-            *out = sum;
         }
+        *out = sums;
     }
 }
 
@@ -384,7 +441,7 @@ fn coefficient(form: &[Row; INPUTS], i: usize, j: usize) -> Lane {
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights) {
+fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights, BoundWeights<[Lane; 3]>) {
     let mut x = [Lane::ZERO; INPUTS];
     let mut v = [Lane::ZERO; INPUTS];
     x[0] = Lane::from_fn(|_| 1.0);
@@ -473,6 +530,7 @@ fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights) {
                 })
             })
         }),
+        steady: m.steady,
     };
     let weights = Weights {
         linear: [
@@ -484,10 +542,15 @@ fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights) {
             by(&viscous, 1),
         ],
         pairs: [pairs(&input), pairs(&viscous)],
-        bounds: std::array::from_fn(|b| std::array::from_fn(|k| bounds[b][2 + k])),
-        round_off: [lost(0), lost(1), lost(1)],
     };
-    (start, weights)
+    let lost = [lost(0), lost(1), lost(1)];
+    let bounds = std::array::from_fn(|k| {
+        std::array::from_fn(|b| match k.checked_sub(INSIDE) {
+            None => bounds[b][2 + k],
+            Some(k) => lost[b][k],
+        })
+    });
+    (start, weights, bounds)
 }
 
 /// A Bernstein polynomial of degree 3 at each of the points of a block.

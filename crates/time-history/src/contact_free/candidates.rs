@@ -5,6 +5,8 @@
 //! rigorous upper bound; what lies below the maximum sample in the end never needs a
 //! look.
 
+use std::ops::Range;
+
 use super::block::{self, BLOCK};
 use super::block_ends::Suspect;
 use super::closer_look::CloserLook;
@@ -50,14 +52,23 @@ pub(super) struct Candidates {
     /// States in use: the first ones.
     used: usize,
     scratch: Modal,
-    /// State that the scratch was reached from, and the sample that it has come to.
-    reached: Option<(usize, usize)>,
+    /// State that the scratch was reached from, and the sample that it has come to, with the part
+    /// of the modes that is there.
+    reached: Option<Reached>,
     bound: SampleBound,
     look: CloserLook,
     /// Value and rate of every candidate of a sample at the end of the last fine step; of tall
     /// buildings.
     ends: Vec<[f64; 2]>,
     blocks: Option<Box<OfBlocks>>,
+}
+
+/// How far the scratch has come.
+#[derive(Debug, Clone, Copy)]
+struct Reached {
+    part: usize,
+    snapshot: usize,
+    sample: usize,
 }
 
 /// What is put off of eight floors over a whole block.
@@ -80,7 +91,7 @@ const CANDIDATES: usize = 512;
 const SNAPSHOTS: usize = 64;
 const TALL_SNAPSHOTS: usize = 512;
 /// Lanes of floors for every state that tall buildings keep, of all that could be put off.
-const LANES_PUT_OFF: f64 = 0.25;
+const LANES_PUT_OFF: f64 = 0.5;
 
 /// Tracks of displacement, drift, acceleration and forces in sections.
 pub(super) type AllTracks<'a> = [&'a mut Track; 4];
@@ -266,9 +277,8 @@ impl Candidates {
             let snapshot = group[0].snapshot;
             let first = self.samples[snapshot];
             let lanes = constants.modes.len();
-            let state = self.states[snapshot * 2 * lanes..][..2 * lanes].split_at(lanes);
             let ground = &system.ground().samples[first..=first + BLOCK];
-            of.look.begin(constants, state, ground);
+            of.look.begin();
             for candidate in group {
                 if !candidate.is_above(tracks) {
                     continue;
@@ -276,6 +286,8 @@ impl Candidates {
                 let track = &mut *tracks[candidate.quantity as usize];
                 of.intervals.clear();
                 let (look, intervals) = (&mut of.look, &mut of.intervals);
+                let state = self.states[snapshot * 2 * lanes..][..2 * lanes].split_at(lanes);
+                look.follow(constants, (state, ground), candidate.lane);
                 look.look_at(constants, candidate, (first, track), intervals);
                 if self.list.len() + intervals.len() > self.capacity {
                     self.settle_samples((constants, system), tracks);
@@ -295,68 +307,97 @@ impl Candidates {
     }
 
     /// Looks at all samples that are left, and forgets them: sample by sample, since a look
-    /// shows all floors.
+    /// shows all floors; of tall buildings one building after another, since all modes of one are
+    /// most of the work.
     fn settle_samples(
         &mut self,
         (constants, system): (&ContactFree, &System),
         tracks: &mut AllTracks<'_>,
     ) {
         let mut list = std::mem::take(&mut self.list);
-        list.sort_unstable_by_key(|c| (c.sample, c.quantity as usize, c.floor));
+        let tall = !self.ends.is_empty();
+        let part = |c: &Candidate| if tall { constants.building[c.floor] } else { 0 };
+        list.sort_unstable_by_key(|c| (part(c), c.sample, c.quantity as usize, c.floor));
         self.reached = None;
-        for group in list.chunk_by_mut(|a, b| a.sample == b.sample) {
+        for group in list.chunk_by_mut(|a, b| (part(a), a.sample) == (part(b), b.sample)) {
             if group.iter().any(|c| is_above(c, tracks)) {
-                self.look_at((constants, system), group, tracks);
+                let part = part(&group[0]);
+                self.look_at((constants, system), (part, group), tracks);
             }
         }
         list.clear();
         self.list = list;
     }
 
-    /// Looks at the sample that these candidates have in common.
+    /// Lanes of the modes of a part.
+    fn lanes_of(&self, constants: &ContactFree, part: usize) -> Range<usize> {
+        if self.ends.is_empty() {
+            return 0..constants.modes.len();
+        }
+        let building = &constants.shapes[part];
+        building.first_lane..building.first_lane + building.lanes
+    }
+
+    /// Looks at the sample that these candidates of a part have in common.
     fn look_at(
         &mut self,
         (constants, system): (&ContactFree, &System),
-        group: &mut [Candidate],
+        (part, group): (usize, &mut [Candidate]),
         tracks: &mut AllTracks<'_>,
     ) {
         let first = group[0];
         let (sample, samples) = (first.sample, &system.ground().samples);
+        let lanes = self.lanes_of(constants, part);
         let from = self
             .reached
-            .filter(|(snapshot, _)| *snapshot == first.snapshot);
+            .filter(|reached| (reached.part, reached.snapshot) == (part, first.snapshot));
         let from = match from {
-            Some((_, reached)) => reached,
+            Some(reached) => reached.sample,
             None => {
-                let lanes = constants.modes.len();
-                let state = &self.states[first.snapshot * 2 * lanes..][..2 * lanes];
-                self.scratch.displacement.copy_from_slice(&state[..lanes]);
-                self.scratch.velocity.copy_from_slice(&state[lanes..]);
+                let count = constants.modes.len();
+                let state = &self.states[first.snapshot * 2 * count..][..2 * count];
+                let (displacement, velocity) = state.split_at(count);
+                let Modal {
+                    displacement: q,
+                    velocity: p,
+                    ..
+                } = &mut self.scratch;
+                q[lanes.clone()].copy_from_slice(&displacement[lanes.clone()]);
+                p[lanes.clone()].copy_from_slice(&velocity[lanes.clone()]);
                 self.samples[first.snapshot]
             }
         };
-        block::advance(constants, &samples[from..=sample], &mut self.scratch);
-        self.reached = Some((first.snapshot, sample));
+        let passed = &samples[from..=sample];
+        block::advance(constants, (lanes.clone(), passed), &mut self.scratch);
+        self.reached = Some(Reached {
+            part,
+            snapshot: first.snapshot,
+            sample,
+        });
         let (start, end) = (samples[sample], samples[sample + 1]);
         let whole = Ground {
             start,
             end,
             slope: (end - start) / constants.step,
         };
-        self.bound.take(constants, &self.scratch, whole);
-        for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
-            let (quantity, floor) = (candidate.quantity, candidate.floor);
-            let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
-            if self.bound.is_below(constants, (quantity, floor), peak) {
-                candidate.upper = f64::NEG_INFINITY;
+        // Of tall buildings the look at a sample that is not cut begins with such a bound.
+        if self.ends.is_empty() || constants.fine.parts > 1 {
+            let now = (lanes.clone(), &self.scratch);
+            self.bound.take(constants, now, whole);
+            for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
+                let (quantity, floor) = (candidate.quantity, candidate.floor);
+                let peak = tracks[quantity as usize].peak[floor / WIDTH][floor % WIDTH];
+                if self.bound.is_below(constants, (quantity, floor), peak) {
+                    candidate.upper = f64::NEG_INFINITY;
+                }
             }
-        }
-        if !group.iter().any(|c| is_above(c, tracks)) {
-            return;
+            if !group.iter().any(|c| is_above(c, tracks)) {
+                return;
+            }
         }
         let alive = group.iter().filter(|c| is_above(c, tracks));
         let functions = alive.map(|c| (c.quantity, c.floor));
-        self.look.begin(&self.scratch, functions);
+        self.look.begin((lanes, &self.scratch), functions);
         let fine = &constants.fine;
         for part in 0..fine.parts {
             let at = |k: usize| start + (end - start) * (k as f64 / fine.parts as f64);
@@ -417,10 +458,12 @@ impl LaneCandidate {
 
     /// What the floors could exceed their peaks by, at most.
     fn excess(&self, tracks: &AllTracks<'_>) -> f64 {
-        let peaks = tracks[self.quantity as usize].reach(self.lane);
+        let track = &tracks[self.quantity as usize];
+        let (peak, sure) = (&track.peak[self.lane], &track.sure[self.lane]);
         let mut most = 0.0;
         for l in 0..WIDTH {
-            let excess = self.upper[l] - peaks[l];
+            let reach = if sure[l] > peak[l] { sure[l] } else { peak[l] };
+            let excess = self.upper[l] - reach;
             most = if excess <= most { most } else { excess };
         }
         most

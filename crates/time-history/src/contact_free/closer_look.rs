@@ -1,6 +1,8 @@
 //! A closer look at one sample of contact-free motion: between points so dense that every
 //! floor moves on a polynomial of degree 7.
 
+use std::ops::Range;
+
 use multiversion::multiversion;
 
 use super::candidates::Quantity;
@@ -28,6 +30,8 @@ struct Point {
 pub(super) struct CloserLook {
     start: Point,
     end: Point,
+    /// Lanes of the modes that are followed.
+    lanes: Range<usize>,
     step: f64,
     fresh: bool,
     /// Lanes of floors whose displacements, or accelerations, are asked for.
@@ -73,32 +77,40 @@ impl Point {
         }
     }
 
-    /// Derivatives of the modes from their displacements and velocities by the equation of
-    /// motion and its derivatives.
-    fn derive(&mut self, constants: &ContactFree, ground: (f64, f64)) {
-        derive(&constants.modes, ground, &mut self.modes);
+    /// Derivatives of these lanes of the modes from their displacements and velocities by the
+    /// equation of motion and its derivatives.
+    fn derive(&mut self, of: (&ContactFree, &Range<usize>), ground: (f64, f64)) {
+        derive(of, ground, &mut self.modes);
         (self.absolute_known, self.restoring_known) = (false, false);
     }
 
     /// Absolute acceleration and its rate, of the modes alone.
-    fn restore(&mut self, constants: &ContactFree) {
+    fn restore(&mut self, of: (&ContactFree, &Range<usize>)) {
         if self.restoring_known {
             return;
         }
-        for k in 0..2 {
-            let (q, p) = (&self.modes[k], &self.modes[k + 1]);
-            restoring(&constants.modes, q, p, &mut self.restoring[k]);
-        }
+        self.restore_each(of, 0..2);
         self.restoring_known = true;
     }
 
-    /// The same of absolute acceleration.
-    fn derive_absolute(&mut self, constants: &ContactFree) {
-        for k in 0..4 {
-            let (q, p) = (&self.modes[k], &self.modes[k + 1]);
-            restoring(&constants.modes, q, p, &mut self.restoring[k]);
+    /// These derivatives of it.
+    fn restore_each(
+        &mut self,
+        (constants, lanes): (&ContactFree, &Range<usize>),
+        of: Range<usize>,
+    ) {
+        let modes = &constants.modes[lanes.clone()];
+        for k in of {
+            let [q, p] = [k, k + 1].map(|k| &self.modes[k][lanes.clone()]);
+            restoring(modes, q, p, &mut self.restoring[k][lanes.clone()]);
         }
-        (self.absolute_known, self.restoring_known) = (true, true);
+    }
+
+    /// The same of absolute acceleration.
+    fn derive_absolute(&mut self, of: (&ContactFree, &Range<usize>)) {
+        self.restore(of);
+        self.restore_each(of, 2..4);
+        self.absolute_known = true;
     }
 
     /// What is to be transformed for the floors: their motion, and their absolute
@@ -127,9 +139,14 @@ impl Point {
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn derive(modes: &[ModeLanes], (ground, slope): (f64, f64), point: &mut [Vec<Lane>; 5]) {
-    let [displacement, velocity, seconds, thirds, fourths] = point;
-    for (c, m) in modes.iter().enumerate() {
+fn derive(
+    (constants, lanes): (&ContactFree, &Range<usize>),
+    (ground, slope): (f64, f64),
+    point: &mut [Vec<Lane>; 5],
+) {
+    let [displacement, velocity, seconds, thirds, fourths] =
+        point.each_mut().map(|x| &mut x[lanes.clone()]);
+    for (c, m) in constants.modes[lanes.clone()].iter().enumerate() {
         let (q, p) = (&displacement[c], &velocity[c]);
         let (seconds, thirds) = (&mut seconds[c], &mut thirds[c]);
         let fourths = &mut fourths[c];
@@ -150,6 +167,7 @@ impl CloserLook {
         Self {
             start: Point::new(lanes),
             end: Point::new(lanes),
+            lanes: 0..lanes,
             step: 0.0,
             fresh: false,
             wanted: [vec![false; lanes], vec![false; lanes]],
@@ -157,10 +175,10 @@ impl CloserLook {
         }
     }
 
-    /// Begins at a modal state, to look at these functions of floors.
+    /// Begins at a state of these lanes of the modes, to look at these functions of floors.
     pub(super) fn begin(
         &mut self,
-        modal: &Modal,
+        (lanes, modal): (Range<usize>, &Modal),
         functions: impl Iterator<Item = (Quantity, usize)>,
     ) {
         let [floors, absolute] = &mut self.wanted;
@@ -178,8 +196,11 @@ impl CloserLook {
                 Quantity::SectionForce => {}
             }
         }
-        self.end.modes[0].copy_from_slice(&modal.displacement);
-        self.end.modes[1].copy_from_slice(&modal.velocity);
+        let from = [&modal.displacement, &modal.velocity];
+        for (to, from) in self.end.modes.iter_mut().zip(from) {
+            to[lanes.clone()].copy_from_slice(&from[lanes.clone()]);
+        }
+        self.lanes = lanes;
         self.fresh = true;
     }
 
@@ -187,23 +208,23 @@ impl CloserLook {
     pub(super) fn advance(&mut self, constants: &ContactFree, fine: &Fine, ground: Ground) {
         let fresh = std::mem::take(&mut self.fresh);
         if fresh {
-            self.end.derive(constants, (ground.start, ground.slope));
+            let of = (constants, &self.lanes);
+            self.end.derive(of, (ground.start, ground.slope));
         }
         std::mem::swap(&mut self.start, &mut self.end);
-        let [from, from_rate, ..] = &self.start.modes;
-        let [to, to_rate, ..] = &mut self.end.modes;
-        step(&fine.modes, ground, [from, from_rate], [to, to_rate]);
-        self.end.derive(constants, (ground.end, ground.slope));
+        let lanes = &self.lanes;
+        let of = (constants, lanes);
+        let [from, from_rate, ..] = self.start.modes.each_ref().map(|x| &x[lanes.clone()]);
+        let [to, to_rate, ..] = self.end.modes.each_mut().map(|x| &mut x[lanes.clone()]);
+        let modes = &fine.modes[lanes.clone()];
+        step(modes, ground, [from, from_rate], [to, to_rate]);
+        self.end.derive(of, (ground.end, ground.slope));
         self.step = fine.step;
         let [moving, absolute] = self.wanted.each_ref().map(Vec::as_slice);
         let shapes = &constants.shapes;
         if let Some(tall) = &mut self.tall {
             (tall.gathered, tall.first) = ([false; 2], fresh);
-            departures(
-                constants,
-                (&self.start.modes, fine.step),
-                &mut tall.departures,
-            );
+            departures(of, (&self.start.modes, fine.step), &mut tall.departures);
             return;
         }
         if !fresh {
@@ -214,8 +235,8 @@ impl CloserLook {
         // Both ends in one pass, with the accelerations that are sure to be asked for.
         let accelerations = absolute.contains(&true);
         if accelerations {
-            self.start.derive_absolute(constants);
-            self.end.derive_absolute(constants);
+            self.start.derive_absolute(of);
+            self.end.derive_absolute(of);
         }
         let [first, second] = self.start.fours([moving, absolute]);
         let [third, fourth] = self.end.fours([moving, absolute]);
@@ -248,14 +269,15 @@ impl CloserLook {
             // Tall buildings have none.
             Quantity::SectionForce => return true,
         };
+        let of = (constants, &self.lanes);
         let values = |point: &mut Point| {
             let [x, rate] = if quantity == Quantity::Acceleration {
-                point.restore(constants);
+                point.restore(of);
                 [&point.restoring[0], &point.restoring[1]]
             } else {
                 [&point.modes[0], &point.modes[1]]
             };
-            [row.dot(x), row.dot(rate)]
+            row.dot_two([x, rate])
         };
         let [a, out] = if tall.first {
             values(&mut self.start)
@@ -276,16 +298,17 @@ impl CloserLook {
 
     /// Absolute accelerations at both ends, where they are not known.
     fn derive_absolute(&mut self, constants: &ContactFree) {
+        let of = (constants, &self.lanes);
         if let Some(tall) = &mut self.tall {
             if !tall.gathered[1] {
                 for point in [&mut self.start, &mut self.end] {
                     if !point.absolute_known {
-                        point.derive_absolute(constants);
+                        point.derive_absolute(of);
                     }
                 }
                 let [a, b, c, d] = &self.start.restoring;
                 let [e, f, g, h] = &self.end.restoring;
-                gather_eights([a, b, c, d, e, f, g, h], &mut tall.eights[1]);
+                gather_eights(&self.lanes, [a, b, c, d, e, f, g, h], &mut tall.eights[1]);
                 tall.gathered[1] = true;
             }
             return;
@@ -293,7 +316,7 @@ impl CloserLook {
         let wanted = [&self.wanted[0], &self.wanted[1]].map(Vec::as_slice);
         for point in [&mut self.start, &mut self.end] {
             if !point.absolute_known {
-                point.derive_absolute(constants);
+                point.derive_absolute(of);
                 let [_, absolute] = point.fours(wanted);
                 transform_fours(&constants.shapes, &mut [absolute]);
             }
@@ -306,7 +329,7 @@ impl CloserLook {
             if !tall.gathered[0] {
                 let [a, b, c, d, _] = &self.start.modes;
                 let [e, f, g, h, _] = &self.end.modes;
-                gather_eights([a, b, c, d, e, f, g, h], &mut tall.eights[0]);
+                gather_eights(&self.lanes, [a, b, c, d, e, f, g, h], &mut tall.eights[0]);
                 tall.gathered[0] = true;
             }
             let eight = floor_of_eight(&constants.shapes, &tall.eights[0], floor);
@@ -386,7 +409,9 @@ impl CloserLook {
 
 /// Eight values for every mode, one after another. (Not by wide registers, whose gathering
 /// loads take ten times as long.)
-fn gather_eights(values: [&Vec<Lane>; WIDTH], eights: &mut [Lane]) {
+fn gather_eights(lanes: &Range<usize>, values: [&Vec<Lane>; WIDTH], eights: &mut [Lane]) {
+    let values = values.map(|values| &values[lanes.clone()]);
+    let eights = &mut eights[lanes.start * WIDTH..lanes.end * WIDTH];
     for (c, eights) in eights.chunks_exact_mut(WIDTH).enumerate() {
         let values = values.map(|values| values[c]);
         for (l, eight) in eights.iter_mut().enumerate() {
@@ -404,11 +429,16 @@ fn gather_eights(values: [&Vec<Lane>; WIDTH], eights: &mut [Lane]) {
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn departures(constants: &ContactFree, (start, step): (&[Vec<Lane>; 5], f64), out: &mut [f64; 3]) {
+fn departures(
+    (constants, lanes): (&ContactFree, &Range<usize>),
+    (start, step): (&[Vec<Lane>; 5], f64),
+    out: &mut [f64; 3],
+) {
     let [_, _, seconds, thirds, fourths] = start;
     let mut sums = [Lane::ZERO; 3];
     let rows = &constants.rows;
-    for (c, m) in constants.modes.iter().enumerate() {
+    for c in lanes.clone() {
+        let m = &constants.modes[c];
         let (size, drift_size) = (&rows.size[c], &rows.drift_size[c]);
         for l in 0..WIDTH {
             let (damping, omega) = (m.damping[l], m.circular_frequency[l]);

@@ -8,6 +8,7 @@ use super::block_step::BlockStep;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
 use super::overdamped::Decay;
+use super::reach::Reach;
 use crate::bands::Bands;
 use crate::contact_episode::{FloorRows, ModalRow};
 use crate::rates::fastest_rate;
@@ -97,7 +98,8 @@ impl ContactFree {
         let first = first.map(|b| b.modes().circular_frequency[0]);
         if by_modes && BlockStep::is_worth(step, first, this.fastest) {
             let parts = this.modes_over(system, BlockStep::parts(step));
-            this.block_step = Some(BlockStep::new(&this.modes, &parts, step));
+            let buildings = Reach::of_buildings(&this);
+            this.block_step = Some(BlockStep::new((&this.modes, &parts), &buildings, step));
         }
         let parts = (this.fastest * step / FINE).ceil().max(1.0);
         this.fine = Fine {

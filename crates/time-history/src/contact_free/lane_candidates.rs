@@ -7,7 +7,8 @@ use multiversion::multiversion;
 use super::block::{BLOCK, products};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
-use super::lanes::{Ground, Lane, Track, WIDTH, step_modes, sum_of_products};
+use super::lanes::{Ground, Lane, Track, WIDTH, derive, step_modes, sum_of_products};
+use super::overdamped::Decay;
 
 /// Samples at which a block is looked at, its start included.
 const TIMES: usize = BLOCK + 1;
@@ -45,9 +46,12 @@ pub(super) struct BlockLook {
     /// decays depart by beside.
     fourth: [Vec<Lane>; 2],
     rest: [Vec<Lane>; 2],
-    /// Lane whose displacements and velocities are known.
-    known: Option<usize>,
-    motion: [[Lane; TIMES]; 2],
+    /// Lanes of the modes that were followed.
+    followed: Vec<bool>,
+    /// Two lanes next to one another whose displacements and velocities are known: drifts take that
+    /// below too.
+    known: [Option<usize>; 2],
+    motion: [[[Lane; TIMES]; 2]; 2],
 }
 
 impl BlockLook {
@@ -57,20 +61,34 @@ impl BlockLook {
             modes: std::array::from_fn(|_| zeros(lanes * TIMES)),
             fourth: std::array::from_fn(|_| zeros(lanes)),
             rest: std::array::from_fn(|_| zeros(lanes)),
-            known: None,
-            motion: [[Lane::ZERO; TIMES]; 2],
+            followed: vec![false; lanes],
+            known: [None; 2],
+            motion: [[[Lane::ZERO; TIMES]; 2]; 2],
         }
     }
 
-    /// Follows the modes from these displacements and velocities over a block.
-    pub(super) fn begin(
+    /// Begins with another block.
+    pub(super) fn begin(&mut self) {
+        self.known = [None; 2];
+        self.followed.fill(false);
+    }
+
+    /// Follows the modes that move a lane of floors from these displacements and velocities over
+    /// the block, unless they were followed.
+    pub(super) fn follow(
         &mut self,
         constants: &ContactFree,
-        state: (&[Lane], &[Lane]),
-        samples: &[f64],
+        (state, samples): ((&[Lane], &[Lane]), &[f64]),
+        lane: usize,
     ) {
-        self.known = None;
-        follow(constants, state, samples, self);
+        let row = &constants.floor_rows[lane];
+        let end = row.first_mode + row.columns.len();
+        for c in row.first_mode / WIDTH..end.div_ceil(WIDTH) {
+            if !std::mem::replace(&mut self.followed[c], true) {
+                self.known = [None; 2];
+                follow(constants, (c, state), samples, self);
+            }
+        }
     }
 
     /// Takes the peaks of eight floors at the samples, of which the first has this number, and
@@ -148,21 +166,20 @@ impl BlockLook {
     ) -> [[Lane; TIMES]; 2] {
         let lane = candidate.lane;
         match candidate.quantity {
-            Quantity::Displacement | Quantity::SectionForce => self.motion_of(constants, lane),
+            Quantity::Displacement | Quantity::SectionForce => *self.motion_of(constants, lane),
             Quantity::Acceleration => {
                 let [_, _, absolute, rate] = &self.modes;
                 floors_of(constants, lane, [absolute, rate])
             }
             Quantity::Drift => {
                 let above = constants.above[lane];
-                let before = match lane.checked_sub(1) {
-                    Some(before) if above[0] > 0.0 => self.motion_of(constants, before),
-                    _ => [[Lane::ZERO; TIMES]; 2],
-                };
-                let mut functions = self.motion_of(constants, lane);
-                for (function, before) in functions.iter_mut().zip(before) {
-                    for (u, before) in function.iter_mut().zip(before) {
-                        let mut below = [before[WIDTH - 1]; WIDTH];
+                let mut functions = *self.motion_of(constants, lane);
+                let before = lane.checked_sub(1).filter(|_| above[0] > 0.0);
+                let before = before.map(|before| self.motion_of(constants, before));
+                for (k, function) in functions.iter_mut().enumerate() {
+                    for (time, u) in function.iter_mut().enumerate() {
+                        let last = before.map_or(0.0, |before| before[k][time][WIDTH - 1]);
+                        let mut below = [last; WIDTH];
                         below[1..].copy_from_slice(&u.0[..WIDTH - 1]);
                         for l in 0..WIDTH {
                             u[l] -= above[l] * below[l];
@@ -175,13 +192,15 @@ impl BlockLook {
     }
 
     /// Displacements and velocities of eight floors at all samples.
-    fn motion_of(&mut self, constants: &ContactFree, lane: usize) -> [[Lane; TIMES]; 2] {
-        if self.known != Some(lane) {
+    fn motion_of(&mut self, constants: &ContactFree, lane: usize) -> &[[Lane; TIMES]; 2] {
+        let place = lane % 2;
+        let motion = &mut self.motion[place];
+        if self.known[place] != Some(lane) {
             let [displacement, velocity, _, _] = &self.modes;
-            self.motion = floors_of(constants, lane, [displacement, velocity]);
-            self.known = Some(lane);
+            *motion = floors_of(constants, lane, [displacement, velocity]);
+            self.known[place] = Some(lane);
         }
-        self.motion
+        motion
     }
 }
 
@@ -205,7 +224,7 @@ fn floors_of(constants: &ContactFree, lane: usize, modes: [&[Lane]; 2]) -> [[Lan
     floors
 }
 
-/// Follows all modes over a block. The fourth derivatives swing freely between samples, so that
+/// Follows eight modes over a block. The fourth derivatives swing freely between samples, so that
 /// `y'^2 + omega^2 y^2` of a derivative from the second on never grows, and
 /// `|y''| <= (omega + 2 zeta omega) (|y'| + omega |y|)`; beyond critical damping by their decay.
 #[multiversion(targets(
@@ -216,50 +235,54 @@ fn floors_of(constants: &ContactFree, lane: usize, modes: [&[Lane]; 2]) -> [[Lan
 ))]
 fn follow(
     constants: &ContactFree,
-    (displacement, velocity): (&[Lane], &[Lane]),
+    (c, (displacement, velocity)): (usize, (&[Lane], &[Lane])),
     samples: &[f64],
     look: &mut BlockLook,
 ) {
     let count = constants.modes.len();
     let [displacements, velocities, absolutes, rates] = &mut look.modes;
-    for (c, m) in constants.modes.iter().enumerate() {
-        let mut state = [displacement[c], velocity[c], Lane::ZERO, Lane::ZERO];
-        let (mut largest, mut beside) = ([Lane::ZERO; 2], [Lane::ZERO; 2]);
-        let decay = constants.decays.get(c);
-        for (s, start) in samples.iter().copied().enumerate() {
-            let end = samples.get(s + 1).copied().unwrap_or(start);
-            let ground = Ground {
-                start,
-                end,
-                slope: (end - start) / constants.step,
-            };
-            let [q, p, ..] = state;
-            let (mut absolute, mut rate) = (Lane::ZERO, Lane::ZERO);
+    let m = &constants.modes[c];
+    let mut state = [displacement[c], velocity[c], Lane::ZERO, Lane::ZERO];
+    let (mut largest, mut beside) = ([Lane::ZERO; 2], [Lane::ZERO; 2]);
+    let decay = Decay::of_lane(&constants.decays, c);
+    for (s, start) in samples.iter().copied().enumerate() {
+        let end = samples.get(s + 1).copied().unwrap_or(start);
+        let ground = Ground {
+            start,
+            end,
+            slope: (end - start) / constants.step,
+        };
+        let [q, p, ..] = state;
+        let ([absolute, rate], derivatives) = derive(m, (&q, &p), ground);
+        for (k, [y, rate]) in derivatives.iter().enumerate() {
+            let mut any = Lane::ZERO;
             for l in 0..WIDTH {
-                let (damping, stiffness) = (m.damping[l], m.stiffness[l]);
                 let omega = m.circular_frequency[l];
-                absolute[l] = -(damping * p[l] + stiffness * q[l]);
-                let second = absolute[l] - m.participation[l] * ground.start;
-                rate[l] = -(damping * second + stiffness * p[l]);
-                let third = rate[l] - m.participation[l] * ground.slope;
-                let fourth = -(damping * third + stiffness * second);
-                let fifth = -(damping * fourth + stiffness * third);
-                let factor = omega + damping;
-                let of = [(second, third), (fourth, fifth)];
-                for (k, (y, rate)) in of.into_iter().enumerate() {
-                    let any = factor * (rate.abs() + omega * y.abs());
-                    let bound = decay.map_or((any, 0.0), |d| d.bound(l, (y, rate), any));
-                    largest[k][l] = largest[k][l].max(bound.0);
-                    beside[k][l] = beside[k][l].max(bound.1);
-                }
+                any[l] = (omega + m.damping[l]) * (rate[l].abs() + omega * y[l].abs());
             }
-            let place = s * count + c;
-            (displacements[place], velocities[place]) = (q, p);
-            (absolutes[place], rates[place]) = (absolute, rate);
-            (state, _) = step_modes::<false>(m, state, ground);
+            if let Some(decay) = decay {
+                let [fourth, rest] = decay.bound([y, rate, &any]);
+                any = fourth;
+                beside[k] = larger(&rest, &beside[k]);
+            }
+            largest[k] = larger(&any, &largest[k]);
         }
-        for k in 0..2 {
-            (look.fourth[k][c], look.rest[k][c]) = (largest[k], beside[k]);
-        }
+        let place = s * count + c;
+        (displacements[place], velocities[place]) = (q, p);
+        (absolutes[place], rates[place]) = (absolute, rate);
+        (state, _) = step_modes::<false>(m, state, ground);
     }
+    for k in 0..2 {
+        (look.fourth[k][c], look.rest[k][c]) = (largest[k], beside[k]);
+    }
+}
+
+/// Larger values, place by place.
+#[inline(always)]
+fn larger(a: &Lane, b: &Lane) -> Lane {
+    let mut out = *b;
+    for l in 0..WIDTH {
+        out[l] = if a[l] > b[l] { a[l] } else { b[l] };
+    }
+    out
 }

@@ -367,6 +367,31 @@ pub(super) fn step_modes<const SWINGS: bool>(
     ([end, speed, input, viscous], size)
 }
 
+/// Absolute acceleration of eight modes and its rate, from displacement and velocity; and the
+/// second and the fourth derivative of displacement, which swing freely between samples, each with
+/// its rate.
+#[inline(always)]
+pub(super) fn derive(
+    m: &ModeLanes,
+    (q, p): (&Lane, &Lane),
+    ground: Ground,
+) -> ([Lane; 2], [[Lane; 2]; 2]) {
+    let (mut absolute, mut of) = ([Lane::ZERO; 2], [[Lane::ZERO; 2]; 2]);
+    for l in 0..WIDTH {
+        let (damping, stiffness) = (m.damping[l], m.stiffness[l]);
+        let restoring = -(damping * p[l] + stiffness * q[l]);
+        let second = restoring - m.participation[l] * ground.start;
+        let rate = -(damping * second + stiffness * p[l]);
+        let third = rate - m.participation[l] * ground.slope;
+        let fourth = -(damping * third + stiffness * second);
+        let fifth = -(damping * fourth + stiffness * third);
+        (absolute[0][l], absolute[1][l]) = (restoring, rate);
+        (of[0][0][l], of[0][1][l]) = (second, third);
+        (of[1][0][l], of[1][1][l]) = (fourth, fifth);
+    }
+    (absolute, of)
+}
+
 /// Storey drifts from floor displacements.
 #[inline(always)]
 pub(crate) fn drifts(shapes: &[Shapes], floors: &[Lane], drifts: &mut [Lane]) {

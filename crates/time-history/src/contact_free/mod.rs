@@ -22,6 +22,7 @@ mod mode_step;
 mod overdamped;
 mod part;
 mod phase;
+mod reach;
 mod sample_bound;
 mod transform;
 

@@ -22,11 +22,9 @@ pub(crate) struct Decay {
     departs: Lane,
     /// `h^4 / 384` of the sample (s4).
     span: f64,
+    /// Whether one of the modes is damped so much.
+    any: bool,
 }
-
-/// A bound of what a function departs from the cubic through values and rates at both ends of a
-/// sample: `h^4 / 384` times the first, of its fourth derivative, and the second.
-pub(super) type Departure = (f64, f64);
 
 impl Decay {
     /// Of all modes, in lanes, for samples of this length (s); empty where none is damped so much.
@@ -56,6 +54,7 @@ impl Decay {
             apart: Lane([f64::INFINITY; WIDTH]),
             departs: ones,
             span: step.powi(4) / 384.0,
+            any: false,
         }
     }
 
@@ -65,6 +64,7 @@ impl Decay {
     ///
     /// [`TURNS`]: super::lane_candidates
     fn set(&mut self, l: usize, (omega, zeta): (f64, f64), step: f64) {
+        self.any = true;
         let root = (zeta * zeta - 1.0).sqrt();
         let fast = omega * (zeta + root);
         self.fast[l] = fast;
@@ -74,20 +74,32 @@ impl Decay {
         self.departs[l] = (1.0 + 4.0 / 9.0 * x).min(x.powi(4) / 384.0) / (fast * fast);
     }
 
-    /// Bounds the departure of a function whose second derivative dies out freely from this value
-    /// and rate: both parts are largest at the start, where they are
-    /// `A = (rate + fast value) / (fast - slow)` and `B = -(rate + slow value) / (fast - slow)`.
-    /// It is `fourth`, a bound of the fourth derivative for any damping, where that is less.
+    /// That of a lane of modes, if one of them is damped so much: for the others there is nothing to
+    /// be gained.
     #[inline(always)]
-    pub(super) fn bound(&self, l: usize, (value, rate): (f64, f64), fourth: f64) -> Departure {
-        let (slow, fast, apart) = (self.slow[l], self.fast[l], self.apart[l]);
-        let of_slow = (rate + fast * value).abs() * apart * (slow * slow);
-        let of_fast = (rate + slow * value).abs() * apart * self.departs[l];
-        if self.span * of_slow + of_fast < self.span * fourth {
-            (of_slow, of_fast)
-        } else {
-            (fourth, 0.0)
+    pub(super) fn of_lane(all: &[Self], lane: usize) -> Option<&Self> {
+        all.get(lane).filter(|decay| decay.any)
+    }
+
+    /// Bounds the departure of functions whose second derivatives die out freely from these values
+    /// and rates: both parts are largest at the start, where they are
+    /// `A = (rate + fast value) / (fast - slow)` and `B = -(rate + slow value) / (fast - slow)`.
+    /// It is `fourth`, a bound of the fourth derivative for any damping, where that is less. They
+    /// depart from the cubics through values and rates at both ends of the sample by at most
+    /// `h^4 / 384` times the first that is returned, a bound of the fourth derivative, and the
+    /// second.
+    #[inline(always)]
+    pub(super) fn bound(&self, [value, rate, fourth]: [&Lane; 3]) -> [Lane; 2] {
+        let mut out = [Lane::ZERO; 2];
+        for l in 0..WIDTH {
+            let (slow, fast, apart) = (self.slow[l], self.fast[l], self.apart[l]);
+            let of_slow = (rate[l] + fast * value[l]).abs() * apart * (slow * slow);
+            let of_fast = (rate[l] + slow * value[l]).abs() * apart * self.departs[l];
+            let less = self.span * of_slow + of_fast < self.span * fourth[l];
+            out[0][l] = if less { of_slow } else { fourth[l] };
+            out[1][l] = if less { of_fast } else { 0.0 };
         }
+        out
     }
 }
 
@@ -140,13 +152,17 @@ mod tests {
                     value_by = value_by.max((at(t, 0) - cubic).abs());
                     rate_by = rate_by.max((at(t, 1) - slope).abs() / 3.0);
                 }
-                let (fourth, rest) = decay.bound(0, (value, rate), f64::INFINITY);
+                let of = |fourth: f64| {
+                    let lanes = [value, rate, fourth].map(|x| Lane([x; WIDTH]));
+                    decay.bound(lanes.each_ref()).map(|bound| bound[0])
+                };
+                let [fourth, rest] = of(f64::INFINITY);
                 let bound = fourth / 384.0 + rest;
                 assert!(value_by <= bound * (1.0 + 1e-9), "{zeta} {value} {rate}");
                 assert!(rate_by <= 1.1 * bound, "{zeta} {value} {rate}");
                 sharp += i32::from(bound < 20.0 * value_by);
                 // Another bound is taken where it is less.
-                assert_eq!(decay.bound(0, (value, rate), 0.0), (0.0, 0.0));
+                assert_eq!(of(0.0), [0.0; 2]);
             }
         }
         assert!(sharp > 12, "{sharp}");

@@ -460,11 +460,11 @@ impl ContactFreePhase {
         let mut samples = [0.0; BLOCK + 1];
         samples.copy_from_slice(&range.system.ground().samples[sample..=sample + BLOCK]);
         let peak = &self.acceleration.peak;
-        let loads = range.system.loads().of(constants, sample);
+        let load = range.system.loads().of(constants, sample);
         let low = ends.advance(
             constants,
             &self.now,
-            (&samples, loads),
+            (&samples, load),
             peak,
             &mut self.block,
         );
@@ -536,7 +536,8 @@ impl ContactFreePhase {
         if clear == BLOCK {
             std::mem::swap(&mut self.now, &mut self.block.end);
         } else {
-            block::advance(constants, &samples[..=clear], &mut self.now);
+            let all = 0..constants.modes.len();
+            block::advance(constants, (all, &samples[..=clear]), &mut self.now);
         }
         let block = &self.block;
         block.floors.copy_after(clear, &mut self.displacement.now);

@@ -1,9 +1,15 @@
 //! Bounds of floors' functions over one sample, from values and slopes at both ends: what stays
 //! below its peak by them needs no closer look.
 
+use std::ops::Range;
+
+use multiversion::multiversion;
+
 use super::candidates::Quantity;
 use super::constants::ContactFree;
-use super::lanes::{Ground, Lane, Modal, WIDTH};
+use super::lanes::{Ground, Lane, Modal, WIDTH, derive};
+use super::overdamped::Decay;
+use crate::contact_episode::ModalRow;
 use crate::polynomial::hermite_range;
 
 /// The modes at both ends of a sample: displacement and velocity, absolute acceleration and
@@ -30,51 +36,16 @@ impl SampleBound {
         }
     }
 
-    /// Takes the sample that begins with these modes. A derivative `y` of a mode from the second
+    /// Takes the sample that begins with these lanes of modes. A derivative `y` of a mode from the second
     /// on swings freely, so that `y'^2 + omega^2 y^2` never grows, and with it
     /// `|y''| <= omega sqrt(1 + 4 zeta^2)` times its root; beyond critical damping by its decay.
-    pub(super) fn take(&mut self, constants: &ContactFree, now: &Modal, ground: Ground) {
-        self.step = constants.step;
-        for (c, m) in constants.modes.iter().enumerate() {
-            for l in 0..WIDTH {
-                let (damping, stiffness) = (m.damping[l], m.stiffness[l]);
-                let gamma = m.participation[l];
-                let (q, p) = (now.displacement[c][l], now.velocity[c][l]);
-                let after = |k: &[Lane; 4]| {
-                    k[0][l] * q + k[1][l] * p + (k[2][l] * ground.start + k[3][l] * ground.end)
-                };
-                let ends = [
-                    (q, p, ground.start, &mut self.start),
-                    (
-                        after(&m.displacement),
-                        after(&m.velocity),
-                        ground.end,
-                        &mut self.end,
-                    ),
-                ];
-                for (q, p, ground, out) in ends {
-                    let restoring = -(damping * p + stiffness * q);
-                    let second = restoring - gamma * ground;
-                    out[0][c][l] = q;
-                    out[1][c][l] = p;
-                    out[2][c][l] = restoring;
-                    out[3][c][l] = -(damping * second + stiffness * p);
-                }
-                let second = self.start[2][c][l] - gamma * ground.start;
-                let third = self.start[3][c][l] - gamma * ground.slope;
-                let fourth = -(damping * third + stiffness * second);
-                let fifth = -(damping * fourth + stiffness * third);
-                let factor = (stiffness + damping * damping).sqrt();
-                let root = |y: f64, rate: f64| factor * (rate * rate + stiffness * y * y).sqrt();
-                let of = [(second, third), (fourth, fifth)];
-                for (k, (y, rate)) in of.into_iter().enumerate() {
-                    let any = root(y, rate);
-                    let decay = constants.decays.get(c);
-                    let bound = decay.map_or((any, 0.0), |d| d.bound(l, (y, rate), any));
-                    (self.fourth[k][c][l], self.rest[k][c][l]) = bound;
-                }
-            }
-        }
+    pub(super) fn take(
+        &mut self,
+        constants: &ContactFree,
+        now: (Range<usize>, &Modal),
+        ground: Ground,
+    ) {
+        take(constants, now, ground, self);
     }
 
     /// Whether a function is sure not to exceed this value.
@@ -91,19 +62,90 @@ impl SampleBound {
             Quantity::Acceleration => (&rows.floors[floor], 1),
             Quantity::SectionForce => (&rows.sections[floor], 0),
         };
-        let ends = [
-            &self.start[2 * of],
-            &self.start[2 * of + 1],
-            &self.end[2 * of],
-            &self.end[2 * of + 1],
-        ];
-        let fourth = row.dot_magnitudes(&self.fourth[of]);
-        let rest = if constants.decays.is_empty() {
-            0.0
-        } else {
-            row.dot_magnitudes(&self.rest[of])
-        };
-        let (least, most) = hermite_range(ends.map(|x| row.dot(x)), fourth, self.step);
+        let (ends, fourth, rest) = values(self, (row, of), constants.decays.is_empty());
+        let (least, most) = hermite_range(ends, fourth, self.step);
         most.max(-least) + rest <= peak && most.is_finite()
+    }
+}
+
+/// Values and rates of a function at both ends, bound of its fourth derivative, and what fast decays
+/// depart by, if there are any.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn values(bound: &SampleBound, (row, of): (&ModalRow, usize), slow: bool) -> ([f64; 4], f64, f64) {
+    let ends = [
+        &bound.start[2 * of],
+        &bound.start[2 * of + 1],
+        &bound.end[2 * of],
+        &bound.end[2 * of + 1],
+    ];
+    let fourth = row.dot_magnitudes(&bound.fourth[of]);
+    let rest = if slow {
+        0.0
+    } else {
+        row.dot_magnitudes(&bound.rest[of])
+    };
+    (ends.map(|x| row.dot(x)), fourth, rest)
+}
+
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn take(
+    constants: &ContactFree,
+    (lanes, now): (Range<usize>, &Modal),
+    ground: Ground,
+    bound: &mut SampleBound,
+) {
+    bound.step = constants.step;
+    let at_end = Ground {
+        start: ground.end,
+        ..ground
+    };
+    for c in lanes {
+        let m = &constants.modes[c];
+        let (q, p) = (&now.displacement[c], &now.velocity[c]);
+        let after = |k: &[Lane; 4]| {
+            let mut out = Lane::ZERO;
+            for l in 0..WIDTH {
+                out[l] = k[0][l] * q[l]
+                    + k[1][l] * p[l]
+                    + (k[2][l] * ground.start + k[3][l] * ground.end);
+            }
+            out
+        };
+        let (q_end, p_end) = (after(&m.displacement), after(&m.velocity));
+        let (absolute, derivatives) = derive(m, (q, p), ground);
+        let (absolute_end, _) = derive(m, (&q_end, &p_end), at_end);
+        for (out, [x, y]) in [
+            (&mut bound.start, [(q, p), (&absolute[0], &absolute[1])]),
+            (
+                &mut bound.end,
+                [(&q_end, &p_end), (&absolute_end[0], &absolute_end[1])],
+            ),
+        ] {
+            (out[0][c], out[1][c], out[2][c], out[3][c]) = (*x.0, *x.1, *y.0, *y.1);
+        }
+        let decay = Decay::of_lane(&constants.decays, c);
+        for (k, [y, rate]) in derivatives.iter().enumerate() {
+            let mut any = Lane::ZERO;
+            for l in 0..WIDTH {
+                let (damping, stiffness) = (m.damping[l], m.stiffness[l]);
+                let factor = (stiffness + damping * damping).sqrt();
+                any[l] = factor * (rate[l] * rate[l] + stiffness * y[l] * y[l]).sqrt();
+            }
+            let [fourth, rest] = match decay {
+                Some(decay) => decay.bound([y, rate, &any]),
+                None => [any, Lane::ZERO],
+            };
+            (bound.fourth[k][c], bound.rest[k][c]) = (fourth, rest);
+        }
     }
 }

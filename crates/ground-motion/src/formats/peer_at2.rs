@@ -750,6 +750,29 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
             "header lines contradict one another: a line such as `ACCELERATION TIME SERIES IN UNITS OF G` must say the unit of the values",
         ));
     }
+    // `ACCELERATION (G) TIME SERIES (CM/S2)`.
+    let twice = units.iter().find_map(|(line, (unit, _))| {
+        let text = lower.get(line - 1)?;
+        let is_of_values = OF_VALUES.iter().any(|words| text.contains(words));
+        let beside = named_with_unit(text).filter(|_| is_of_values)?.unit;
+        let differs = beside != *unit && beside.quantity == unit.quantity;
+        differs.then_some((*line, [beside, *unit]))
+    });
+    if let Some((line, both)) = twice {
+        let given = source.options.unit;
+        if given.is_some_and(|given| both.iter().any(|unit| unit.is(given))) {
+            return Ok(DraftUnit::Unstated);
+        }
+        return Err(source.error(
+            line,
+            0,
+            format!(
+                "two units, {} and {}, stand beside one quantity",
+                both[0].symbol, both[1].symbol
+            ),
+            "say which one the values have by `unit` in [ground_motion] of a case, `--unit` with `pounding motion`; or correct the line so that it states that unit alone",
+        ));
+    }
     let scaled = lower.iter().enumerate().find_map(|(i, line)| {
         let is_title = i == 1 && header.is_own();
         Some((i + 1, factor_of_unit(line).filter(|_| !is_title)?))

@@ -834,9 +834,26 @@ fn along(
             thousands.see(line.number, column, field);
         }
     }
+    if ends_within_a_number(source) {
+        let values = rows(source).skip(skipped).flat_map(|line| {
+            let place = move |(column, field)| (line, column + source.options.skip_columns, field);
+            line.fields().map(place)
+        });
+        if !source.is_last_whole(values)? {
+            samples.truncate(samples.len() - 1);
+        }
+    }
     forms.are_whole(source)?;
     thousands.are_none(source)?;
     Ok(samples)
+}
+
+/// Whether the last number of the rows may go on behind the end of the file: what closes a row, a blank, a quote or a
+/// separator, ends it.
+fn ends_within_a_number(source: &Source<'_>) -> bool {
+    let of_number = |b: &u8| b.is_ascii_digit() || b"+-.eEdD".contains(b);
+    let last = source.all_lines().last().map(|line| line.number);
+    source.bytes.last().is_some_and(of_number) && rows(source).last().map(|row| row.number) == last
 }
 
 /// Refuses a blank line among values that stand one in a row: one may be missing there.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pounding_case::{Case, Located};
 use pounding_ground_motion::Accelerogram;
-use pounding_ground_motion::processing::ProcessingStep;
+use pounding_ground_motion::processing::{ProcessingStep, across_one_another};
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
 
@@ -20,28 +20,90 @@ pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
     }
 }
 
-/// Refuses components of one file of which only that along the row is turned: they are not at right
-/// angles, but for quarters of a turn.
-fn refuse_one_turned_component(
+/// Sine of the degree by which two components may miss the right angle.
+const OFF_RIGHT_ANGLE: f64 = 0.0175;
+
+/// The components of a file that a motion is made of, by the words that choose them, with their parts of it.
+fn parts(motion: &pounding_case::GroundMotion) -> Vec<(String, f64)> {
+    let first = motion.component.as_deref().unwrap_or_default();
+    let chosen = |name: &str| name.trim().to_lowercase();
+    match &motion.rotation {
+        None => vec![(chosen(first), 1.0)],
+        Some(turned) => {
+            let (sine, cosine) = libm::sincos(turned.angle.to_radians());
+            let second = chosen(&turned.second_component.value);
+            vec![(chosen(first), cosine), (second, sine)]
+        }
+    }
+}
+
+/// Refuses motions along and across the row from components of one file that `rotate` does not leave at right angles.
+fn refuse_turns_apart(
     case: &Case,
     across: &Located<Box<pounding_case::GroundMotion>>,
+    of_one_file: bool,
 ) -> Result<(), AssemblyError> {
     let along = &case.ground_motion;
-    let of_one_file = across.value.file.value == along.file.value;
-    match (&along.rotation, &across.value.rotation) {
-        (Some(turned), None) if of_one_file && turned.angle % 90.0 != 0.0 => {
-            let first = along.component.as_deref().unwrap_or("...");
-            let (second, angle) = (&turned.second_component.value, turned.angle);
-            let message = "`rotate` turns the component along the row, and that across it, of the same file, is not turned: they are not at right angles";
-            let help = format!(
-                "turn both: across = {{ file = ..., component = \"{second}\", second_component = \"{first}\", rotate = {} }}",
-                -angle
-            );
-            let error = case.error(across.span.clone(), message.to_owned(), Some(help));
-            Err(error.into())
-        }
-        _ => Ok(()),
+    let (message, turned) = match (&along.rotation, &across.value.rotation) {
+        _ if !of_one_file => return Ok(()),
+        (None, None) => return Ok(()),
+        (Some(turned), None) if turned.angle % 90.0 != 0.0 => (
+            "`rotate` turns the component along the row, and that across it, of the same file, is not turned",
+            turned,
+        ),
+        (None, Some(turned)) if turned.angle % 90.0 != 0.0 => (
+            "`rotate` turns the component across the row, and that along it, of the same file, is not turned",
+            turned,
+        ),
+        (Some(turned), _) | (None, Some(turned)) => (
+            "`rotate` turns the components along and across the row, which are of the same file, by angles that do not go together",
+            turned,
+        ),
+    };
+    let (own, other) = (parts(along), parts(&across.value));
+    let product = |(name, part): &(String, f64)| {
+        let same = other.iter().find(|(other, _)| other == name);
+        same.map_or(0.0, |(_, other)| part * other)
+    };
+    let product: f64 = own.iter().map(product).sum();
+    let one_alone = along.rotation.is_none() || across.value.rotation.is_none();
+    let is_turned = one_alone && turned.angle % 90.0 != 0.0;
+    if !is_turned && product.abs() <= OFF_RIGHT_ANGLE {
+        return Ok(());
     }
+    let help = match &along.rotation {
+        Some(turned) => format!(
+            "turn both: across = {{ file = ..., component = \"{}\", second_component = \"{}\", rotate = {} }}",
+            turned.second_component.value,
+            along.component.as_deref().unwrap_or("..."),
+            -turned.angle
+        ),
+        None => format!(
+            "turn both: in [ground_motion] component = \"{}\", second_component = \"{}\", rotate = {}",
+            turned.second_component.value,
+            across.value.component.as_deref().unwrap_or("..."),
+            -turned.angle
+        ),
+    };
+    let message = format!("{message}: they are not at right angles");
+    Err(case.error(across.span.clone(), message, Some(help)).into())
+}
+
+/// Refuses a record across the row that is not the other horizontal component of that along it.
+fn refuse_no_pair(
+    case: &Case,
+    across: &Located<Box<pounding_case::GroundMotion>>,
+    [along, record]: [&Accelerogram; 2],
+) -> Result<(), AssemblyError> {
+    let sha256 = |of: &Accelerogram| of.origin().map(|origin| origin.sha256.clone());
+    let bytes = sha256(along);
+    let of_one_file = across.value.file.value == case.ground_motion.file.value
+        || bytes.is_some() && bytes == sha256(record);
+    refuse_turns_apart(case, across, of_one_file)?;
+    across_one_another(along, record).map_err(|e| {
+        let error = case.error(across.span.clone(), e.to_string(), e.help());
+        error.into()
+    })
 }
 
 /// What is wrong with a record across the row, and what to do, where no building turns in plan.
@@ -82,8 +144,8 @@ pub(super) fn on_their_ground(
                 );
                 return Err(error.into());
             }
-            refuse_one_turned_component(case, given)?;
             let record = further_record(case, &given.value)?;
+            refuse_no_pair(case, given, [accelerogram, &record])?;
             Some((ground(&record), record.echo()))
         }
     };

@@ -119,41 +119,111 @@ fn ends_together(
     )))
 }
 
+/// What is known of the times of the first samples of two components.
+struct Starts {
+    /// How far apart they are (s); days are infinite.
+    apart: f64,
+    /// The times as they are printed, and what to do about those of two times.
+    shown: [String; 2],
+    remedy: &'static str,
+}
+
+impl Starts {
+    /// By the printed dates and times, else by the columns of times.
+    fn of(first: &Accelerogram, second: &Accelerogram) -> Option<Self> {
+        let (a, b) = (first.origin()?, second.origin()?);
+        if let Some(apart) = start_times::apart(&a.start_time, &b.start_time) {
+            return Some(Self {
+                apart,
+                shown: [a.start_time.clone(), b.start_time.clone()],
+                remedy: CUT_BOTH,
+            });
+        }
+        let (a, b) = (a.first_time?, b.first_time?);
+        let shown = |time: f64| format!("{} s of their times", bound(time));
+        Some(Self {
+            apart: (a - b).abs(),
+            shown: [shown(a), shown(b)],
+            remedy: CUT_OR_COUNT_ANEW,
+        })
+    }
+}
+
+/// How far apart the first samples of two records are (s), where their dates and times or columns of times say it;
+/// records of different days are infinitely far apart. Half a time step is nothing.
+#[must_use]
+pub fn starts_apart(first: &Accelerogram, second: &Accelerogram) -> Option<f64> {
+    // A millionth: half a step is none, whatever the round-off of the times.
+    let most = 0.5 * first.time_step() * (1.0 + 1.0e-6);
+    let apart = Starts::of(first, second)?.apart;
+    Some(if apart > most { apart } else { 0.0 })
+}
+
 /// Refuses components with first samples at different times, as those of instruments
-/// that trigger on their own do: by the printed dates and times, else by the columns of times.
+/// that trigger on their own do.
 fn starts_together(first: &Accelerogram, second: &Accelerogram) -> Result<(), GroundMotionError> {
-    let (Some(a), Some(b)) = (first.origin(), second.origin()) else {
+    let Some(apart) = starts_apart(first, second).filter(|apart| *apart > 0.0) else {
         return Ok(());
     };
-    let refused = |[a, b]: [&str; 2], apart: f64, remedy: &'static str| {
-        let apart = match apart.is_finite() {
-            true => format!(", {} s apart", bound(apart)),
-            false => String::new(),
-        };
-        GroundMotionError::NotPossible {
-            step: STEP,
-            reason: format!(
-                "the components do not start together: their first samples are at {a} and {b}{apart}"
-            ),
-            remedy,
-        }
+    let Some(Starts { shown, remedy, .. }) = Starts::of(first, second) else {
+        return Ok(());
     };
-    let most = 0.5 * first.time_step();
-    if let Some(apart) = start_times::apart(&a.start_time, &b.start_time) {
-        return match apart > most {
-            true => Err(refused([&a.start_time, &b.start_time], apart, CUT_BOTH)),
-            false => Ok(()),
-        };
-    }
-    match (a.first_time, b.first_time) {
-        // A millionth: half a step is none, whatever the round-off of the times.
-        (Some(a), Some(b)) if (a - b).abs() > most * (1.0 + 1.0e-6) => {
-            let shown = |time: f64| format!("{} s of their times", bound(time));
-            let apart = (a - b).abs();
-            Err(refused([&shown(a), &shown(b)], apart, CUT_OR_COUNT_ANEW))
+    let [a, b] = shown;
+    let apart = match apart.is_finite() {
+        true => format!(", {} s apart", bound(apart)),
+        false => String::new(),
+    };
+    Err(GroundMotionError::NotPossible {
+        step: STEP,
+        reason: format!(
+            "the components do not start together: their first samples are at {a} and {b}{apart}"
+        ),
+        remedy,
+    })
+}
+
+/// Refuses a record across a row of buildings that cannot be the other component of that along it: a vertical one, one
+/// that starts at another time, and of the same file the same component or one that is not at right angles.
+///
+/// # Errors
+/// One of these.
+pub fn across_one_another(
+    along: &Accelerogram,
+    across: &Accelerogram,
+) -> Result<(), GroundMotionError> {
+    const ACROSS: &str = "across";
+    let of = |of: &Accelerogram| {
+        let origin = of.origin()?;
+        Some((origin.sha256.clone(), origin.component.clone()))
+    };
+    let both = of(along).zip(of(across));
+    let of_one_file = both.as_ref().is_some_and(|(a, b)| a.0 == b.0);
+    let is_one = |name: &str| GroundMotionError::NotPossible {
+        step: ACROSS,
+        reason: format!(
+            "the component \"{name}\" along the row and that across it are one series of one file"
+        ),
+        remedy: "give the other horizontal component of the record, by `component` if it is in the same file",
+    };
+    let renamed = |e: GroundMotionError| match e {
+        GroundMotionError::NotPossible { reason, remedy, .. } => GroundMotionError::NotPossible {
+            step: ACROSS,
+            reason,
+            remedy,
+        },
+        e => e,
+    };
+    if let Some((a, b)) = both.filter(|_| of_one_file) {
+        let same = a.1 == b.1 && (!a.1.is_empty() || along.samples() == across.samples());
+        if same && !is_turned(along) && !is_turned(across) {
+            return Err(is_one(&a.1));
         }
-        _ => Ok(()),
     }
+    let is_vertical = |of| matches!(direction(of), Some(Direction::Up | Direction::Down));
+    if of_one_file || is_vertical(along) || is_vertical(across) {
+        at_right_angles(along, across).map_err(renamed)?;
+    }
+    starts_together(along, across).map_err(renamed)
 }
 
 /// Refuses a component beside itself, which has no second direction. Two files with the same
@@ -179,15 +249,21 @@ pub fn distinct(first: &Accelerogram, second: &Accelerogram) -> Result<(), Groun
     })
 }
 
-/// The direction of a component, where its name says one and it was not turned since.
-fn direction(of: &Accelerogram) -> Option<Direction> {
-    let origin = of.origin()?;
+/// Whether a component was turned, now or before it was written.
+fn is_turned(of: &Accelerogram) -> bool {
     let turns = |step: &str| step == STEP || step == OF_FAULT;
     let before = |line: &String| {
         let step = line.strip_prefix("Step:").map(str::trim_start);
         step.is_some_and(|s| turns(s.split(':').next().unwrap_or(s)))
     };
-    if of.steps().iter().any(|s| turns(&s.step)) || origin.history.iter().any(before) {
+    let history = of.origin().is_some_and(|o| o.history.iter().any(before));
+    of.steps().iter().any(|s| turns(&s.step)) || history
+}
+
+/// The direction of a component, where its name says one and it was not turned since.
+fn direction(of: &Accelerogram) -> Option<Direction> {
+    let origin = of.origin()?;
+    if is_turned(of) {
         return None;
     }
     let stated = origin.orientation.map(Orientation::direction);

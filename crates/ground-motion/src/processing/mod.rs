@@ -18,7 +18,9 @@ use crate::unit::AccelerationUnit;
 
 pub use baseline::{Baseline, SegmentWindow};
 pub use butterworth::{Butterworth, Phase};
-pub use components::{RotatedPair, distinct, fault_components, rotate};
+pub use components::{
+    RotatedPair, across_one_another, distinct, fault_components, rotate, starts_apart,
+};
 pub(crate) use components::{Together, at_right_angles, together};
 pub use resampling::{Interpolation, to_even_steps};
 pub use scaling::{BAND_PERIODS, BandTarget, Scale, band_factor};

@@ -27,6 +27,11 @@ fn folder() -> tempfile::TempDir {
         format!("# Component: {name}\n{more}time_s,acceleration_m_s2\n{rows}")
     };
     write("up.csv", &own("UP", "", 0.7));
+    let long = own("NS", "# Start: 2011/03/11 14:46:30 JST\n", 0.5);
+    let later: String = (101..300)
+        .map(|i| format!("{},0.0\n", 0.02 * f64::from(i)))
+        .collect();
+    write("early_long.csv", &format!("{long}{later}"));
     for (name, seconds) in [("early.csv", "30"), ("late.csv", "33")] {
         let start = format!("# Start: 2011/03/11 14:46:{seconds} JST\n");
         write(
@@ -124,5 +129,61 @@ fn both_turns_go_together() {
             help.contains("component = \"NS\", second_component = \"EW\", rotate = -30"),
             "{help}"
         );
+    }
+}
+
+/// Two instruments that start 3 s apart, and what is cut off or put before one of them.
+#[test]
+fn records_that_start_apart_are_refused_or_said() {
+    let (said, help) = assembled("file = \"early.csv\"\nacross = \"late.csv\"").unwrap_err();
+    assert!(
+        said.contains("do not start together") && said.contains("3 s apart"),
+        "{said}"
+    );
+    assert!(help.contains("--trim"), "{help}");
+    // Cut to the time that they have in common.
+    let cut =
+        "file = \"early_long.csv\"\nprocess = [{ trim = { start = \"3 s\", end = \"5 s\" } }]\n";
+    let motion = format!("{cut}across = \"late.csv\"");
+    assert_eq!(assembled(&motion), Ok(Vec::new()));
+    let own = |keys: &str, motion: &str| {
+        let folder = folder();
+        let building = BUILDING.replace(
+            "[ground_motion]",
+            &format!("ground = {{ {keys} }}\n[ground_motion]"),
+        );
+        let case = Case::parse(
+            &format!("{building}{motion}\n"),
+            &folder.path().join("case.toml"),
+        );
+        assemble(&case.unwrap()).unwrap().warnings()
+    };
+    let early = "file = \"early.csv\"";
+    let told = own("file = \"late.csv\"", early);
+    assert_eq!(told.len(), 1, "{told:?}");
+    assert!(
+        told[0].contains("3.000 s apart") && told[0].contains("that of a"),
+        "{told:?}"
+    );
+    // A delay is the user's.
+    assert_eq!(own("file = \"late.csv\", delay = 3", early), [""; 0]);
+    assert_eq!(own("file = \"late.csv\"", cut), [""; 0]);
+    // Zeros before one of two records, or a part cut off.
+    for (process, words) in [
+        (
+            "pad = { before = \"2 s\" }",
+            "by 0.00 s, and that of a by -2.00 s",
+        ),
+        (
+            "trim = { start = \"1 s\", end = \"2 s\" }",
+            "by 0.00 s, and that of a by 1.00 s",
+        ),
+    ] {
+        let keys = format!("file = \"copy.csv\", component = \"EW\", process = [{{ {process} }}]");
+        let told = own(&keys, NORTH);
+        assert_eq!(told.len(), 1, "{told:?}");
+        assert!(told[0].contains(words), "{words}: {told:?}");
+        let same = format!("{NORTH}process = [{{ {process} }}]\n");
+        assert_eq!(own(&keys, &same), [""; 0]);
     }
 }

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use pounding_case::{Case, Located};
 use pounding_ground_motion::Accelerogram;
-use pounding_ground_motion::processing::{ProcessingStep, across_one_another};
+use pounding_ground_motion::processing::{ProcessingStep, across_one_another, starts_apart};
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
 
@@ -121,12 +121,14 @@ pub fn nothing_to_move_across(case: &Case) -> Option<(&'static str, &'static str
 }
 
 /// The buildings of a case without gaps, each on its ground, that of the record given, now or
-/// later, or of a record of its own, with the forces on its floors.
+/// later, or of a record of its own, with the forces on its floors; and what is to be said of motions that do not begin
+/// together.
 pub(super) fn on_their_ground(
     case: &Case,
     buildings: Vec<Arc<ShearBuilding>>,
     accelerogram: &Accelerogram,
-) -> Result<System, AssemblyError> {
+) -> Result<(System, Vec<String>), AssemblyError> {
+    let mut further = Further::default();
     let first = ground(accelerogram);
     let mut motions = vec![GroundMotion {
         acceleration: first.clone(),
@@ -146,11 +148,13 @@ pub(super) fn on_their_ground(
             }
             let record = further_record(case, &given.value)?;
             refuse_no_pair(case, given, [accelerogram, &record])?;
-            Some((ground(&record), record.echo()))
+            let made = (ground(&record), record.echo());
+            further.across = Some(record);
+            Some(made)
         }
     };
     let mut supports = Vec::new();
-    for building in &case.buildings {
+    for (number, building) in case.buildings.iter().enumerate() {
         let mut along = 0;
         if let Some(given) = &building.ground {
             let (delay, own) = (given.value.delay, &given.value.motion);
@@ -165,7 +169,9 @@ pub(super) fn on_their_ground(
                         None => (first.clone(), Vec::new()),
                         Some(motion) => {
                             let record = further_record(case, motion)?;
-                            (ground(&record), record.echo())
+                            let made = (ground(&record), record.echo());
+                            further.own.push((number, record));
+                            made
                         }
                     };
                     motions.push(GroundMotion {
@@ -202,7 +208,8 @@ pub(super) fn on_their_ground(
         1 => System::new(buildings, first),
         _ => System::with_motions(buildings, motions, supports)?,
     };
-    on_floors(case, system)
+    let told = out_of_step(case, accelerogram, &further);
+    Ok((on_floors(case, system)?, told))
 }
 
 /// Seconds by which times of motions may differ and be the same to people.
@@ -222,36 +229,90 @@ fn zeros_before(motion: &pounding_case::GroundMotion) -> f64 {
     zeros
 }
 
-/// Motions and forces that were in step with one another before filters put zeros before some of them, in words.
-pub(super) fn out_of_step(case: &Case) -> Vec<String> {
-    let own = zeros_before(&case.ground_motion);
-    let remedy = "in the filters `keep_pads = false` leaves the zeros out";
-    let differs = |zeros: f64| (zeros - own).abs() > SAME_TIME;
-    let mut told = Vec::new();
-    let mut tell = |what: &str, zeros: f64| {
-        told.push(format!(
-            "filters put {own:.2} s of zeros before the record of the case, and {zeros:.2} s before {what}: they do not begin together; {remedy}"
-        ));
+/// By how much (s) the steps of a record moved its start: zeros put before it, less what was cut off there.
+fn start_moved(motion: &pounding_case::GroundMotion, record: &Accelerogram) -> f64 {
+    let of = |name: &str, number: &str| -> f64 {
+        let steps = record.steps().iter().filter(|step| step.step == name);
+        let numbers = steps.filter_map(|step| step.get(number));
+        numbers.fold(0.0, |sum, number| sum + number)
     };
-    for building in &case.buildings {
-        let motion = building
-            .ground
-            .as_ref()
-            .and_then(|g| g.value.motion.as_ref());
-        if let Some(zeros) = motion.map(zeros_before).filter(|zeros| differs(*zeros)) {
-            tell(&format!("that of {}", building.name.value), zeros);
+    let filters = motion.process.iter().map(|step| match &step.value {
+        ProcessingStep::Filter(filter) => filter.zeros_at_each_end(),
+        _ => 0.0,
+    });
+    // The sum of no numbers would be printed with a minus.
+    filters.fold(0.0, |sum, zeros| sum + zeros) + of("pad", "before") - of("trim", "start")
+}
+
+/// Whether steps of a record other than filters move its start.
+fn is_cut_or_padded(record: &Accelerogram) -> bool {
+    let moves = |name: &str| ["pad", "trim"].contains(&name);
+    record.steps().iter().any(|step| moves(&step.step))
+}
+
+/// What is to be said of a motion that does not begin with that of the case, as both were recorded and processed.
+fn begins_apart(
+    what: &str,
+    [own, other]: [(&pounding_case::GroundMotion, &Accelerogram); 2],
+    delay: f64,
+) -> Option<String> {
+    let known = starts_apart(own.1, other.1);
+    let moved = [own, other].map(|(motion, record)| start_moved(motion, record));
+    let apart = moved[1] - moved[0];
+    let in_step = apart.abs() <= SAME_TIME || (apart + delay).abs() <= SAME_TIME;
+    match known {
+        // Whoever cuts both to the time that they have in common knows where they begin.
+        Some(0.0) => None,
+        Some(seconds) if in_step && delay == 0.0 && seconds.is_finite() => Some(format!(
+            "the record of the case and {what} do not begin together: the times of their first samples are {seconds:.3} s apart; cut both to the time that they have in common by `trim`, or give `delay`"
+        )),
+        _ if in_step => None,
+        _ => Some(match is_cut_or_padded(own.1) || is_cut_or_padded(other.1) {
+            false => format!(
+                "filters put {:.2} s of zeros before the record of the case, and {:.2} s before {what}: they do not begin together; in the filters `keep_pads = false` leaves the zeros out",
+                moved[0], moved[1]
+            ),
+            true => format!(
+                "`process` moves the start of the record of the case by {:.2} s, and {what} by {:.2} s (less than zero: earlier): they do not begin together; give both the same `pad`, `trim` and zeros of filters",
+                0.0 - moved[0],
+                0.0 - moved[1]
+            ),
+        }),
+    }
+}
+
+/// Motions and forces that are not in step with one another, as they were recorded or since they were processed, in
+/// words.
+fn out_of_step(case: &Case, along: &Accelerogram, further: &Further) -> Vec<String> {
+    let mut told = Vec::new();
+    let own = (&case.ground_motion, along);
+    for (building, record) in &further.own {
+        let building = &case.buildings[*building];
+        if let Some(ground) = &building.ground
+            && let Some(motion) = &ground.value.motion
+        {
+            let what = format!("that of {}", building.name.value);
+            let pair = [own, (motion, record)];
+            told.extend(begins_apart(&what, pair, ground.value.delay));
         }
     }
-    if let Some(across) = &case.ground_motion.across {
-        let zeros = zeros_before(&across.value);
-        if differs(zeros) {
-            tell("that across the row", zeros);
-        }
+    if let (Some(across), Some(record)) = (&case.ground_motion.across, &further.across) {
+        let pair = [own, (&*across.value, record)];
+        told.extend(begins_apart("that across the row", pair, 0.0));
     }
-    if own > SAME_TIME && case.buildings.iter().any(|b| !b.forces.is_empty()) {
+    let zeros = zeros_before(&case.ground_motion);
+    if zeros > SAME_TIME && case.buildings.iter().any(|b| !b.forces.is_empty()) {
         told.push(format!(
-            "filters put {own:.2} s of zeros before the record, and forces on floors begin with them: {remedy}, or let forces begin later"
+            "filters put {zeros:.2} s of zeros before the record, and forces on floors begin with them: in the filters `keep_pads = false` leaves the zeros out, or let forces begin later"
         ));
     }
     told
+}
+
+/// Records beside that of the case, as they were read and processed.
+#[derive(Default)]
+struct Further {
+    across: Option<Accelerogram>,
+    /// Those of buildings, from zero.
+    own: Vec<(usize, Accelerogram)>,
 }

@@ -263,11 +263,72 @@ fn is_turned(of: &Accelerogram) -> bool {
 /// The direction of a component, where its name says one and it was not turned since.
 fn direction(of: &Accelerogram) -> Option<Direction> {
     let origin = of.origin()?;
-    if is_turned(of) {
-        return None;
-    }
+    // What turns a component states the new direction where it is known.
     let stated = origin.orientation.map(Orientation::direction);
-    stated.or_else(|| Direction::of_name(&origin.component))
+    let named = || Direction::of_name(&origin.component).filter(|_| !is_turned(of));
+    stated.or_else(named)
+}
+
+/// Where a turned component points, and its name.
+struct Turned {
+    name: String,
+    orientation: Option<Orientation>,
+}
+
+impl Turned {
+    /// Of an azimuth (degrees).
+    fn to(azimuth: f64) -> Self {
+        let azimuth = (libm::round(azimuth * 1.0e6) / 1.0e6).rem_euclid(360.0);
+        Self {
+            name: format!("{azimuth} deg"),
+            orientation: Orientation::of(azimuth, 0.0),
+        }
+    }
+
+    /// Of both components turned by an angle (degrees), the first towards the second: by their azimuths, where both are
+    /// known; else by a name that says none.
+    fn by(angle: f64, first: &Accelerogram, second: &Accelerogram) -> [Self; 2] {
+        let name = |of: &Accelerogram| of.origin().map_or(String::new(), |o| o.component.clone());
+        let names = [name(first), name(second)];
+        if angle == 0.0 {
+            return [first, second].map(|of| Self {
+                name: name(of),
+                orientation: match direction(of) {
+                    Some(Direction::Azimuth(azimuth)) => Orientation::of(azimuth, 0.0),
+                    _ => of.origin().and_then(|o| o.orientation),
+                },
+            });
+        }
+        if let (Some(Direction::Azimuth(a)), Some(Direction::Azimuth(b))) =
+            (direction(first), direction(second))
+        {
+            // The second may lie a quarter turn on either side.
+            let sense = libm::copysign(1.0, libm::sin((b - a).to_radians()));
+            return [angle, angle + 90.0].map(|angle| Self::to(a + sense * angle));
+        }
+        let [first, second] = names.map(|name| match name.as_str() {
+            "" => None,
+            _ => Some(name),
+        });
+        let shown =
+            |name: &Option<String>, other: &str| name.clone().unwrap_or_else(|| other.into());
+        let (first, second) = (
+            shown(&first, "first component"),
+            shown(&second, "second component"),
+        );
+        let unknown = |name| Self {
+            name,
+            orientation: None,
+        };
+        [
+            unknown(format!(
+                "{first} turned by {angle} degrees towards {second}"
+            )),
+            unknown(format!(
+                "{second} turned by {angle} degrees away from {first}"
+            )),
+        ]
+    }
 }
 
 /// Refuses components of two instruments, one in the borehole and one at the surface.
@@ -330,14 +391,16 @@ fn combine(
     first: &Accelerogram,
     second: &Accelerogram,
     weights: [[f64; 2]; 2],
+    turned: [Turned; 2],
     step: StepRecord,
 ) -> Result<RotatedPair, GroundMotionError> {
     let Together { samples, continued } = together(first, second)?;
-    let component = |of: &Accelerogram, w: [f64; 2]| {
+    let component = |of: &Accelerogram, w: [f64; 2], to: Turned| {
         let pairs = samples[0].iter().zip(samples[1].iter());
         let sum = pairs.map(|(a, b)| w[0] * a + w[1] * b).collect();
         let turned = of.with_samples(sum, first.time_step())?;
-        Ok::<_, GroundMotionError>(turned.pointing(None).warned(continued.as_deref()))
+        let turned = turned.pointing(to.orientation).called(to.name);
+        Ok::<_, GroundMotionError>(turned.warned(continued.as_deref()))
     };
     let counts = [first, second].map(|of| of.samples().len() as f64);
     let step = match counts[0] == counts[1] {
@@ -349,9 +412,10 @@ fn combine(
         ),
     };
     let step = step.number("samples used", samples[0].len() as f64, "-");
+    let [to_first, to_second] = turned;
     let mut pair = RotatedPair {
-        first: component(first, weights[0])?,
-        second: component(second, weights[1])?,
+        first: component(first, weights[0], to_first)?,
+        second: component(second, weights[1], to_second)?,
         step,
     };
     for one in [&mut pair.first, &mut pair.second] {
@@ -377,7 +441,9 @@ pub fn rotate(
     at_right_angles(first, second)?;
     let (sine, cosine) = libm::sincos(angle.to_radians());
     let step = StepRecord::new(STEP).number("angle", angle, "degrees");
-    combine(first, second, [[cosine, sine], [-sine, cosine]], step)
+    let weights = [[cosine, sine], [-sine, cosine]];
+    let turned = Turned::by(angle, first, second);
+    combine(first, second, weights, turned, step)
 }
 
 /// The components parallel to a fault (first) and normal to it (second, a quarter
@@ -422,6 +488,7 @@ pub fn fault_components(
         first.0,
         second.0,
         [weights(strike), weights(strike + 90.0)],
+        [strike, strike + 90.0].map(Turned::to),
         step,
     )
 }

@@ -181,7 +181,9 @@ impl ProcessingStep {
             error => error,
         })?;
         debug_assert_eq!(report.step, self.name());
-        let motion = GroundMotion::of(&next, 0.0, 0.0);
+        // From where the record starts, as its measures do.
+        let (velocity, displacement) = next.initial().unwrap_or_default();
+        let motion = GroundMotion::of(&next, velocity, displacement);
         let report = report
             .number("end velocity", motion.end_velocity(), "m/s")
             .number("end displacement", motion.end_displacement(), "m");

@@ -22,7 +22,7 @@ use crate::source::Source;
 use crate::stated_step::{StatedStep, state_step};
 use crate::text::{Line, Lines};
 use crate::time_column::mostly_times;
-use crate::writers::peer_at2::{OTHER, RAW};
+use crate::writers::peer_at2::{OTHER, RAW, UNSTATED};
 
 /// Lines looked through for the header.
 const HEADER_LINES: usize = 12;
@@ -42,7 +42,7 @@ struct Header {
 impl Header {
     /// Whether this program wrote the file, which says so in its first line.
     fn is_own(&self) -> bool {
-        let own = [RAW, OTHER].map(Some);
+        let own = [RAW, UNSTATED, OTHER].map(Some);
         own.contains(&self.text.first().map(String::as_str))
     }
 }
@@ -194,6 +194,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     draft.processing = match header.text.first() {
         // Written by this program, which says so.
         Some(first) if first == RAW => Processing::Raw,
+        Some(first) if first == UNSTATED => Processing::Unstated,
         _ => Processing::Corrected,
     };
     keys(&mut draft, source, &header);
@@ -336,7 +337,7 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     let mut steps = Vec::new();
     // The title of a file that this program wrote is a name, whatever keys stand in it.
     let own = source.first_line();
-    let is_own = [RAW, OTHER]
+    let is_own = [RAW, UNSTATED, OTHER]
         .iter()
         .any(|first| own == first.to_ascii_lowercase());
     let others = source

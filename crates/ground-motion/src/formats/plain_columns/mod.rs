@@ -51,6 +51,8 @@ fn is_comment(line: &Line<'_>) -> bool {
 /// Whether a field starts as a number does.
 fn starts_a_number(field: &[u8]) -> bool {
     let field = field.trim_ascii();
+    // Bars may stand around the cells of a row.
+    let field = field.strip_prefix(b"|").unwrap_or(field);
     let bare = field.strip_prefix(b"\"").unwrap_or(field);
     let digits = bare
         .strip_prefix(b"+")
@@ -297,7 +299,9 @@ pub(super) static FORMAT: Format = Format {
 
 fn matches(source: &Source<'_>) -> bool {
     let mut first = rows(source).take(30).peekable();
-    first.peek().is_some() && first.all(|l| l.fields().all(|(_, f)| looks_numeric(f)))
+    // Bars may part numbers without blanks, `0.00|0.01`.
+    let cells = |f: &[u8]| f.split(|b| *b == b'|').all(looks_numeric);
+    first.peek().is_some() && first.all(|l| l.fields().all(|(_, f)| cells(f)))
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {

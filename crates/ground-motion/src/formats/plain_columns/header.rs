@@ -468,7 +468,18 @@ impl Cells {
                 .iter()
                 .any(Entry::has_number)
         };
-        let has_number = stated::has_number(&self.text) || is_parted && has_value();
+        // `Altitude (m),130`: a key and its number in two cells. `000,090` names two columns.
+        let is_pair = || match self.names.as_slice() {
+            [key, value] => {
+                let is_number = crate::number::parse(value.trim().as_bytes()).is_ok();
+                let has_unit = key.contains(['(', '[']) && !is_channel(&plain(before_unit(key)));
+                has_unit
+                    && is_number
+                    && !matches!(role(key), Some(Role::Time(_) | Role::Acceleration(..)))
+            }
+            _ => false,
+        };
+        let has_number = stated::has_number(&self.text) || is_parted && has_value() || is_pair();
         stated::has_unit(&self.text) || has_number && !self.names.iter().any(accelerates)
     }
 

@@ -1,5 +1,6 @@
 //! Assembly of cases: records and buildings.
 
+mod across;
 mod columns;
 mod excitation;
 mod forces;

@@ -498,11 +498,9 @@ impl Replaced<'_> {
             None if found.file.is_empty() && found.study.is_none() && !self.named => refused(
                 "another program has opened it for writing since, or it is of an early version, so that it does not say of which file it is, and nothing takes its place unasked",
             ),
-            None if found.file.is_empty() && found.study.is_none() && kind == Kind::Study => {
-                Ok(Some(format!(
-                    "{output} is replaced, the result of a study that does not say of which"
-                )))
-            }
+            None if found.file.is_empty() && found.study.is_none() => Ok(Some(format!(
+                "{output} is replaced, the result of {kind} that does not say of which file it is"
+            ))),
             Some(_) if other_text => Ok(Some(format!(
                 "{output} is replaced, the result of another study{of}"
             ))),

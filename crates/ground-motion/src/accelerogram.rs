@@ -302,6 +302,14 @@ impl Accelerogram {
         self
     }
 
+    /// The same record as a component of another name.
+    pub(crate) fn called(mut self, component: String) -> Self {
+        if let Some(origin) = &mut self.history.origin {
+            origin.component = component;
+        }
+        self
+    }
+
     /// The same record with a warning, where it has an origin to say it with.
     pub(crate) fn warned(mut self, warning: Option<&str>) -> Self {
         if let (Some(origin), Some(warning)) = (&mut self.history.origin, warning) {

@@ -337,17 +337,34 @@ impl Source<'_> {
             ends.push_back(line);
         }
         // One value at a time: a line may be as long as the file.
+        let values = ends.into_iter().flat_map(|line| {
+            let fields = line.fields();
+            fields.map(move |(column, field)| (line, column, field))
+        });
+        self.is_last_whole(values)
+    }
+
+    /// Whether the last of these values, with their lines and columns, in which a file ends without an end of line is
+    /// whole: it has the exponent, and as many decimals, as all others.
+    ///
+    /// # Errors
+    /// It is cut off, unless the user takes what is there: without it, which is said.
+    pub(crate) fn is_last_whole<'a>(
+        &self,
+        values: impl Iterator<Item = (Line<'a>, usize, &'a [u8])>,
+    ) -> Result<bool, GroundMotionError> {
+        if self.ends_in_a_line_end() {
+            return Ok(true);
+        }
         let (mut last, mut before, mut of_first, mut alike) = (None, 0_usize, None, true);
-        for line in ends {
-            for (column, field) in line.fields() {
-                if let Some((_, _, earlier)) = last.replace((line, column, field)) {
-                    let found = Form::of(earlier);
-                    if before == 0 {
-                        of_first = found;
-                    }
-                    alike &= found.is_some() && found == of_first;
-                    before += 1;
+        for value in values {
+            if let Some((_, _, earlier)) = last.replace(value) {
+                let found = Form::of(earlier);
+                if before == 0 {
+                    of_first = found;
                 }
+                alike &= found.is_some() && found == of_first;
+                before += 1;
             }
         }
         let (Some((line, column, field)), Some(usual)) = (last, of_first.filter(|_| alike)) else {

@@ -122,7 +122,9 @@ impl Direction {
         let name = name.split('(').next()?.trim();
         // `10.HNE`: the code of a location goes before.
         let name = match name.rsplit_once('.') {
-            Some((_, code)) if Self::of_code(code).is_some() => code,
+            Some((location, code)) if Self::of_code(code).is_some() && !location.contains(' ') => {
+                code
+            }
             _ => name,
         };
         if let Some((direction, _)) = Self::of_borehole(name) {

@@ -171,7 +171,13 @@ pub(crate) fn meaning(entry: &Entry<'_>) -> Option<Meaning> {
     } else if entry.parted && is(&STEPS_BY_UNIT) {
         Meaning::StepByUnit
     } else if ends(&RATES) {
-        Meaning::Rate
+        // `Filter sampling rate` is none of the record.
+        let own = RATES.iter().find_map(|key| {
+            let before = plain.strip_suffix(key)?;
+            let word = before.split_whitespace().next_back().unwrap_or_default();
+            Some(!number::is_word_of_filter(word))
+        });
+        return own.unwrap_or(true).then_some(Meaning::Rate);
     } else if is(&FREQUENCIES) {
         Meaning::Frequency
     } else if is_count(plain) {

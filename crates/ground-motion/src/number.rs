@@ -350,6 +350,12 @@ pub(crate) fn rates(text: &str) -> Vec<(f64, f64)> {
     found
 }
 
+/// Whether a word right before one on sampling says that this is of a filter: `filter sampling rate`.
+pub(crate) fn is_word_of_filter(word: &str) -> bool {
+    const WORDS: [&str; 6] = ["filter", "corner", "cutoff", "cut-off", "notch", "nyquist"];
+    WORDS.contains(&word) || word.ends_with("pass")
+}
+
 /// Whether the words before a rate are of a filter or of the instrument rather than of sampling.
 fn is_of_filter(words: &str) -> bool {
     const OF_FILTERS: [&str; 9] = [
@@ -381,7 +387,17 @@ fn is_of_filter(words: &str) -> bool {
         .iter()
         .any(|word| before.ends_with(word))
         && !words[last..].contains(" at ");
-    is_in(&OF_FILTERS, &words[if goes_on { 0 } else { last }..])
+    // `Filter sampling 50 Hz` and `Bandpass sampling 0.1-25 Hz` are of the filter; of `resampled` the record is.
+    let own = words[last..].starts_with("sampling") && words[..last].ends_with(' ');
+    let of_filter = own && {
+        let word = words[..last]
+            .trim_end()
+            .rsplit(' ')
+            .next()
+            .unwrap_or_default();
+        is_word_of_filter(word) && !words[last..].contains(" at ")
+    };
+    of_filter || is_in(&OF_FILTERS, &words[if goes_on { 0 } else { last }..])
 }
 
 #[cfg(test)]

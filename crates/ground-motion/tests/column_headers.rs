@@ -449,3 +449,31 @@ fn lines_that_name_another_quantity() {
         assert_eq!(record.samples().len(), 12, "{line}");
     }
 }
+
+/// Bars part the cells of rows, with blanks beside them or without.
+#[test]
+fn bars_between_numbers() {
+    let rows = |separator: &str, edge: &str| -> String {
+        (0..40)
+            .map(|i| {
+                let value = 0.3 * f64::sin(0.7 * f64::from(i));
+                format!(
+                    "{edge}{:.2}{separator}{value:.6}{edge}\n",
+                    0.01 * f64::from(i)
+                )
+            })
+            .collect()
+    };
+    for text in [
+        format!("time (s)|acc (g)\n{}", rows("|", "")),
+        format!("|time (s)|acc (g)|\n{}", rows("|", "|")),
+        format!("|time (s)|acc (g)|\n|---|---|\n{}", rows("|", "|")),
+        format!("| time (s) | acc (g) |\n|---|---|\n{}", rows(" | ", "| ")),
+        format!("# unit: g\n{}", rows("|", "")),
+    ] {
+        let record = read(&text).unwrap_or_else(|e| panic!("{text:.60}: {e}"));
+        assert_eq!(record.samples().len(), 40, "{text:.60}");
+        assert!((record.peak().value / 9.806_65 - 0.298_393).abs() < 1.0e-9);
+        assert!((record.time_step() - 0.01).abs() < 1.0e-12);
+    }
+}

@@ -3,7 +3,7 @@
 
 use pounding_ground_motion::processing::{fault_components, rotate};
 use pounding_ground_motion::spectra::{Evaluation, rotated_spectrum};
-use pounding_ground_motion::writers::{Written, write_pounding_csv};
+use pounding_ground_motion::writers::{Written, write_peer_at2, write_pounding_csv};
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, GroundMotionError, Orientation, ReadOptions, read_bytes,
 };
@@ -83,16 +83,55 @@ fn right_angles_and_unknown_directions_are_combined() {
         rotate(&a, &b, 30.0).unwrap();
         rotated_spectrum(&a, &b, &[0.2], 0.05, Evaluation::AtSamples).unwrap();
     }
-    // What was turned no longer points where its name says, nor after it was written.
+    // What was turned no longer points where its name said, nor after it was written.
     let (north, east) = (component("N-S"), component("E-W"));
     let once = rotate(&north, &east, 30.0).unwrap();
     rotate(&once.first, &once.second, 10.0).unwrap();
-    let text = write_pounding_csv(&Written::of(&once.first)).unwrap();
-    let read = read_bytes("f", text.as_bytes(), &ReadOptions::default()).unwrap();
-    rotate(&read, &north, 10.0).unwrap();
+    for text in [
+        write_pounding_csv(&Written::of(&once.first)).unwrap(),
+        write_peer_at2(&Written::of(&once.first)),
+    ] {
+        let read = read_bytes("f", text.as_bytes(), &ReadOptions::default()).unwrap();
+        assert_eq!(read.origin().unwrap().component, "30 deg");
+        let said = rotate(&read, &north, 10.0).unwrap_err().to_string();
+        assert!(said.contains("azimuth 30 degrees"), "{said}");
+        rotate(&read, &once.second, 10.0).unwrap();
+    }
     // Azimuths that are given may be at any angle of 30 degrees or more.
     let skew = component("N60E");
     fault_components((&north, 0.0), (&skew, 60.0), 20.0).unwrap();
+}
+
+/// The azimuth of what is turned, or a name that says none.
+#[test]
+fn names_of_turned_components() {
+    let names = |a: &str, b: &str, angle: f64| {
+        let pair = rotate(&component(a), &component(b), angle).unwrap();
+        [pair.first, pair.second].map(|one| one.origin().unwrap().component.clone())
+    };
+    // A quarter turn clockwise, or the other way.
+    assert_eq!(names("N00E", "N90E", 90.0), ["90 deg", "180 deg"]);
+    assert_eq!(names("N90E", "N00E", 30.0), ["60 deg", "330 deg"]);
+    assert_eq!(names("HNN", "HNE", -30.5), ["329.5 deg", "59.5 deg"]);
+    assert_eq!(names("N00E", "N90E", 0.0), ["N00E", "N90E"]);
+    assert_eq!(
+        names("H1", "10.HNE", 30.0),
+        [
+            "H1 turned by 30 degrees towards 10.HNE",
+            "10.HNE turned by 30 degrees away from H1"
+        ]
+    );
+    // No reader takes such a name for that of a direction.
+    let pair = rotate(&component("H1"), &component("10.HNE"), 30.0).unwrap();
+    let text = write_peer_at2(&Written::of(&pair.first));
+    let read = read_bytes("f", text.as_bytes(), &ReadOptions::default()).unwrap();
+    for other in ["N00E", "N30E", "N90E"] {
+        rotate(&read, &component(other), 10.0).unwrap();
+    }
+    let fault = fault_components((&component("N-S"), 0.0), (&component("E-W"), 90.0), 40.0);
+    let fault = fault.unwrap();
+    assert_eq!(fault.first.origin().unwrap().component, "40 deg");
+    assert_eq!(fault.second.origin().unwrap().component, "130 deg");
 }
 
 /// The instruments of KiK-net in the borehole and at the surface.
@@ -145,7 +184,11 @@ fn directions_of_sac() {
     });
     assert_eq!(back.origin().unwrap().orientation, expected);
     let turned = rotate(&one, &two, 30.0).unwrap().first;
-    assert_eq!(turned.origin().unwrap().orientation, None);
+    let expected = Some(Orientation {
+        azimuth: 60.0,
+        dip: 0.0,
+    });
+    assert_eq!(turned.origin().unwrap().orientation, expected);
     let warns = |record: &Accelerogram, words: &str| {
         let warnings = &record.origin().unwrap().warnings;
         warnings.iter().any(|w| w.contains(words))

@@ -220,6 +220,60 @@ fn files_that_end_within_a_number() {
     }
 }
 
+/// So are plain columns, whose last row is left out.
+#[test]
+fn columns_that_end_within_a_number() {
+    let row = |i: u32, separator: &str| {
+        let value = 0.2 * f64::sin(0.7 * f64::from(i) + 0.1);
+        format!("{:.2}{separator}{value:.5}\n", 0.01 * f64::from(i))
+    };
+    for separator in [",", " ", ";", "\t"] {
+        let rows: String = (0..44).map(|i| row(i, separator)).collect();
+        let header = format!("time (s){separator}acc (g)");
+        for last in ["-0.", "-0", "0.1", "-0.1234"] {
+            let text = format!("{header}\n{rows}0.44{separator}{last}");
+            let said = read(&text, &ReadOptions::default()).unwrap_err();
+            let told = format!("the file ends within its last value: \"{last}");
+            let told = told.trim_end_matches('.');
+            assert!(said.contains(told) && said.starts_with("f:46:"), "{said}");
+            let record = read(&text, &lenient()).unwrap();
+            assert_eq!(record.samples().len(), 44);
+            let warnings = &record.origin().unwrap().warnings;
+            assert!(warnings.iter().any(|w| w.contains("not used")));
+            // An end of the line or of the cell, and a remark, stand behind whole numbers.
+            for end in ["\n", " ", "\n# 5"] {
+                if last.ends_with(|c: char| c.is_ascii_digit()) {
+                    let record = read(&format!("{text}{end}"), &ReadOptions::default());
+                    assert_eq!(record.unwrap().samples().len(), 45, "{end:?}");
+                }
+            }
+        }
+        let whole = format!("{header}\n{rows}0.44{separator}-0.12345");
+        assert_eq!(read(&whole, &lenient()).unwrap().samples().len(), 45);
+    }
+    // Values along the rows, and writers that leave out zeros.
+    let along: String = (0..40)
+        .map(|i| plain(0.2 * f64::sin(0.7 * f64::from(i))))
+        .collect();
+    let along = format!("# dt: 0.01 s\n# unit: g\n{along}\n{along}   0.1");
+    let options = ReadOptions {
+        layout: Some("a".to_owned()),
+        ..ReadOptions::default()
+    };
+    assert!(read(&along, &options).unwrap_err().contains("last value"));
+    let shortest: String = (0..44)
+        .map(|i| format!("{:.2},{}\n", 0.01 * f64::from(i), 0.125 * f64::from(i % 7)))
+        .collect();
+    let shortest = format!("time (s),acc (g)\n{shortest}0.44,-0.1");
+    assert_eq!(
+        read(&shortest, &ReadOptions::default())
+            .unwrap()
+            .samples()
+            .len(),
+        45
+    );
+}
+
 /// K-NET: integers of eight columns, of which the last one lost digits.
 #[test]
 fn counts_of_k_net_that_are_cut_off() {

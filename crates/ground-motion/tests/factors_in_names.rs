@@ -37,6 +37,12 @@ fn factors_are_refused() {
         "a/9.81 (g)",
         "a/1000 (g)",
         "a x 981 (g)",
+        "10 Acc (g)",
+        "0.5 acc (g)",
+        "log10 Acc (g)",
+        "Acc squared (g)",
+        "acc^2 (g)",
+        "10 acc",
         "1000*a",
         "a x 1000",
         "-acc",
@@ -70,10 +76,44 @@ fn names_without_factors_are_read() {
         "max10 (g)",
         "a-b (g)",
         "H10 (g)",
+        "Acc 1 (g)",
+        "CH 10 Acc (g)",
+        "Sensor 2 Acc (g)",
+        "Acc_10 (g)",
+        "010 Acc (g)",
+        "2 Acc (g)",
+        "Scaled acc (g)",
     ] {
         let header = format!("Time (s);{name}");
         let found = read(&header, ";", &ReadOptions::default());
         let found = found.unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(found.series[0].unit, "g", "{name}");
+    }
+}
+
+#[test]
+fn factors_of_times_are_refused() {
+    for name in [
+        "Time x 2 (s)",
+        "2*Time (s)",
+        "Scaled time (s)",
+        "Time/2 (s)",
+        "10 time (s)",
+    ] {
+        for separator in ["\t", ";"] {
+            let header = format!("{name}{separator}Acc (g)");
+            let said = read(&header, separator, &ReadOptions::default()).unwrap_err();
+            let told = format!("f:1:1: the name of the column \"{name}\" has a factor or a sign");
+            assert!(said.starts_with(&told) && said.contains("layout"), "{said}");
+        }
+    }
+    // Names between blanks have several words.
+    for header in ["Time (s)   10 Acc (g)", "Scaled time (s)   Acc (g)"] {
+        let said = read(header, "   ", &ReadOptions::default()).unwrap_err();
+        assert!(said.contains("has a factor or a sign"), "{said}");
+    }
+    for name in ["Time (s)", "Elapsed time (s)", "t1 (s)", "Time 1 (s)"] {
+        let found = read(&format!("{name};Acc (g)"), ";", &ReadOptions::default());
+        found.unwrap_or_else(|e| panic!("{name}: {e}"));
     }
 }

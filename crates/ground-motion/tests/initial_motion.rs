@@ -40,6 +40,21 @@ fn scaling_to_a_peak_velocity_starts_from_the_initial_one() {
     let scaled = process(&record, &steps).unwrap().accelerogram;
     assert!((scaled.scale() - 2.0).abs() < 1e-12);
     assert_eq!(scaled.initial(), Some((1.0, 0.0)));
+    // The end that is reported is that of the measures of what is written, from the initial velocity: -0.2 m/s after
+    // twice a parabola from 0.5 m/s to -0.1 m/s.
+    let report = &process(&record, &steps).unwrap().steps[0];
+    let ends = [report.get("end velocity"), report.get("end displacement")];
+    assert!((ends[0].unwrap() + 0.2).abs() < 1e-12, "{ends:?}");
+    assert!((ends[1].unwrap() - 0.08).abs() < 1e-12, "{ends:?}");
+    // Steps that leave it out start from rest.
+    let pad = ProcessingStep::Pad {
+        before: 0.0,
+        after: 0.1,
+    };
+    let padded = process(&record, &[pad]).unwrap();
+    assert_eq!(padded.accelerogram.initial(), None);
+    let end = padded.steps[0].get("end velocity").unwrap();
+    assert!((end + 0.75).abs() < 1e-12, "{end}");
     // The zero before the first value is one step earlier.
     let columns = "0.1 -3\n0.2 -3\n0.3 -3\n";
     let read = |text: &str| read_with_zero(text).unwrap();

@@ -51,5 +51,6 @@ mod thousands;
 mod time_columns;
 mod time_steps_and_scales;
 mod touching_numbers;
+mod two_units;
 mod undeclared_headers;
 mod writers;

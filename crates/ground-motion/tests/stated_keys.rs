@@ -354,6 +354,12 @@ fn one_of_several_numbers() {
         ("Frequency: 50 Hz notch", None),
         ("Filter: Butterworth, order 4, frequency = 40 Hz", None),
         ("Sampling filter corner 80 Hz", None),
+        ("Filter sampling rate: 50 Hz", None),
+        ("Low-pass sampling rate: 50 Hz", None),
+        ("Bandpass sampling 0.1-25 Hz", None),
+        ("Band-pass filter, sampling rate: 200 Hz", Some(0.005)),
+        ("Bandpass 0.1-25 Hz, sampling 200 Hz", Some(0.005)),
+        ("Bandpass filtered, sampling rate 200 Hz", Some(0.005)),
         ("Low pass 40 Hz, sampling anti-alias 80 Hz", None),
         ("Filtered 0.1-25 Hz, 200 Hz sampling", Some(0.005)),
         ("Filtered and resampled at 200 Hz", Some(0.005)),
@@ -961,6 +967,8 @@ fn values_of_something_else_are_no_columns() {
         "Depth (km): 12",
         "Distance (km)=35",
         "Vs30 (m/s) = 350",
+        "Altitude (m),130",
+        "Depth (km);12",
     ] {
         let header = format!("Acceleration (cm/s2)\n{line}");
         refused(&header, "does not state its time step");

@@ -224,6 +224,20 @@ fn raw_records_stay_raw() {
             assert!((a - b).abs() < 1e-6 * peak, "{a} {b}");
         }
     }
+    // Nor is what nobody knows taken for corrected.
+    for stage in [Processing::Unstated, Processing::Corrected] {
+        let written = Written {
+            processing: stage,
+            ..written.clone()
+        };
+        for text in [
+            write_pounding_csv(&written).unwrap(),
+            write_peer_at2(&written),
+        ] {
+            let read = read_all_bytes("a", text.as_bytes(), &ReadOptions::default()).unwrap();
+            assert_eq!(read.series[0].origin.processing, stage, "{text:.200}");
+        }
+    }
     // Without its mean it is raw no longer, nor after a step.
     assert_eq!(Written::of(&original).processing, Processing::Unstated);
     let step = ProcessingStep::Offset(OffsetCorrection::Mean);

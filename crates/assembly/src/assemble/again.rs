@@ -5,7 +5,7 @@ use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{RunOptions, System};
 
-use super::motions::on_their_ground;
+use super::motions::{Whose, on_their_ground};
 use super::{Assembly, Parts, models, options, unused, with_gaps};
 use crate::error::AssemblyError;
 
@@ -24,7 +24,7 @@ pub fn assemble_with_record(
         models,
         options,
     } = Parts::of(case)?;
-    let (system, left_out) = on_their_ground(case, buildings, accelerogram)?;
+    let (system, out_of_step) = on_their_ground(case, buildings, (accelerogram, Whose::Another))?;
     let system = with_gaps(case, &models, system)?;
     options.check(&system)?;
     Ok(Assembly {
@@ -32,7 +32,7 @@ pub fn assemble_with_record(
         options,
         output_step: case.analysis.output_step,
         accelerogram: accelerogram.clone(),
-        unused: unused(case).into_iter().chain(left_out).collect(),
+        unused: unused(case, out_of_step),
     })
 }
 
@@ -48,7 +48,7 @@ pub fn assemble_without_gaps(
     let mut alone = case.clone();
     alone.gaps.clear();
     let parts = Parts::with_columns(&alone, case)?;
-    let (system, _) = on_their_ground(&alone, parts.buildings, accelerogram)?;
+    let (system, _) = on_their_ground(&alone, parts.buildings, (accelerogram, Whose::Another))?;
     with_gaps(&alone, &parts.models, system)
 }
 

@@ -1,5 +1,6 @@
 //! Velocities and displacements that files state at the first sample of their records.
 
+use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 
 /// What initial motions may leave out of a displacement of the ground (m) unsaid.
@@ -7,18 +8,24 @@ const UNSAID: f64 = 1.0e-3;
 
 /// Records under the buildings of which some state an initial motion, which displacements of one ground relative to another, from
 /// rest, leave out, in words. Motions with the same one have no such displacement.
-pub(super) fn left_out(records: &[(String, Accelerogram)]) -> Vec<String> {
+pub(super) fn left_out(
+    case: &Case,
+    of_the_case: &Accelerogram,
+    own: &[(usize, Accelerogram)],
+) -> Vec<String> {
     let initial = |record: &Accelerogram| record.initial().unwrap_or_default();
-    let Some(((_, first), others)) = records.split_first() else {
-        return Vec::new();
-    };
-    if others
+    if own
         .iter()
-        .all(|(_, record)| initial(record) == initial(first))
+        .all(|(_, record)| initial(record) == initial(of_the_case))
     {
         return Vec::new();
     }
-    let told = records.iter().filter_map(|(of, record)| {
+    let own = own.iter().map(|(building, record)| {
+        let name = &case.buildings[*building].name.value;
+        (format!("of {name}"), record)
+    });
+    let records = std::iter::once(("of the case".to_owned(), of_the_case)).chain(own);
+    let told = records.filter_map(|(of, record)| {
         let (velocity, displacement) = initial(record);
         let duration = record.duration();
         let left_out = displacement + velocity * duration;

@@ -33,7 +33,7 @@ use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
 use crate::excitation::{RecordFiles, accelerogram};
 use method::options;
-use motions::on_their_ground;
+use motions::{Whose, on_their_ground};
 
 /// All that a run needs, made from a case.
 #[derive(Debug, Clone)]
@@ -109,7 +109,7 @@ pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, As
         models,
         options,
     } = parts;
-    let (system, left_out) = on_their_ground(case, buildings, &accelerogram)?;
+    let (system, out_of_step) = on_their_ground(case, buildings, (&accelerogram, Whose::OfCase))?;
     let system = with_gaps(case, &models, system)?;
     options.check(&system)?;
     Ok(Assembly {
@@ -117,17 +117,17 @@ pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, As
         options,
         output_step: case.analysis.output_step,
         accelerogram,
-        unused: unused(case).into_iter().chain(left_out).collect(),
+        unused: unused(case, out_of_step),
     })
 }
 
 /// What a case gives and nothing uses, frames beside their building, and parameters of spectra that no code has, in
-/// words: each once.
-fn unused(case: &Case) -> Vec<String> {
+/// words: each once, with motions that are out of step.
+fn unused(case: &Case, out_of_step: Vec<String>) -> Vec<String> {
     let mut told = column::never_hit(case);
     told.extend(method::without_effect(case));
     told.extend(plan::frames_outside(case));
-    told.extend(motions::out_of_step(case));
+    told.extend(out_of_step);
     let own = case.buildings.iter().filter_map(|b| b.ground.as_ref());
     let own = own.filter_map(|ground| ground.value.motion.as_ref());
     for motion in std::iter::once(&case.ground_motion).chain(own) {

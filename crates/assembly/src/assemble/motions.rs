@@ -4,7 +4,9 @@ use std::sync::Arc;
 
 use pounding_case::{Case, Located};
 use pounding_ground_motion::Accelerogram;
-use pounding_ground_motion::processing::ProcessingStep;
+use pounding_ground_motion::processing::{
+    ProcessingStep, across_one_another, start_together, starts_apart,
+};
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
 
@@ -21,28 +23,108 @@ pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {
     }
 }
 
-/// Refuses components of one file of which only that along the row is turned: they are not at right
-/// angles, but for quarters of a turn.
-fn refuse_one_turned_component(
+/// Sine of the degree by which two components may miss the right angle.
+const OFF_RIGHT_ANGLE: f64 = 0.0175;
+
+/// The components of a file that a motion is made of, by the words that choose them, with their parts of it.
+fn parts(motion: &pounding_case::GroundMotion) -> Vec<(String, f64)> {
+    let first = motion.component.as_deref().unwrap_or_default();
+    let chosen = |name: &str| name.trim().to_lowercase();
+    match &motion.rotation {
+        None => vec![(chosen(first), 1.0)],
+        Some(turned) => {
+            let (sine, cosine) = libm::sincos(turned.angle.to_radians());
+            let second = chosen(&turned.second_component.value);
+            vec![(chosen(first), cosine), (second, sine)]
+        }
+    }
+}
+
+/// Refuses motions along and across the row from components of one file that `rotate` does not leave at right angles.
+fn refuse_turns_apart(
     case: &Case,
     across: &Located<Box<pounding_case::GroundMotion>>,
+    of_one_file: bool,
 ) -> Result<(), AssemblyError> {
     let along = &case.ground_motion;
-    let of_one_file = across.value.file.value == along.file.value;
-    match (&along.rotation, &across.value.rotation) {
-        (Some(turned), None) if of_one_file && turned.angle % 90.0 != 0.0 => {
-            let first = along.component.as_deref().unwrap_or("...");
-            let (second, angle) = (&turned.second_component.value, turned.angle);
-            let message = "`rotate` turns the component along the row, and that across it, of the same file, is not turned: they are not at right angles";
-            let help = format!(
-                "turn both: across = {{ file = ..., component = \"{second}\", second_component = \"{first}\", rotate = {} }}",
-                -angle
-            );
-            let error = case.error(across.span.clone(), message.to_owned(), Some(help));
-            Err(error.into())
-        }
-        _ => Ok(()),
+    let (message, turned) = match (&along.rotation, &across.value.rotation) {
+        _ if !of_one_file => return Ok(()),
+        (None, None) => return Ok(()),
+        (Some(turned), None) if turned.angle % 90.0 != 0.0 => (
+            "`rotate` turns the component along the row, and that across it, of the same file, is not turned",
+            turned,
+        ),
+        (None, Some(turned)) if turned.angle % 90.0 != 0.0 => (
+            "`rotate` turns the component across the row, and that along it, of the same file, is not turned",
+            turned,
+        ),
+        (Some(turned), _) | (None, Some(turned)) => (
+            "`rotate` turns the components along and across the row, which are of the same file, by angles that do not go together",
+            turned,
+        ),
+    };
+    let (own, other) = (parts(along), parts(&across.value));
+    let product = |(name, part): &(String, f64)| {
+        let same = other.iter().find(|(other, _)| other == name);
+        same.map_or(0.0, |(_, other)| part * other)
+    };
+    let product: f64 = own.iter().map(product).sum();
+    let one_alone = along.rotation.is_none() || across.value.rotation.is_none();
+    let is_turned = one_alone && turned.angle % 90.0 != 0.0;
+    if !is_turned && product.abs() <= OFF_RIGHT_ANGLE {
+        return Ok(());
     }
+    let help = match &along.rotation {
+        Some(turned) => format!(
+            "turn both: across = {{ file = ..., component = \"{}\", second_component = \"{}\", rotate = {} }}",
+            turned.second_component.value,
+            along.component.as_deref().unwrap_or("..."),
+            -turned.angle
+        ),
+        None => format!(
+            "turn both: in [ground_motion] component = \"{}\", second_component = \"{}\", rotate = {}",
+            turned.second_component.value,
+            across.value.component.as_deref().unwrap_or("..."),
+            -turned.angle
+        ),
+    };
+    let message = format!("{message}: they are not at right angles");
+    Err(case.error(across.span.clone(), message, Some(help)).into())
+}
+
+/// Refuses a record across the row that is not the other horizontal component of that along it.
+fn refuse_no_pair(
+    case: &Case,
+    across: &Located<Box<pounding_case::GroundMotion>>,
+    ([along, record], whose): ([&Accelerogram; 2], Whose),
+) -> Result<(), AssemblyError> {
+    let sha256 = |of: &Accelerogram| of.origin().map(|origin| origin.sha256.clone());
+    let bytes = sha256(along);
+    let of_one_file = across.value.file.value == case.ground_motion.file.value
+        || bytes.is_some() && bytes == sha256(record);
+    refuse_turns_apart(case, across, of_one_file)?;
+    if whose == Whose::Another {
+        return Ok(());
+    }
+    let mut pair = across_one_another(along, record);
+    // Starts that steps of the case have moved are told of.
+    let moved = start_moved(&case.ground_motion, along) - start_moved(&across.value, record);
+    if moved.abs() <= SAME_TIME {
+        pair = pair.and_then(|()| start_together(along, record));
+    }
+    pair.map_err(|e| {
+        let error = case.error(across.span.clone(), e.to_string(), e.help());
+        error.into()
+    })
+}
+
+/// Whose the record along the row is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Whose {
+    /// That which the case names, of which the records beside it are other components or places.
+    OfCase,
+    /// One that takes its place, mostly of another earthquake: who gives it says so.
+    Another,
 }
 
 /// What is wrong with a record across the row, and what to do, where no building turns in plan.
@@ -60,14 +142,15 @@ pub fn nothing_to_move_across(case: &Case) -> Option<(&'static str, &'static str
 }
 
 /// The buildings of a case without gaps, each on its ground, that of the record given, now or
-/// later, or of a record of its own, with the forces on its floors.
+/// later, or of a record of its own, with the forces on its floors; and what is to be said of motions that do not begin
+/// together.
 pub(super) fn on_their_ground(
     case: &Case,
     buildings: Vec<Arc<ShearBuilding>>,
-    accelerogram: &Accelerogram,
+    (accelerogram, whose): (&Accelerogram, Whose),
 ) -> Result<(System, Vec<String>), AssemblyError> {
+    let mut further = Further::default();
     let first = ground(accelerogram);
-    let mut records = vec![("of the case".to_owned(), accelerogram.clone())];
     let mut motions = vec![GroundMotion {
         acceleration: first.clone(),
         delay: 0.0,
@@ -84,13 +167,15 @@ pub(super) fn on_their_ground(
                 );
                 return Err(error.into());
             }
-            refuse_one_turned_component(case, given)?;
             let record = further_record(case, &given.value)?;
-            Some((ground(&record), record.echo()))
+            refuse_no_pair(case, given, ([accelerogram, &record], whose))?;
+            let made = (ground(&record), record.echo());
+            further.across = Some(record);
+            Some(made)
         }
     };
     let mut supports = Vec::new();
-    for building in &case.buildings {
+    for (number, building) in case.buildings.iter().enumerate() {
         let mut along = 0;
         if let Some(given) = &building.ground {
             let (delay, own) = (given.value.delay, &given.value.motion);
@@ -105,9 +190,9 @@ pub(super) fn on_their_ground(
                         None => (first.clone(), Vec::new()),
                         Some(motion) => {
                             let record = further_record(case, motion)?;
-                            let found = (ground(&record), record.echo());
-                            records.push((format!("of {}", building.name.value), record));
-                            found
+                            let made = (ground(&record), record.echo());
+                            further.own.push((number, record));
+                            made
                         }
                     };
                     motions.push(GroundMotion {
@@ -144,7 +229,9 @@ pub(super) fn on_their_ground(
         1 => System::new(buildings, first),
         _ => System::with_motions(buildings, motions, supports)?,
     };
-    Ok((on_floors(case, system)?, initial_motion::left_out(&records)))
+    let mut told = out_of_step(case, (accelerogram, whose), &further);
+    told.extend(initial_motion::left_out(case, accelerogram, &further.own));
+    Ok((on_floors(case, system)?, told))
 }
 
 /// Seconds by which times of motions may differ and be the same to people.
@@ -164,36 +251,97 @@ fn zeros_before(motion: &pounding_case::GroundMotion) -> f64 {
     zeros
 }
 
-/// Motions and forces that were in step with one another before filters put zeros before some of them, in words.
-pub(super) fn out_of_step(case: &Case) -> Vec<String> {
-    let own = zeros_before(&case.ground_motion);
-    let remedy = "in the filters `keep_pads = false` leaves the zeros out";
-    let differs = |zeros: f64| (zeros - own).abs() > SAME_TIME;
-    let mut told = Vec::new();
-    let mut tell = |what: &str, zeros: f64| {
-        told.push(format!(
-            "filters put {own:.2} s of zeros before the record of the case, and {zeros:.2} s before {what}: they do not begin together; {remedy}"
-        ));
+/// By how much (s) the steps of a record moved its start: zeros put before it, less what was cut off there.
+fn start_moved(motion: &pounding_case::GroundMotion, record: &Accelerogram) -> f64 {
+    let of = |name: &str, number: &str| -> f64 {
+        let steps = record.steps().iter().filter(|step| step.step == name);
+        let numbers = steps.filter_map(|step| step.get(number));
+        numbers.fold(0.0, |sum, number| sum + number)
     };
-    for building in &case.buildings {
-        let motion = building
-            .ground
-            .as_ref()
-            .and_then(|g| g.value.motion.as_ref());
-        if let Some(zeros) = motion.map(zeros_before).filter(|zeros| differs(*zeros)) {
-            tell(&format!("that of {}", building.name.value), zeros);
+    let filters = motion.process.iter().map(|step| match &step.value {
+        ProcessingStep::Filter(filter) => filter.zeros_at_each_end(),
+        _ => 0.0,
+    });
+    // The sum of no numbers would be printed with a minus.
+    filters.fold(0.0, |sum, zeros| sum + zeros) + of("pad", "before") - of("trim", "start")
+}
+
+/// Whether steps of a record other than filters move its start.
+fn is_cut_or_padded(record: &Accelerogram) -> bool {
+    let moves = |name: &str| ["pad", "trim"].contains(&name);
+    record.steps().iter().any(|step| moves(&step.step))
+}
+
+/// What is to be said of a motion that does not begin with that of the case, as both were recorded and processed.
+fn begins_apart(
+    what: &str,
+    ([own, other], whose): ([(&pounding_case::GroundMotion, &Accelerogram); 2], Whose),
+    delay: f64,
+) -> Option<String> {
+    let known = match whose {
+        Whose::OfCase => starts_apart(own.1, other.1),
+        Whose::Another => None,
+    };
+    let moved = [own, other].map(|(motion, record)| start_moved(motion, record));
+    let apart = moved[1] - moved[0];
+    let in_step = apart.abs() <= SAME_TIME || (apart + delay).abs() <= SAME_TIME;
+    match known {
+        // Whoever cuts both to the time that they have in common knows where they begin.
+        Some(0.0) => None,
+        Some(seconds) if in_step && delay == 0.0 && seconds.is_finite() => Some(format!(
+            "the record of the case and {what} do not begin together: the times of their first samples are {seconds:.3} s apart; cut both to the time that they have in common by `trim`, or give `delay`"
+        )),
+        _ if in_step => None,
+        _ => Some(match is_cut_or_padded(own.1) || is_cut_or_padded(other.1) {
+            false => format!(
+                "filters put {:.2} s of zeros before the record of the case, and {:.2} s before {what}: they do not begin together; in the filters `keep_pads = false` leaves the zeros out",
+                moved[0], moved[1]
+            ),
+            true => format!(
+                "`process` moves the start of the record of the case by {:.2} s, and {what} by {:.2} s (less than zero: earlier): they do not begin together; give both the same `pad`, `trim` and zeros of filters",
+                0.0 - moved[0],
+                0.0 - moved[1]
+            ),
+        }),
+    }
+}
+
+/// Motions and forces that are not in step with one another, as they were recorded or since they were processed, in
+/// words.
+fn out_of_step(
+    case: &Case,
+    (along, whose): (&Accelerogram, Whose),
+    further: &Further,
+) -> Vec<String> {
+    let mut told = Vec::new();
+    let own = (&case.ground_motion, along);
+    for (building, record) in &further.own {
+        let building = &case.buildings[*building];
+        if let Some(ground) = &building.ground
+            && let Some(motion) = &ground.value.motion
+        {
+            let what = format!("that of {}", building.name.value);
+            let pair = [own, (motion, record)];
+            told.extend(begins_apart(&what, (pair, whose), ground.value.delay));
         }
     }
-    if let Some(across) = &case.ground_motion.across {
-        let zeros = zeros_before(&across.value);
-        if differs(zeros) {
-            tell("that across the row", zeros);
-        }
+    if let (Some(across), Some(record)) = (&case.ground_motion.across, &further.across) {
+        let pair = [own, (&*across.value, record)];
+        told.extend(begins_apart("that across the row", (pair, whose), 0.0));
     }
-    if own > SAME_TIME && case.buildings.iter().any(|b| !b.forces.is_empty()) {
+    let zeros = zeros_before(&case.ground_motion);
+    if zeros > SAME_TIME && case.buildings.iter().any(|b| !b.forces.is_empty()) {
         told.push(format!(
-            "filters put {own:.2} s of zeros before the record, and forces on floors begin with them: {remedy}, or let forces begin later"
+            "filters put {zeros:.2} s of zeros before the record, and forces on floors begin with them: in the filters `keep_pads = false` leaves the zeros out, or let forces begin later"
         ));
     }
     told
+}
+
+/// Records beside that of the case, as they were read and processed.
+#[derive(Default)]
+struct Further {
+    across: Option<Accelerogram>,
+    /// Those of buildings, from zero.
+    own: Vec<(usize, Accelerogram)>,
 }

@@ -7,10 +7,10 @@ use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_files::checksum::Checksum;
 use pounding_report::{Answered, ReportError, RunResult};
-use pounding_study::ResultReader;
+use pounding_study::{ResultReader, Study};
 
 use crate::failure::Failure;
-use crate::files::{is_judged, name_left_over, page_is_spared};
+use crate::files::{is_judged, name_left_over, page_is_spared, reads_too};
 use crate::output::{print, warn};
 use crate::separate::{Reading, reading, warnings};
 use crate::{page, plot};
@@ -48,6 +48,10 @@ pub fn report(
             beside
         }
     };
+    // Before anything else is said of the output: it may be a file that the study reads.
+    if let Some(study) = asked.study.and_then(|study| Study::read(study).ok()) {
+        reads_too(&mut files, study.files())?;
+    }
     match child {
         true => is_judged(&output),
         false => page_is_spared(&output, asked.output.is_some())?,

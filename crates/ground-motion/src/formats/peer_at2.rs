@@ -22,7 +22,7 @@ use crate::source::Source;
 use crate::stated_step::{StatedStep, state_step};
 use crate::text::{Line, Lines};
 use crate::time_column::mostly_times;
-use crate::writers::peer_at2::{OTHER, RAW};
+use crate::writers::peer_at2::{OTHER, RAW, UNSTATED};
 
 /// Lines looked through for the header.
 const HEADER_LINES: usize = 12;
@@ -42,7 +42,7 @@ struct Header {
 impl Header {
     /// Whether this program wrote the file, which says so in its first line.
     fn is_own(&self) -> bool {
-        let own = [RAW, OTHER].map(Some);
+        let own = [RAW, UNSTATED, OTHER].map(Some);
         own.contains(&self.text.first().map(String::as_str))
     }
 }
@@ -194,6 +194,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     draft.processing = match header.text.first() {
         // Written by this program, which says so.
         Some(first) if first == RAW => Processing::Raw,
+        Some(first) if first == UNSTATED => Processing::Unstated,
         _ => Processing::Corrected,
     };
     keys(&mut draft, source, &header);
@@ -336,7 +337,7 @@ fn header(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Header, GroundMo
     let mut steps = Vec::new();
     // The title of a file that this program wrote is a name, whatever keys stand in it.
     let own = source.first_line();
-    let is_own = [RAW, OTHER]
+    let is_own = [RAW, UNSTATED, OTHER]
         .iter()
         .any(|first| own == first.to_ascii_lowercase());
     let others = source
@@ -748,6 +749,29 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
                 other.symbol, unit.symbol
             ),
             "header lines contradict one another: a line such as `ACCELERATION TIME SERIES IN UNITS OF G` must say the unit of the values",
+        ));
+    }
+    // `ACCELERATION (G) TIME SERIES (CM/S2)`.
+    let twice = units.iter().find_map(|(line, (unit, _))| {
+        let text = lower.get(line - 1)?;
+        let is_of_values = OF_VALUES.iter().any(|words| text.contains(words));
+        let beside = named_with_unit(text).filter(|_| is_of_values)?.unit;
+        let differs = beside != *unit && beside.quantity == unit.quantity;
+        differs.then_some((*line, [beside, *unit]))
+    });
+    if let Some((line, both)) = twice {
+        let given = source.options.unit;
+        if given.is_some_and(|given| both.iter().any(|unit| unit.is(given))) {
+            return Ok(DraftUnit::Unstated);
+        }
+        return Err(source.error(
+            line,
+            0,
+            format!(
+                "two units, {} and {}, stand beside one quantity",
+                both[0].symbol, both[1].symbol
+            ),
+            "say which one the values have by `unit` in [ground_motion] of a case, `--unit` with `pounding motion`; or correct the line so that it states that unit alone",
         ));
     }
     let scaled = lower.iter().enumerate().find_map(|(i, line)| {

@@ -119,40 +119,127 @@ fn ends_together(
     )))
 }
 
+/// What is known of the times of the first samples of two components.
+struct Starts {
+    /// How far apart they are (s); days are infinite.
+    apart: f64,
+    /// The times as they are printed, and what to do about those of two times.
+    shown: [String; 2],
+    remedy: &'static str,
+}
+
+impl Starts {
+    /// By the printed dates and times, else by the columns of times.
+    fn of(first: &Accelerogram, second: &Accelerogram) -> Option<Self> {
+        let (a, b) = (first.origin()?, second.origin()?);
+        if let Some(apart) = start_times::apart(&a.start_time, &b.start_time) {
+            return Some(Self {
+                apart,
+                shown: [a.start_time.clone(), b.start_time.clone()],
+                remedy: CUT_BOTH,
+            });
+        }
+        let (a, b) = (a.first_time?, b.first_time?);
+        let shown = |time: f64| format!("{} s of their times", bound(time));
+        Some(Self {
+            apart: (a - b).abs(),
+            shown: [shown(a), shown(b)],
+            remedy: CUT_OR_COUNT_ANEW,
+        })
+    }
+}
+
+/// How far apart the first samples of two records are (s), where their dates and times or columns of times say it;
+/// records of different days are infinitely far apart. Half a time step is nothing.
+#[must_use]
+pub fn starts_apart(first: &Accelerogram, second: &Accelerogram) -> Option<f64> {
+    // A millionth: half a step is none, whatever the round-off of the times.
+    let most = 0.5 * first.time_step() * (1.0 + 1.0e-6);
+    let apart = Starts::of(first, second)?.apart;
+    Some(if apart > most { apart } else { 0.0 })
+}
+
 /// Refuses components with first samples at different times, as those of instruments
-/// that trigger on their own do: by the printed dates and times, else by the columns of times.
+/// that trigger on their own do.
 fn starts_together(first: &Accelerogram, second: &Accelerogram) -> Result<(), GroundMotionError> {
-    let (Some(a), Some(b)) = (first.origin(), second.origin()) else {
+    let Some(apart) = starts_apart(first, second).filter(|apart| *apart > 0.0) else {
         return Ok(());
     };
-    let refused = |[a, b]: [&str; 2], apart: f64, remedy: &'static str| {
-        let apart = match apart.is_finite() {
-            true => format!(", {} s apart", bound(apart)),
-            false => String::new(),
-        };
-        GroundMotionError::NotPossible {
-            step: STEP,
-            reason: format!(
-                "the components do not start together: their first samples are at {a} and {b}{apart}"
-            ),
-            remedy,
-        }
+    let Some(Starts { shown, remedy, .. }) = Starts::of(first, second) else {
+        return Ok(());
     };
-    let most = 0.5 * first.time_step();
-    if let Some(apart) = start_times::apart(&a.start_time, &b.start_time) {
-        return match apart > most {
-            true => Err(refused([&a.start_time, &b.start_time], apart, CUT_BOTH)),
-            false => Ok(()),
-        };
-    }
-    match (a.first_time, b.first_time) {
-        // A millionth: half a step is none, whatever the round-off of the times.
-        (Some(a), Some(b)) if (a - b).abs() > most * (1.0 + 1.0e-6) => {
-            let shown = |time: f64| format!("{} s of their times", bound(time));
-            let apart = (a - b).abs();
-            Err(refused([&shown(a), &shown(b)], apart, CUT_OR_COUNT_ANEW))
+    let [a, b] = shown;
+    let apart = match apart.is_finite() {
+        true => format!(", {} s apart", bound(apart)),
+        false => String::new(),
+    };
+    Err(GroundMotionError::NotPossible {
+        step: STEP,
+        reason: format!(
+            "the components do not start together: their first samples are at {a} and {b}{apart}"
+        ),
+        remedy,
+    })
+}
+
+/// Refuses a record across a row of buildings that cannot be the other component of that along it: a vertical one, and of the
+/// same file the same component or one that is not at right angles. Whether both [start together](start_together) is asked by
+/// itself.
+///
+/// # Errors
+/// One of these.
+pub fn across_one_another(
+    along: &Accelerogram,
+    across: &Accelerogram,
+) -> Result<(), GroundMotionError> {
+    let of = |of: &Accelerogram| {
+        let origin = of.origin()?;
+        Some((origin.sha256.clone(), origin.component.clone()))
+    };
+    let both = of(along).zip(of(across));
+    let of_one_file = both.as_ref().is_some_and(|(a, b)| a.0 == b.0);
+    let is_one = |name: &str| GroundMotionError::NotPossible {
+        step: ACROSS,
+        reason: format!(
+            "the component \"{name}\" along the row and that across it are one series of one file"
+        ),
+        remedy: "give the other horizontal component of the record, by `component` if it is in the same file",
+    };
+    if let Some((a, b)) = both.filter(|_| of_one_file) {
+        let same = a.1 == b.1 && (!a.1.is_empty() || along.samples() == across.samples());
+        if same && !is_turned(along) && !is_turned(across) {
+            return Err(is_one(&a.1));
         }
-        _ => Ok(()),
+    }
+    let is_vertical = |of| matches!(direction(of), Some(Direction::Up | Direction::Down));
+    if of_one_file || is_vertical(along) || is_vertical(across) {
+        at_right_angles(along, across).map_err(of_across)?;
+    }
+    Ok(())
+}
+
+/// Refuses a record across a row of buildings that starts at another time than that along it.
+///
+/// # Errors
+/// Starts that both records state, or their columns of times, and that are apart.
+pub fn start_together(
+    along: &Accelerogram,
+    across: &Accelerogram,
+) -> Result<(), GroundMotionError> {
+    starts_together(along, across).map_err(of_across)
+}
+
+/// What is said of a record across the row.
+const ACROSS: &str = "across";
+
+fn of_across(error: GroundMotionError) -> GroundMotionError {
+    match error {
+        GroundMotionError::NotPossible { reason, remedy, .. } => GroundMotionError::NotPossible {
+            step: ACROSS,
+            reason,
+            remedy,
+        },
+        other => other,
     }
 }
 
@@ -179,19 +266,86 @@ pub fn distinct(first: &Accelerogram, second: &Accelerogram) -> Result<(), Groun
     })
 }
 
-/// The direction of a component, where its name says one and it was not turned since.
-fn direction(of: &Accelerogram) -> Option<Direction> {
-    let origin = of.origin()?;
+/// Whether a component was turned, now or before it was written.
+fn is_turned(of: &Accelerogram) -> bool {
     let turns = |step: &str| step == STEP || step == OF_FAULT;
     let before = |line: &String| {
         let step = line.strip_prefix("Step:").map(str::trim_start);
         step.is_some_and(|s| turns(s.split(':').next().unwrap_or(s)))
     };
-    if of.steps().iter().any(|s| turns(&s.step)) || origin.history.iter().any(before) {
-        return None;
-    }
+    let history = of.origin().is_some_and(|o| o.history.iter().any(before));
+    of.steps().iter().any(|s| turns(&s.step)) || history
+}
+
+/// The direction of a component, where its name says one and it was not turned since.
+fn direction(of: &Accelerogram) -> Option<Direction> {
+    let origin = of.origin()?;
+    // What turns a component states the new direction where it is known.
     let stated = origin.orientation.map(Orientation::direction);
-    stated.or_else(|| Direction::of_name(&origin.component))
+    let named = || Direction::of_name(&origin.component).filter(|_| !is_turned(of));
+    stated.or_else(named)
+}
+
+/// Where a turned component points, and its name.
+struct Turned {
+    name: String,
+    orientation: Option<Orientation>,
+}
+
+impl Turned {
+    /// Of an azimuth (degrees).
+    fn to(azimuth: f64) -> Self {
+        let azimuth = (libm::round(azimuth * 1.0e6) / 1.0e6).rem_euclid(360.0);
+        Self {
+            name: format!("{azimuth} deg"),
+            orientation: Orientation::of(azimuth, 0.0),
+        }
+    }
+
+    /// Of both components turned by an angle (degrees), the first towards the second: by their azimuths, where both are
+    /// known; else by a name that says none.
+    fn by(angle: f64, first: &Accelerogram, second: &Accelerogram) -> [Self; 2] {
+        let name = |of: &Accelerogram| of.origin().map_or(String::new(), |o| o.component.clone());
+        let names = [name(first), name(second)];
+        if angle == 0.0 {
+            return [first, second].map(|of| Self {
+                name: name(of),
+                orientation: match direction(of) {
+                    Some(Direction::Azimuth(azimuth)) => Orientation::of(azimuth, 0.0),
+                    _ => of.origin().and_then(|o| o.orientation),
+                },
+            });
+        }
+        if let (Some(Direction::Azimuth(a)), Some(Direction::Azimuth(b))) =
+            (direction(first), direction(second))
+        {
+            // The second may lie a quarter turn on either side.
+            let sense = libm::copysign(1.0, libm::sin((b - a).to_radians()));
+            return [angle, angle + 90.0].map(|angle| Self::to(a + sense * angle));
+        }
+        let [first, second] = names.map(|name| match name.as_str() {
+            "" => None,
+            _ => Some(name),
+        });
+        let shown =
+            |name: &Option<String>, other: &str| name.clone().unwrap_or_else(|| other.into());
+        let (first, second) = (
+            shown(&first, "first component"),
+            shown(&second, "second component"),
+        );
+        let unknown = |name| Self {
+            name,
+            orientation: None,
+        };
+        [
+            unknown(format!(
+                "{first} turned by {angle} degrees towards {second}"
+            )),
+            unknown(format!(
+                "{second} turned by {angle} degrees away from {first}"
+            )),
+        ]
+    }
 }
 
 /// Refuses components of two instruments, one in the borehole and one at the surface.
@@ -254,14 +408,16 @@ fn combine(
     first: &Accelerogram,
     second: &Accelerogram,
     weights: [[f64; 2]; 2],
+    turned: [Turned; 2],
     step: StepRecord,
 ) -> Result<RotatedPair, GroundMotionError> {
     let Together { samples, continued } = together(first, second)?;
-    let component = |of: &Accelerogram, w: [f64; 2]| {
+    let component = |of: &Accelerogram, w: [f64; 2], to: Turned| {
         let pairs = samples[0].iter().zip(samples[1].iter());
         let sum = pairs.map(|(a, b)| w[0] * a + w[1] * b).collect();
         let turned = of.with_samples(sum, first.time_step())?;
-        Ok::<_, GroundMotionError>(turned.pointing(None).warned(continued.as_deref()))
+        let turned = turned.pointing(to.orientation).called(to.name);
+        Ok::<_, GroundMotionError>(turned.warned(continued.as_deref()))
     };
     let counts = [first, second].map(|of| of.samples().len() as f64);
     let step = match counts[0] == counts[1] {
@@ -273,9 +429,10 @@ fn combine(
         ),
     };
     let step = step.number("samples used", samples[0].len() as f64, "-");
+    let [to_first, to_second] = turned;
     let mut pair = RotatedPair {
-        first: component(first, weights[0])?,
-        second: component(second, weights[1])?,
+        first: component(first, weights[0], to_first)?,
+        second: component(second, weights[1], to_second)?,
         step,
     };
     for one in [&mut pair.first, &mut pair.second] {
@@ -301,7 +458,9 @@ pub fn rotate(
     at_right_angles(first, second)?;
     let (sine, cosine) = libm::sincos(angle.to_radians());
     let step = StepRecord::new(STEP).number("angle", angle, "degrees");
-    combine(first, second, [[cosine, sine], [-sine, cosine]], step)
+    let weights = [[cosine, sine], [-sine, cosine]];
+    let turned = Turned::by(angle, first, second);
+    combine(first, second, weights, turned, step)
 }
 
 /// The components parallel to a fault (first) and normal to it (second, a quarter
@@ -346,6 +505,7 @@ pub fn fault_components(
         first.0,
         second.0,
         [weights(strike), weights(strike + 90.0)],
+        [strike, strike + 90.0].map(Turned::to),
         step,
     )
 }

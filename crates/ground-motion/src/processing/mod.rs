@@ -18,7 +18,10 @@ use crate::unit::AccelerationUnit;
 
 pub use baseline::{Baseline, SegmentWindow};
 pub use butterworth::{Butterworth, Phase};
-pub use components::{RotatedPair, distinct, fault_components, rotate};
+pub use components::{
+    RotatedPair, across_one_another, distinct, fault_components, rotate, start_together,
+    starts_apart,
+};
 pub(crate) use components::{Together, at_right_angles, together};
 pub use resampling::{Interpolation, to_even_steps};
 pub use scaling::{BAND_PERIODS, BandTarget, Scale, band_factor};
@@ -179,7 +182,9 @@ impl ProcessingStep {
             error => error,
         })?;
         debug_assert_eq!(report.step, self.name());
-        let motion = GroundMotion::of(&next, 0.0, 0.0);
+        // From where the record starts, as its measures do.
+        let (velocity, displacement) = next.initial().unwrap_or_default();
+        let motion = GroundMotion::of(&next, velocity, displacement);
         let report = report
             .number("end velocity", motion.end_velocity(), "m/s")
             .number("end displacement", motion.end_displacement(), "m");

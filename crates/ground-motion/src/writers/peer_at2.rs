@@ -7,8 +7,10 @@ use crate::quantity::Quantity;
 use crate::unit::AccelerationUnit;
 use crate::writers::{Written, line};
 
-/// First lines, of raw records and of others.
+/// First lines, of raw records, of those of which the stage of processing is not known, and of others.
 pub(crate) const RAW: &str = "RAW MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2";
+pub(crate) const UNSTATED: &str =
+    "MOTION OF UNKNOWN PROCESSING WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2";
 pub(crate) const OTHER: &str = "MOTION WRITTEN BY POUNDING IN THE LAYOUT OF PEER AT2";
 /// Values on a line.
 const COLUMNS: usize = 5;
@@ -16,7 +18,7 @@ const COLUMNS: usize = 5;
 /// The text of an AT2 file (accelerations in g of 9.80665 m/s2), a VT2 file (cm/s) or
 /// a DT2 file (cm): four lines of header, five values of eight digits per line. The
 /// format has no room for what was done to the motion; the first line says of a raw record that it
-/// is one.
+/// is one, and of others whether that is known.
 #[must_use]
 pub fn write_peer_at2(series: &Written) -> String {
     let (words, unit, factor) = match series.quantity {
@@ -31,7 +33,8 @@ pub fn write_peer_at2(series: &Written) -> String {
     let mut text = String::with_capacity(16 * series.samples.len() + 300);
     let _ = match series.processing {
         Processing::Raw => writeln!(text, "{RAW}"),
-        _ => writeln!(text, "{OTHER}"),
+        Processing::Unstated => writeln!(text, "{UNSTATED}"),
+        Processing::Corrected => writeln!(text, "{OTHER}"),
     };
     // The component is what follows the last comma.
     let component = line(&series.component).replace(',', ";");

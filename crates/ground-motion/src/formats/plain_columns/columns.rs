@@ -5,7 +5,7 @@ use super::header::{self, Role};
 use super::names;
 use super::survey::{Survey, nearly_times};
 use super::thousands::Thousands;
-use super::{Header, OTHERS, Said, rows};
+use super::{Header, OTHERS, Said, ends_within_a_number, rows};
 use crate::cut_numbers::Forms;
 use crate::draft::Times;
 use crate::error::GroundMotionError;
@@ -116,6 +116,29 @@ impl Table<'_> {
     fn is_value(&self, k: usize) -> bool {
         let names = &self.columns.names;
         names[k] != "t" && !is_other(names, &names[k])
+    }
+
+    /// Whether the last number of the last row is whole, held against the others of its column.
+    ///
+    /// # Errors
+    /// It is cut off, unless the user takes what is there: without its row.
+    fn ends_whole(&self, source: &Source<'_>) -> Result<bool, GroundMotionError> {
+        let cells = |line: &Line<'_>| header::row_cells(line, self.columns.separator).len();
+        let last = rows(source).last().map_or(0, |line| cells(&line));
+        let count = self.columns.names.len();
+        let Some(place) = last.checked_sub(1).map(|last| last % count) else {
+            return Ok(true);
+        };
+        let is_read = self.is_value(place) || self.columns.names[place] == "t";
+        if !is_read || !ends_within_a_number(source) {
+            return Ok(true);
+        }
+        let values = rows(source).flat_map(|line| {
+            let cells = header::row_cells(&line, self.columns.separator).into_iter();
+            let of_column = cells.skip(place).step_by(count);
+            of_column.map(move |(at, cell)| (line, at + source.options.skip_columns, cell))
+        });
+        source.is_last_whole(values)
     }
 
     /// Adds a row.
@@ -255,8 +278,12 @@ pub(super) fn columns(
             table.values[k].values.reserve_exact(count);
         }
     }
-    for line in rows(source) {
-        table.row(source, line)?;
+    let is_whole = table.ends_whole(source)?;
+    let mut lines = rows(source).peekable();
+    while let Some(line) = lines.next() {
+        if is_whole || lines.peek().is_some() {
+            table.row(source, line)?;
+        }
     }
     let used: Vec<bool> = (0..names.len()).map(|k| table.is_value(k)).collect();
     // What is named a time or a component is one.

@@ -126,16 +126,28 @@ pub(super) fn of_no_acceleration(cells: &Cells) -> Option<Fault> {
     Some(Fault::NoAcceleration(quantity, name))
 }
 
-/// An acceleration whose name has a factor or a sign: with its unit in brackets, or beside times.
+/// An acceleration, or times, whose name has a factor or a sign: with its unit in brackets, or beside times. Names may
+/// have several words.
 fn of_factor(cells: &Cells) -> Option<Fault> {
+    let mut apart = cells.several_words();
+    of_factor_in(cells).or_else(|| apart.find_map(|cells| of_factor_in(&cells)))
+}
+
+fn of_factor_in(cells: &Cells) -> Option<Fault> {
     let is_time = |name: &String| matches!(role(name), Some(Role::Time(_)));
     let beside_times = cells.separator.is_some() && cells.names.iter().any(is_time);
     let accelerates = |name: &str| {
-        let unit = divided(name).and_then(|(_, unit)| motion_unit(&unit));
-        let in_brackets = unit.filter(|_| name.contains(['(', '[']));
-        match in_brackets {
+        let has_brackets = name.contains(['(', '[']);
+        let unit = divided(name).filter(|_| has_brackets).map(|(_, unit)| unit);
+        if unit
+            .as_deref()
+            .is_some_and(|unit| time_unit(unit).is_some())
+        {
+            return true;
+        }
+        match unit.and_then(|unit| motion_unit(&unit)) {
             Some(unit) => unit.quantity == Quantity::Acceleration,
-            None => beside_times && !name.contains(['(', '[']),
+            None => beside_times && !has_brackets,
         }
     };
     let mut found = cells.names.iter().map(|name| unquoted(name));

@@ -6,6 +6,7 @@ use super::names::{
     is_channel, is_component, is_spectral, is_time, motion, motion_unit, plain, time_unit,
     unquoted,
 };
+use super::two_units::{has_another_unit, has_two};
 use super::{OTHERS, stated};
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
@@ -258,7 +259,7 @@ impl Cells {
 
     /// The same names where they may have several words: each ends in brackets, `Time (s) Roof acc (g)`, but for the
     /// first, `Time Roof acc (g)`; or they stand more than a blank apart, `Time   Roof acc   Base acc`.
-    fn several_words(&self) -> impl Iterator<Item = Self> {
+    pub(super) fn several_words(&self) -> impl Iterator<Item = Self> {
         let ends = |word: &str| word.ends_with([')', ']']);
         let is_key = self.text.contains([':', '=']);
         let last = self.names.last().is_some_and(|last| ends(last));
@@ -467,7 +468,18 @@ impl Cells {
                 .iter()
                 .any(Entry::has_number)
         };
-        let has_number = stated::has_number(&self.text) || is_parted && has_value();
+        // `Altitude (m),130`: a key and its number in two cells. `000,090` names two columns.
+        let is_pair = || match self.names.as_slice() {
+            [key, value] => {
+                let is_number = crate::number::parse(value.trim().as_bytes()).is_ok();
+                let has_unit = key.contains(['(', '[']) && !is_channel(&plain(before_unit(key)));
+                has_unit
+                    && is_number
+                    && !matches!(role(key), Some(Role::Time(_) | Role::Acceleration(..)))
+            }
+            _ => false,
+        };
+        let has_number = stated::has_number(&self.text) || is_parted && has_value() || is_pair();
         stated::has_unit(&self.text) || has_number && !self.names.iter().any(accelerates)
     }
 
@@ -525,8 +537,8 @@ pub(super) fn kind(cell: &str) -> Option<Kind> {
     if let Some(role) = role(cell) {
         return Some(Kind::Known(role));
     }
-    // By how much the values would have to be divided is not known.
-    if has_factor(cell) {
+    // By how much the values would have to be divided, or in which unit they are, is not known.
+    if has_factor(cell) || has_two(cell) {
         return None;
     }
     if is_channel(&whole) {
@@ -717,6 +729,9 @@ pub(super) fn role(cell: &str) -> Option<Role> {
         .map_or(cell, str::trim_end);
     if let Some((name, rest)) = cell.split_once(['(', '[']) {
         let unit = without_sign(rest).strip_suffix([')', ']'])?;
+        if motion_unit(unit).is_some_and(|unit| has_another_unit(name, unit)) {
+            return None;
+        }
         // `a/(m/s2)`, as standards on quantities write.
         return named(name.trim_end_matches('/'), unit);
     }

@@ -25,12 +25,13 @@ mod names;
 mod stated;
 mod survey;
 mod thousands;
+mod two_units;
 
 use columns::{Columns, columns};
 use counter::Counter;
 use faults::Fault;
 use header::{Header, Role};
-use stated::Stated;
+use stated::{Stated, is_history};
 use survey::{Arrangement, Head, Survey};
 use thousands::Thousands;
 
@@ -50,6 +51,8 @@ fn is_comment(line: &Line<'_>) -> bool {
 /// Whether a field starts as a number does.
 fn starts_a_number(field: &[u8]) -> bool {
     let field = field.trim_ascii();
+    // Bars may stand around the cells of a row.
+    let field = field.strip_prefix(b"|").unwrap_or(field);
     let bare = field.strip_prefix(b"\"").unwrap_or(field);
     let digits = bare
         .strip_prefix(b"+")
@@ -146,7 +149,7 @@ fn is_no_spectrum(source: &Source<'_>, series: &[Series]) -> Result<(), GroundMo
     let mut values = series.iter().flat_map(|s| &s.samples);
     let title = before(source).find(|line| {
         let lower = line.lower();
-        !stated::is_history(&lower) && speaks_of_spectrum(&lower)
+        !is_history(&lower) && speaks_of_spectrum(&lower)
     });
     let Some(title) = title.filter(|_| values.all(|a| *a >= 0.0)) else {
         return Ok(());
@@ -296,13 +299,16 @@ pub(super) static FORMAT: Format = Format {
 
 fn matches(source: &Source<'_>) -> bool {
     let mut first = rows(source).take(30).peekable();
-    first.peek().is_some() && first.all(|l| l.fields().all(|(_, f)| looks_numeric(f)))
+    // Bars may part numbers without blanks, `0.00|0.01`.
+    let cells = |f: &[u8]| f.split(|b| *b == b'|').all(looks_numeric);
+    first.peek().is_some() && first.all(|l| l.fields().all(|(_, f)| cells(f)))
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let bare = decimal::without_quotes(source);
     let outer = source;
     let source = &Source::new(outer.file, &bare, outer.options, outer.path);
+    let decided = two_units::decided(source)?;
     let header = header(source);
     let faulty = fault(source, header.as_ref());
     if let Some(error) = faulty.as_ref().and_then(|f| f.refused(source)) {
@@ -312,8 +318,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     thousands::are_no_groups(source)?;
     let bytes = decimal::with_points(source, header.as_ref())?;
     let pointed = Source::new(source.file, &bytes, source.options, source.path);
-    let said = Said::before(&pointed, header.as_ref())?;
-    agrees_with_names(source, header.as_ref(), &said.stated)?;
+    let said = Said::before(&pointed, header.as_ref(), &decided)?;
+    agrees_with_names(source, header.as_ref(), &said.stated, &decided)?;
     let series = match (numbers(&pointed, header.as_ref(), &said), faulty) {
         // Unit and step may well be there: why they were not understood is the reason.
         (
@@ -349,9 +355,11 @@ fn agrees_with_names(
     source: &Source<'_>,
     header: Option<&Header>,
     stated: &Stated,
+    decided: &[usize],
 ) -> Result<(), GroundMotionError> {
     for cells in header::name_lines(before(source)) {
-        if header.is_some_and(|h| h.line == cells.line) || cells.names.len() < 2 {
+        let is_header = header.is_some_and(|h| h.line == cells.line);
+        if is_header || cells.names.len() < 2 || decided.contains(&cells.line) {
             continue;
         }
         // `peak acceleration (m/s2): 2.9` is a key with its value.
@@ -385,11 +393,17 @@ struct Said {
 }
 
 impl Said {
-    fn before(source: &Source<'_>, header: Option<&Header>) -> Result<Self, GroundMotionError> {
+    /// `decided`: lines that say nothing of the unit.
+    fn before(
+        source: &Source<'_>,
+        header: Option<&Header>,
+        decided: &[usize],
+    ) -> Result<Self, GroundMotionError> {
         let line = header.map(|h| h.line);
+        let without_unit = |at: usize| line == Some(at) || decided.contains(&at);
         Ok(Self {
             keys: Keys::before(source, before(source)),
-            stated: Stated::before(source, before(source), line)?,
+            stated: Stated::before(source, before(source), without_unit)?,
             is_given: source.options.unit.is_some(),
         })
     }
@@ -824,9 +838,26 @@ fn along(
             thousands.see(line.number, column, field);
         }
     }
+    if ends_within_a_number(source) {
+        let values = rows(source).skip(skipped).flat_map(|line| {
+            let place = move |(column, field)| (line, column + source.options.skip_columns, field);
+            line.fields().map(place)
+        });
+        if !source.is_last_whole(values)? {
+            samples.truncate(samples.len() - 1);
+        }
+    }
     forms.are_whole(source)?;
     thousands.are_none(source)?;
     Ok(samples)
+}
+
+/// Whether the last number of the rows may go on behind the end of the file: what closes a row, a blank, a quote or a
+/// separator, ends it.
+fn ends_within_a_number(source: &Source<'_>) -> bool {
+    let of_number = |b: &u8| b.is_ascii_digit() || b"+-.eEdD".contains(b);
+    let last = source.all_lines().last().map(|line| line.number);
+    source.bytes.last().is_some_and(of_number) && rows(source).last().map(|row| row.number) == last
 }
 
 /// Refuses a blank line among values that stand one in a row: one may be missing there.

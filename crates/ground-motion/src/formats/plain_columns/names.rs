@@ -426,8 +426,8 @@ fn is_frequency(name: &str) -> bool {
     })
 }
 
-/// Whether the name of a column has a factor or a sign of its values: `1000*a`, `Acc x10^-2`, `a/9.81`,
-/// `-a`. What stands in brackets is a unit.
+/// Whether the name of a column has a factor, a sign or a function of its values: `1000*a`, `10 Acc`, `Acc x10^-2`,
+/// `a/9.81`, `-a`, `log10 acc`, `acc squared`, `Scaled time`. What stands in brackets is a unit.
 pub(super) fn has_factor(cell: &str) -> bool {
     let cell = unquoted(cell);
     let name = cell.split(['(', '[']).next().unwrap_or(cell);
@@ -445,6 +445,15 @@ pub(super) fn has_factor(cell: &str) -> bool {
         let behind = &name[at + ten.len()..];
         behind.starts_with(['^', '*']) || behind.starts_with(is_superscript)
     });
+    // Numbers of instruments stand beside no times.
+    let words: Vec<&str> = name
+        .split([' ', '_', '*', '/', '\u{b7}', '\u{d7}'])
+        .filter(|word| !word.is_empty())
+        .collect();
+    let is_of_times = words
+        .iter()
+        .any(|word| word.len() > 1 && TIME.contains(word));
+    let scales = |number: f64| scales(number) || is_of_times;
     let times = name.char_indices().any(|(at, sign)| {
         let before = name[..at].chars().next_back();
         let behind = name[at + sign.len_utf8()..].trim_start();
@@ -466,7 +475,43 @@ pub(super) fn has_factor(cell: &str) -> bool {
             _ => false,
         }
     });
-    signed || powers || times
+    signed || powers || times || is_multiple(&name) || is_function(&words, is_of_times)
+}
+
+/// Whether a name in lower case is that of accelerations or times behind a number that is none of an instrument:
+/// `10 acc`. `010 acc` has an azimuth.
+fn is_multiple(name: &str) -> bool {
+    let Some((number, rest)) = name.split_once(' ') else {
+        return false;
+    };
+    let known = plain(rest);
+    let is_azimuth = number.starts_with('0') && !number.contains('.');
+    let is_factor = leading_number(number).is_some_and(scales) && number.parse::<f64>().is_ok();
+    let is_named = ACCELERATION.contains(&known.as_str()) || TIME.contains(&known.as_str());
+    is_factor && is_named && !is_azimuth
+}
+
+/// Whether the words of a name in lower case are those of a function of accelerations or times, or of times of
+/// another scale.
+fn is_function(words: &[&str], is_of_times: bool) -> bool {
+    let named = |words: &[&str]| {
+        let known = words.join(" ");
+        ACCELERATION.contains(&known.as_str()) || TIME.contains(&known.as_str())
+    };
+    let [first, rest @ ..] = words else {
+        return false;
+    };
+    let scaled = ["scaled", "normalised", "normalized", "compressed"];
+    let is_scaled = is_of_times && words.iter().any(|word| scaled.contains(word));
+    let logarithm = ["log", "log10", "ln", "lg", "square", "sqrt"].contains(first) && named(rest);
+    let power = match words {
+        [name @ .., "squared" | "cubed"] => named(name),
+        [name] => ["^2", "^3", "\u{b2}", "\u{b3}"]
+            .iter()
+            .any(|power| name.strip_suffix(power).is_some_and(|name| named(&[name]))),
+        _ => false,
+    };
+    is_scaled || logarithm || power
 }
 
 /// Whether a number is a factor between units rather than that of an instrument: a power of ten, one with

@@ -91,12 +91,14 @@ pub(super) struct Stated {
 }
 
 impl Stated {
+    /// What the lines state, but for the unit in those of which `without_unit` says so.
+    ///
     /// # Errors
     /// Two units, one of another quantity, one that is not known, or another than the user gives.
     pub(super) fn before<'a>(
         source: &Source<'a>,
         lines: impl Iterator<Item = Line<'a>>,
-        header: Option<usize>,
+        without_unit: impl Fn(usize) -> bool,
     ) -> Result<Self, GroundMotionError> {
         let mut stated = Self::default();
         for line in lines {
@@ -107,7 +109,7 @@ impl Stated {
             if is_history(&lower) {
                 continue;
             }
-            if header != Some(line.number) {
+            if !without_unit(line.number) {
                 stated.unit(source, line, &lower)?;
             }
             seconds(source, line, &lower)?;

@@ -32,8 +32,8 @@ mod excitation;
 mod number_file;
 
 pub use assemble::{
-    Assembly, assemble, assemble_sharing, assemble_with_record, assemble_without_gaps,
-    methods_that_take, nothing_to_move_across, regap,
+    Assembly, assemble, assemble_sharing, assemble_under_another_record, assemble_with_record,
+    assemble_without_gaps, methods_that_take, nothing_to_move_across, regap,
 };
 pub use dimension::{parameter_dimension, unknown_parameter};
 pub use error::AssemblyError;

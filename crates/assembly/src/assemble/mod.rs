@@ -95,12 +95,25 @@ pub fn assemble(case: &Case) -> Result<Assembly, AssemblyError> {
     assemble_sharing(case, &RecordFiles::default())
 }
 
+/// As [`assemble`], for a case whose record along the row is another one than its author gave: that across it belongs to none
+/// of them, and is not held against it.
+///
+/// # Errors
+/// As [`assemble`].
+pub fn assemble_under_another_record(case: &Case) -> Result<Assembly, AssemblyError> {
+    of_record(case, &RecordFiles::default(), Whose::Another)
+}
+
 /// As [`assemble`], for one of many cases: the file of the record is read only if no case before
 /// has read it.
 ///
 /// # Errors
 /// As [`assemble`].
 pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, AssemblyError> {
+    of_record(case, files, Whose::OfCase)
+}
+
+fn of_record(case: &Case, files: &RecordFiles, whose: Whose) -> Result<Assembly, AssemblyError> {
     let _span = tracing::info_span!("assemble").entered();
     let parts = Parts::of(case)?;
     let accelerogram = accelerogram(case, files)?;
@@ -109,7 +122,7 @@ pub fn assemble_sharing(case: &Case, files: &RecordFiles) -> Result<Assembly, As
         models,
         options,
     } = parts;
-    let (system, out_of_step) = on_their_ground(case, buildings, (&accelerogram, Whose::OfCase))?;
+    let (system, out_of_step) = on_their_ground(case, buildings, (&accelerogram, whose))?;
     let system = with_gaps(case, &models, system)?;
     options.check(&system)?;
     Ok(Assembly {

@@ -48,16 +48,16 @@ pub fn report(
             beside
         }
     };
-    // Before anything else is said of the output: it may be a file that the study reads.
-    if let Some(study) = asked.study.and_then(|study| Study::read(study).ok()) {
-        reads_too(&mut files, study.files())?;
+    if let Some(study) = asked.study {
+        read_regular_text(study, "study").map_err(|e| Failure::case(e, ""))?;
+        // Before anything else is said of the output: it may be a file that the study reads.
+        if let Ok(study) = Study::read(study) {
+            reads_too(&mut files, study.files())?;
+        }
     }
     match child {
         true => is_judged(&output),
         false => page_is_spared(&output, asked.output.is_some())?,
-    }
-    if let Some(study) = asked.study {
-        read_regular_text(study, "study").map_err(|e| Failure::case(e, ""))?;
     }
     if Answered::may_be(path) {
         return of_answer(asked, &output);

@@ -5,7 +5,7 @@ use std::io::Read;
 use std::mem::discriminant;
 use std::path::{Path, PathBuf};
 
-use pounding_assembly::{Assembly, AssemblyError, assemble};
+use pounding_assembly::{Assembly, AssemblyError, assemble, assemble_under_another_record};
 use pounding_case::{Case, GroundMotion, Located};
 use pounding_catalogue::wording::one_line;
 use pounding_ground_motion::{Accelerogram, Offset};
@@ -143,7 +143,7 @@ pub(crate) fn across_of_another(
 pub fn under_records(case: &Case, records: &[PathBuf]) -> Result<Vec<CaseUnderRecord>, CheckError> {
     if records.is_empty() {
         let file = case.resolve(&case.ground_motion.file.value);
-        let assembly = assembled(case, &file)?;
+        let assembly = assembled(case, &file, assemble)?;
         return Ok(vec![CaseUnderRecord {
             name: name_of(&file),
             file,
@@ -152,11 +152,15 @@ pub fn under_records(case: &Case, records: &[PathBuf]) -> Result<Vec<CaseUnderRe
     }
     let files = record_files(records)?.files;
     let names = distinct_names(&files);
+    let own = case.resolve(&case.ground_motion.file.value);
     let cases = files.into_iter().zip(names).map(|(file, name)| {
         let mut other = case.clone();
         other.ground_motion = motion(case, &file);
         other.analysis.duration = None;
-        let assembly = assembled(&other, &file)?;
+        let assembly = match file == own {
+            true => assembled(&other, &file, assemble),
+            false => assembled(&other, &file, assemble_under_another_record),
+        }?;
         Ok(CaseUnderRecord {
             name,
             file,
@@ -354,7 +358,11 @@ fn motion(case: &Case, file: &Path) -> GroundMotion {
     }
 }
 
-fn assembled(case: &Case, file: &Path) -> Result<Assembly, CheckError> {
+fn assembled(
+    case: &Case,
+    file: &Path,
+    assemble: fn(&Case) -> Result<Assembly, AssemblyError>,
+) -> Result<Assembly, CheckError> {
     assemble(case).map_err(|e| match e {
         AssemblyError::Case(error) => CheckError::Case(error),
         source => CheckError::Record {

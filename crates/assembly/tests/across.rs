@@ -57,15 +57,18 @@ const NORTH: &str = "file = \"two.csv\"\ncomponent = \"NS\"\n";
 
 #[test]
 fn a_record_that_is_no_other_component_is_refused() {
+    // The one record that there is may stand for both directions.
+    for across in [
+        "{ file = \"two.csv\", component = \"NS\" }",
+        "{ file = \"copy.csv\", component = \"NS\", scale = 2 }",
+    ] {
+        let told = assembled(&format!("{NORTH}across = {across}")).unwrap();
+        assert!(
+            told.len() == 1 && told[0].contains("one series of one file"),
+            "{told:?}"
+        );
+    }
     for (motion, message) in [
-        (
-            format!("{NORTH}across = {{ file = \"two.csv\", component = \"NS\" }}"),
-            "one series of one file",
-        ),
-        (
-            format!("{NORTH}across = {{ file = \"copy.csv\", component = \"NS\", scale = 2 }}"),
-            "one series of one file",
-        ),
         (
             format!("{NORTH}across = {{ file = \"two.csv\", component = \"UP\" }}"),
             "\"UP\" (vertical)",

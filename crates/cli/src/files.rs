@@ -495,10 +495,10 @@ impl Replaced<'_> {
                 refused(&format!("that of {here} does not take its place unasked"))
             }
             _ if goes_on => Ok(None),
-            None if found.file.is_empty() && found.study.is_none() && !self.named => refused(
+            None if !found.is_labelled && !self.named => refused(
                 "another program has opened it for writing since, or it is of an early version, so that it does not say of which file it is, and nothing takes its place unasked",
             ),
-            None if found.file.is_empty() && found.study.is_none() => Ok(Some(format!(
+            None if !found.is_labelled => Ok(Some(format!(
                 "{output} is replaced, the result of {kind} that does not say of which file it is"
             ))),
             Some(_) if other_text => Ok(Some(format!(
@@ -513,6 +513,11 @@ impl Replaced<'_> {
             None if other_text => Ok(Some(format!(
                 "{output} is replaced, the result of another version of this study"
             ))),
+            None if found.file.is_empty() && self.kind == Kind::Run && !self.named => {
+                Ok(Some(format!(
+                    "{output} is replaced, the result of a run that does not say of which case file it is"
+                )))
+            }
             None => Ok(None),
         }
     }

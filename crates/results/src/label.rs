@@ -43,6 +43,8 @@ pub struct Label {
     pub file: String,
     /// Of which study.
     pub study: Option<OfStudy>,
+    /// Whether it has a label: another program that opens a file for writing takes it away, and early versions wrote none.
+    pub is_labelled: bool,
 }
 
 /// Which runs of which study a result says that it holds.
@@ -106,6 +108,7 @@ impl Label {
             kind,
             file: label["file"].as_str()?.to_owned(),
             study: study(),
+            is_labelled: true,
         })
     }
 }
@@ -136,6 +139,7 @@ fn unlabelled(path: &Path) -> Option<Label> {
         kind,
         file: String::new(),
         study: None,
+        is_labelled: false,
     })
 }
 

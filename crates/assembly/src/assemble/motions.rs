@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pounding_case::{Case, Located};
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::processing::{
-    ProcessingStep, across_one_another, start_together, starts_apart,
+    ProcessingStep, across_one_another, is_one_series, start_together, starts_apart,
 };
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
@@ -328,6 +328,12 @@ fn out_of_step(
     if let (Some(across), Some(record)) = (&case.ground_motion.across, &further.across) {
         let pair = [own, (&*across.value, record)];
         told.extend(begins_apart("that across the row", (pair, whose), 0.0));
+        if whose == Whose::OfCase && is_one_series(along, record) {
+            told.push(
+                "the record along the row and that across it are one series of one file: the ground moves along one line between both directions; the other horizontal component of the record is chosen by `component` if it is in the same file"
+                    .to_owned(),
+            );
+        }
     }
     let zeros = zeros_before(&case.ground_motion);
     if zeros > SAME_TIME && case.buildings.iter().any(|b| !b.forces.is_empty()) {

@@ -183,8 +183,8 @@ fn starts_together(first: &Accelerogram, second: &Accelerogram) -> Result<(), Gr
 }
 
 /// Refuses a record across a row of buildings that cannot be the other component of that along it: a vertical one, and of the
-/// same file the same component or one that is not at right angles. Whether both [start together](start_together) is asked by
-/// itself.
+/// same file one that is not at right angles; the same series as that along it is [known by itself](is_one_series). Whether both
+/// [start together](start_together) is asked by itself too.
 ///
 /// # Errors
 /// One of these.
@@ -192,30 +192,28 @@ pub fn across_one_another(
     along: &Accelerogram,
     across: &Accelerogram,
 ) -> Result<(), GroundMotionError> {
-    let of = |of: &Accelerogram| {
-        let origin = of.origin()?;
-        Some((origin.sha256.clone(), origin.component.clone()))
-    };
-    let both = of(along).zip(of(across));
-    let of_one_file = both.as_ref().is_some_and(|(a, b)| a.0 == b.0);
-    let is_one = |name: &str| GroundMotionError::NotPossible {
-        step: ACROSS,
-        reason: format!(
-            "the component \"{name}\" along the row and that across it are one series of one file"
-        ),
-        remedy: "give the other horizontal component of the record, by `component` if it is in the same file",
-    };
-    if let Some((a, b)) = both.filter(|_| of_one_file) {
-        let same = a.1 == b.1 && (!a.1.is_empty() || along.samples() == across.samples());
-        if same && !is_turned(along) && !is_turned(across) {
-            return Err(is_one(&a.1));
-        }
-    }
     let is_vertical = |of| matches!(direction(of), Some(Direction::Up | Direction::Down));
+    let of_one_file = of_one_file(along, across) && !is_one_series(along, across);
     if of_one_file || is_vertical(along) || is_vertical(across) {
         at_right_angles(along, across).map_err(of_across)?;
     }
     Ok(())
+}
+
+/// Whether two records are the same component of one file, or of a copy of it, as the one record that there is may stand for
+/// both directions; neither is turned.
+#[must_use]
+pub fn is_one_series(along: &Accelerogram, across: &Accelerogram) -> bool {
+    let component = |of: &Accelerogram| of.origin().map(|origin| origin.component.clone());
+    let [a, b] = [component(along), component(across)].map(Option::unwrap_or_default);
+    let same = a == b && (!a.is_empty() || along.samples() == across.samples());
+    same && of_one_file(along, across) && !is_turned(along) && !is_turned(across)
+}
+
+fn of_one_file(along: &Accelerogram, across: &Accelerogram) -> bool {
+    let bytes = |of: &Accelerogram| of.origin().map(|origin| origin.sha256.clone());
+    let both = bytes(along).zip(bytes(across));
+    both.is_some_and(|(a, b)| a == b)
 }
 
 /// Refuses a record across a row of buildings that starts at another time than that along it.

@@ -51,9 +51,9 @@ def _record(record: Any) -> Any:
     raise refused(what, "give a Motion, or the path of a file or folder", CaseTypeError)
 
 
-def _names(names: Iterable[str] | str | None, what: str) -> list[str]:
-    """Names, also a single one; none at all stand for all."""
-    if names is None:
+def _names(names: Iterable[str] | str, what: str) -> list[str]:
+    """Names, also a single one. Left out, they are all; a list that is empty, as what a filter leaves, is not."""
+    if isinstance(names, tuple) and not names:
         return []
     each = [names] if isinstance(names, str) else listed(names, what, "names")
     if len(each) == 0:
@@ -325,7 +325,7 @@ def gap_check(
     country: str | None = None,
     date: str | datetime.date | None = None,
     rules: Path | None = None,
-    provisions: Iterable[str] | str | None = None,
+    provisions: Iterable[str] | str = (),
     set: Mapping[str, Any] | None = None,
     probability: float | str = 0.0,
     confidence: float | str = 0.9,
@@ -437,7 +437,7 @@ class Comparison(_Answered):
 
 def compare(
     case: Case | Path,
-    models: Iterable[str] | str | None = None,
+    models: Iterable[str] | str = (),
     records: Records = None,
     *,
     restitution: float | str | None = None,

@@ -11,7 +11,7 @@ fn drop(
     model: &str,
     parameters: &[(&str, f64)],
     (mass, velocity): (f64, f64),
-    read_at: f64,
+    read_at: impl Into<Option<f64>>,
 ) -> CollisionOutcome {
     let model = registry::build(model, &ModelParameters::from_pairs(parameters)).unwrap();
     let bodies = Bodies {
@@ -22,7 +22,7 @@ fn drop(
     };
     let options = CollisionOptions {
         pressing_acceleration: GRAVITY,
-        read_at: Some(read_at),
+        read_at: read_at.into(),
     };
     collide_with(model.as_ref(), &bodies, &options).unwrap()
 }
@@ -77,21 +77,8 @@ fn slow_drops_end_after_one_period() {
                 continue;
             }
             let contact = (2.0 * std::f64::consts::PI - 2.0 * part.atan()) / natural;
-            let model = registry::build(
-                "linear_elastic",
-                &ModelParameters::from_pairs(&[("stiffness", stiffness)]),
-            );
-            let bodies = Bodies {
-                mass_left: mass,
-                mass_right: None,
-                velocity_left: velocity,
-                velocity_right: 0.0,
-            };
-            let options = CollisionOptions {
-                pressing_acceleration: GRAVITY,
-                read_at: None,
-            };
-            let out = collide_with(model.unwrap().as_ref(), &bodies, &options).unwrap();
+            let parameters = [("stiffness", stiffness)];
+            let out = drop("linear_elastic", &parameters, (mass, velocity), None);
             let error = out.duration / contact - 1.0;
             assert!(
                 error.abs() < 1e-6,

@@ -35,15 +35,16 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
     }
     have_a_place([arguments.running.report.as_deref()])?;
     let report = run(&study, &options, into)?;
-    let result = page::read_sweep(&options.output)?;
-    if let Some(path) = &arguments.running.report {
-        page::write_sweep(&result, &options.output, path)?;
-    }
-    // What a shard comes to is nobody's question.
-    let answer = match shard {
-        Some(_) => None,
-        None => Some(page::answer_of_sweep(&result)?),
+    // What a shard comes to is nobody's question, and its result is read for a page alone.
+    let result = match (shard, &arguments.running.report) {
+        (Some(_), None) => None,
+        _ => Some(page::read_sweep(&options.output)?),
     };
+    if let (Some(result), Some(path)) = (&result, &arguments.running.report) {
+        page::write_sweep(result, &options.output, path)?;
+    }
+    let whole = result.as_ref().filter(|_| shard.is_none());
+    let answer = whole.map(page::answer_of_sweep).transpose()?;
     if arguments.json {
         let finished = Finished::of(&report, &options);
         print(&pretty(&finished.with_answer(answer))?)?;

@@ -291,15 +291,20 @@ pub fn say_what_goes(output: &Path, new: &Answered) -> Result<(), Failure> {
     no_run_stands(output)?;
     is_judged(output);
     let file = |answered: &Answered| answered.inputs.origin.get(1).cloned();
-    let name = output.display();
     match answer_in(output) {
         Some(found) if found.command == new.command && file(&found) == file(new) => {}
-        Some(found) => note(&format!(
-            "{name}, the answer of `pounding {}` ({}), is replaced",
-            found.command.name(),
-            file(&found).unwrap_or_default()
-        )),
-        None if holds_something(output) => note(&replaced(output, "answer")),
+        Some(found) => note(
+            &Going::of(
+                output,
+                format!(
+                    "the answer of `pounding {}` ({})",
+                    found.command.name(),
+                    file(&found).unwrap_or_default()
+                ),
+            )
+            .ahead(),
+        ),
+        None if holds_something(output) => note(&Going::foreign(output, "answer").ahead()),
         None => {}
     }
     Ok(())
@@ -333,9 +338,9 @@ fn holds_something(path: &Path) -> bool {
 
 /// Refuses to replace a file of somebody else under a name that the user has not given; what there
 /// is to say where the user has.
-fn foreign(path: &Path, named: bool, what: &str) -> Result<Option<String>, Failure> {
+fn foreign(path: &Path, named: bool, what: &str) -> Result<Option<Going>, Failure> {
     match named {
-        true => Ok(Some(replaced(path, what))),
+        true => Ok(Some(Going::foreign(path, what))),
         false => Err(Failure::unwritten(
             format!(
                 "{} is no {what} of this program: nothing takes its place unasked",
@@ -346,11 +351,35 @@ fn foreign(path: &Path, named: bool, what: &str) -> Result<Option<String>, Failu
     }
 }
 
-fn replaced(path: &Path, what: &str) -> String {
-    format!(
-        "{} is replaced, which was no {what} of this program",
-        path.display()
-    )
+/// What another file takes the place of.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Going {
+    output: String,
+    what: String,
+}
+
+impl Going {
+    fn of(output: &Path, what: String) -> Self {
+        Self {
+            output: output.display().to_string(),
+            what,
+        }
+    }
+
+    fn foreign(output: &Path, what: &str) -> Self {
+        Self::of(output, format!("which is no {what} of this program"))
+    }
+
+    /// Said before the work, which may still be refused or end without a result.
+    pub fn ahead(&self) -> String {
+        format!("{} will be replaced, {}", self.output, self.what)
+    }
+
+    /// Said when the new file stands there.
+    #[must_use]
+    pub fn done(&self) -> String {
+        format!("{} was replaced, {}", self.output, self.what)
+    }
 }
 
 /// What stands where a page is to be written: one of ours is replaced, any other file only under a
@@ -366,7 +395,7 @@ pub fn page_is_spared(path: &Path, named: bool) -> Result<(), Failure> {
         false => Ok(None),
     };
     let before = judged(path)?;
-    before.iter().for_each(|said| note(said));
+    before.iter().for_each(|going| note(&going.ahead()));
     let output = path.to_owned();
     asked_again(path, move || as_before(&output, &before, judged(&output))).to_the_end();
     Ok(())
@@ -376,11 +405,11 @@ pub fn page_is_spared(path: &Path, named: bool) -> Result<(), Failure> {
 /// about what came there since.
 fn as_before(
     output: &Path,
-    before: &Option<String>,
-    now: Result<Option<String>, Failure>,
+    before: &Option<Going>,
+    now: Result<Option<Going>, Failure>,
 ) -> Result<(), Failure> {
     match now? {
-        Some(said) if before.as_ref() != Some(&said) => Err(Failure::unwritten(
+        Some(going) if before.as_ref() != Some(&going) => Err(Failure::unwritten(
             format!("another file has come to {} since", output.display()),
             None,
         )),
@@ -428,8 +457,8 @@ impl Replaced<'_> {
     /// With the file and what to do.
     pub fn spared(&self, goes_on: bool) -> Result<(), Failure> {
         is_judged(self.output);
-        if let Some(said) = self.judged(goes_on)? {
-            note(&said);
+        if let Some(going) = self.judged(goes_on)? {
+            note(&going.ahead());
         }
         self.judged_again().to_the_end();
         Ok(())
@@ -456,7 +485,7 @@ impl Replaced<'_> {
     ///
     /// # Errors
     /// As [`spared`](Self::spared).
-    pub fn judged(&self, goes_on: bool) -> Result<Option<String>, Failure> {
+    pub fn judged(&self, goes_on: bool) -> Result<Option<Going>, Failure> {
         nothing_written_by_hand_stands(self.output)?;
         // Looked at before the label: a result that comes meanwhile is none of somebody else.
         let stood = holds_something(self.output);
@@ -475,6 +504,7 @@ impl Replaced<'_> {
             "" => String::new(),
             file => format!(" ({file})"),
         };
+        let going = |what: String| Ok(Some(Going::of(self.output, what)));
         let refused = |why: &str| {
             Err(Failure::unwritten(
                 format!("{output} is the result of {kind}{of}: {why}"),
@@ -498,25 +528,17 @@ impl Replaced<'_> {
             None if !found.is_labelled && !self.named => refused(
                 "another program has opened it for writing since, or it is of an early version, so that it does not say of which file it is, and nothing takes its place unasked",
             ),
-            None if !found.is_labelled => Ok(Some(format!(
-                "{output} is replaced, the result of {kind} that does not say of which file it is"
-            ))),
-            Some(_) if other_text => Ok(Some(format!(
-                "{output} is replaced, the result of another study{of}"
-            ))),
-            Some(_) => Ok(Some(format!(
-                "{output}, the result of {kind}{of}, is replaced"
-            ))),
-            None if other_text && (self.named || found.file.is_empty()) => Ok(Some(format!(
-                "{output} is replaced, the result of another study, or of another version of this one"
-            ))),
-            None if other_text => Ok(Some(format!(
-                "{output} is replaced, the result of another version of this study"
-            ))),
+            None if !found.is_labelled => going(format!(
+                "the result of {kind} that does not say of which file it is"
+            )),
+            Some(_) if other_text => going(format!("the result of another study{of}")),
+            Some(_) => going(format!("the result of {kind}{of}")),
+            None if other_text && (self.named || found.file.is_empty()) => going(
+                "the result of another study, or of another version of this one".to_owned(),
+            ),
+            None if other_text => going("the result of another version of this study".to_owned()),
             None if found.file.is_empty() && self.kind == Kind::Run && !self.named => {
-                Ok(Some(format!(
-                    "{output} is replaced, the result of a run that does not say of which case file it is"
-                )))
+                going("the result of a run that does not say of which case file it is".to_owned())
             }
             None => Ok(None),
         }

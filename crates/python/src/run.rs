@@ -343,12 +343,12 @@ impl Run {
             text_sha256: None,
             named: true,
         };
-        let note = replaced.judged(false).map_err(Problem::from)?;
+        let going = replaced.judged(false).map_err(Problem::from)?;
         let (head, history) = (self.head(), self.history()?);
         let target = (path.as_path(), self.case.own_file());
         py.detach(|| self.with_ending(|ending| write_run(target, &head, history, ending)))
             .map_err(|e| Problem::from(Failure::from(e)))?;
-        note.map_or(Ok(()), |note| warn(py, &note))
+        going.map_or(Ok(()), |going| warn(py, &going.done()))
     }
 
     /// The bytes of the result file, without its checksum.

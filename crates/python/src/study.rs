@@ -78,7 +78,7 @@ fn run_study(
             text_sha256: Some(text_sha256(&read)),
             named,
         };
-        let note = replaced.judged(resume)?;
+        let note = replaced.judged(resume)?.map(|going| going.done());
         let _judged_again = replaced.judged_again();
         if resume && output.is_file() {
             let mut arguments = call(&study, &output, evaluated && read.ida.is_some());

@@ -125,7 +125,7 @@ def test_a_result_takes_the_place_of_none_of_another_kind(folder: Path) -> None:
     # One of its own kind does, with a word where it is of another study.
     other = study.with_name("other.toml")
     other.write_text(study.read_text() + "# another\n")
-    with pytest.warns(UserWarning, match="is replaced, the result of another study"):
+    with pytest.warns(UserWarning, match="was replaced, the result of another study"):
         pounding.sweep(other, output=of_study).close()
 
 

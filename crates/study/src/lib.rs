@@ -89,7 +89,7 @@ pub use study_file::{
 };
 #[cfg(feature = "results")]
 pub use sweep::{
-    Progress, Shard, SweepOptions, SweepReport, default_result, parts_folder, study_name, sweep,
+    Progress, Shard, SweepOptions, SweepReport, default_result, default_result_of, parts_folder, study_name, sweep,
     writable,
 };
 #[cfg(feature = "results")]

@@ -599,7 +599,13 @@ pub fn study_name(study: &Path) -> OsString {
 /// folder's name: that of the study is told apart.
 #[must_use]
 pub fn default_result(study: &Path) -> PathBuf {
-    let mut name = study_name(study);
+    default_result_of(study_name(study), study)
+}
+
+/// The same for a study whose name is known, though its file may be elsewhere: only what the file is
+/// called counts.
+#[must_use]
+pub fn default_result_of(mut name: OsString, study: &Path) -> PathBuf {
     if study.file_stem().unwrap_or_default() == GENERIC {
         name.push(".");
         name.push(GENERIC);

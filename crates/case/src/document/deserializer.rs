@@ -93,6 +93,9 @@ const GROUND_MOTION: (&str, &str) = (
     "add [ground_motion] with `file = \"...\"`, a record; where initial displacements, velocities or forces move the buildings without an earthquake, a record of zeros: a file with the lines `time (s),acceleration (m/s2)`, `0,0` and `0.1,0`, and a `duration` in [analysis]",
 );
 
+/// Keys that are lists of tables, one after another.
+const TABLES: [&str; 2] = ["rule", "variable"];
+
 /// What counts expect.
 const WHOLE: &str = "a whole number";
 
@@ -807,6 +810,7 @@ impl<'r> Keys<'r> {
         let message = format!("{} has no `{key}`", self.name);
         let help = match self.kinds {
             "" if key == GROUND_MOTION.0 => GROUND_MOTION.1.to_owned(),
+            "" if TABLES.contains(&key) => format!("add a [[{key}]]"),
             "" => format!("add `{key} = ...`"),
             kinds => format!("add `{key} = ...`; known are {kinds}"),
         };

@@ -11,7 +11,7 @@ use pounding_files::checksum::{ChecksumError, WithoutChecksum};
 use pounding_files::{free_name, same_file};
 use pounding_results::study::{Part, ResultReader, StudyFileError};
 use pounding_results::{Label, OpenError};
-use pounding_study::{ShardName, default_result, ranges};
+use pounding_study::{ShardName, default_result_of, ranges};
 use serde::Serialize;
 
 use crate::arguments::{StatusArguments, value};
@@ -20,7 +20,7 @@ use crate::failure::Failure;
 use crate::heartbeat::{Beat, State, damaged, read, told};
 use crate::interruption::{resumed, shell_line};
 use crate::output::{note, pretty, print, print_as_it_is};
-use crate::plan::path_word;
+use crate::plan::{path_word, program};
 use crate::progress::time;
 
 /// The shortest time between two looks: each reads a file of every shard.
@@ -454,10 +454,9 @@ impl Progress {
         let shard = self.done.first().map(|shard| self.shard(*shard).result());
         let label = shard.and_then(|result| Label::of(&folder.join(result)));
         files.extend(label.map(|label| PathBuf::from(label.file)));
-        match files.iter().any(|file| file.ends_with("study.toml")) {
-            true => default_result(&Path::new(&self.name).join("study.toml")),
-            false => default_result(Path::new(&format!("{}.toml", self.name))),
-        }
+        let generic = files.iter().find(|file| file.ends_with("study.toml"));
+        let own = PathBuf::from(format!("{}.toml", self.name));
+        default_result_of((&self.name).into(), generic.unwrap_or(&own))
     }
 
     /// The command that goes on with a shard in a folder: that of another one, with this number. The
@@ -553,9 +552,14 @@ impl Progress {
         }
         if self.is_done() {
             text.push_str(&format!(
-                "merge them with\n  pounding merge {} -o {}\n",
-                shell_line(&[path_word(folder)]),
-                shell_line(&[path_word(&self.merged(folder))])
+                "merge them with\n  {}\n",
+                shell_line(&[
+                    program(),
+                    "merge".to_owned(),
+                    path_word(folder),
+                    "-o".to_owned(),
+                    path_word(&self.merged(folder))
+                ])
             ));
         }
         text

@@ -306,7 +306,7 @@ pub fn path_word(path: &Path) -> String {
 }
 
 /// The program as it was called: by its name where a shell finds it, else by its path.
-fn program() -> String {
+pub fn program() -> String {
     let called = std::env::args_os().next().unwrap_or_default();
     let path = Path::new(&called);
     if path.components().count() < 2 {

@@ -212,7 +212,7 @@ fn curves_that_cannot_be_fitted_are_refused() {
     let folder = tempfile::tempdir().unwrap();
     let path = file(folder.path(), "a_mm,d_J\n1,1\n2,2\n3,3\n");
     let command = format!("iwan_six_parameter --fit {path}");
-    refused(&command, &["3 rows of numbers for 4 unknowns"]);
+    refused(&command, &["3 rows of numbers above zero for 4 unknowns"]);
     refused(
         &format!("bilinear --fit {path}"),
         &["does not know law bilinear"],
@@ -263,7 +263,7 @@ fn curves_that_cannot_be_fitted_are_refused() {
     let path = file(folder.path(), "d_mm,f_kN\n1,1\n2,2\n");
     refused(
         &format!("iwan_six_parameter --fit {path}"),
-        &["2 rows of numbers for 5 unknowns"],
+        &["2 rows of numbers above zero for 5 unknowns"],
     );
 }
 

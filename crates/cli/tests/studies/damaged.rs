@@ -168,7 +168,7 @@ fn a_file_that_was_opened_for_writing_stays() {
         let output = bench.run(&format!("{command} -o {name}"));
         let said = String::from_utf8(output.stderr).unwrap();
         assert!(
-            output.status.success() && said.contains("is replaced"),
+            output.status.success() && said.contains("will be replaced"),
             "{said}"
         );
     }

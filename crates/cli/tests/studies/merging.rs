@@ -254,7 +254,7 @@ fn a_merge_replaces_no_runs_that_it_does_not_hold() {
     let told = String::from_utf8(output.stderr).unwrap();
     assert!(output.status.success());
     assert_eq!(
-        told.matches("other.h5 is replaced, the result of another study")
+        told.matches("other.h5 will be replaced, the result of another study")
             .count(),
         1,
         "{told}"

@@ -93,6 +93,8 @@ fn an_intensity_stands_once() {
         said.contains("the intensity 0.980665 m s-2 stands twice"),
         "{said}"
     );
+    // At the variable, and not at `[ida]`.
+    assert!(said.contains("study.toml:4:1"), "{said}");
 }
 
 /// A sampled design has as many intensities as runs, each of which would stand for the first.

@@ -298,7 +298,7 @@ fn results_of_runs_and_of_studies_stay_apart() {
         let told = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(0), "{told}");
         assert!(
-            told.contains("note: named.h5") && told.contains("is replaced"),
+            told.contains("note: named.h5") && told.contains("will be replaced"),
             "{told}"
         );
         std::fs::remove_file(bench.path("named.h5")).unwrap();

@@ -80,8 +80,14 @@ fn what_is_missing_is_named_and_goes_on() {
     }
     let told = bench.text("status all --watch");
     assert!(told.contains("4 of 4 shards done"), "{told}");
-    // The name that one call gives the result of a `study.toml`.
-    assert!(told.contains(".study.h5"), "{told}");
+    // The command of the plan, with the name that one call gives the result of a `study.toml`.
+    let merged = told.split_once("merge them with\n  ").unwrap().1.trim_end();
+    assert!(
+        merged.ends_with(&format!("merge all -o {name}.study.h5")),
+        "{told}"
+    );
+    let plan = bench.text("sweep study.toml --plan --into all");
+    assert!(plan.lines().any(|line| line == merged), "{plan}\n{told}");
     assert_eq!(bench.run("status all --unfinished").stdout, b"\n");
     bench.text("merge all -o merged.h5");
     bench.text("sweep study.toml -o whole.h5");

@@ -299,7 +299,7 @@ impl StudyFile {
                 let both = whole.and_then(|read| {
                     let is_list = matches!(design, Some(Design::List { .. }));
                     let both = ida_variables(reader, span, &read.variables, is_list)?;
-                    each_once(reader, place, design.as_ref()?, &read.variables)?;
+                    each_once(reader, place, design.as_ref()?, (&read.variables, &tables))?;
                     Some(both)
                 });
                 value.read(reader, context, both, measure).map(Some)
@@ -760,26 +760,27 @@ fn intensity_of(variable: &Variable) -> Option<(IntensityMeasure, &Values)> {
 
 /// Whether the runs of a design are those of an incremental dynamic analysis, each record once at
 /// an intensity, and several at each: sampled designs have as many intensities as runs, and take the
-/// values of lists several times.
+/// values of lists several times. With the variables goes where each stands.
 fn each_once(
     reader: &Reader<'_>,
     place: Range<usize>,
     design: &Design,
-    variables: &[Variable],
+    (variables, tables): (&[Variable], &[Range<usize>]),
 ) -> Option<()> {
     let help =
         "remove [design], or use kind = \"grid\", which with `samples` has random numbers, too";
     let sampled = match design {
         Design::Grid { .. } | Design::SampledGrid(_) => {
-            let mut intensities = variables.iter().filter(|v| intensity_of(v).is_some());
-            let twice = intensities.find_map(|v| Some((v.repeated()?, &v.unit)));
-            let Some((repeated, unit)) = twice else {
+            let all = variables.iter().zip(tables);
+            let mut intensities = all.filter(|(v, _)| intensity_of(v).is_some());
+            let twice = intensities.find_map(|(v, at)| Some((v.repeated()?, &v.unit, at)));
+            let Some((repeated, unit, at)) = twice else {
                 return Some(());
             };
             let message = format!(
                 "the intensity {repeated} {unit} stands twice, and the same runs would count as more records"
             );
-            return reader.refuse(place, message, "give each intensity once");
+            return reader.refuse(at.clone(), message, "give each intensity once");
         }
         // Each record once, at an intensity of its own.
         Design::List { .. } => return Some(()),

@@ -170,7 +170,7 @@ fn read(
         return Err(source.error(
             0..0,
             format!(
-                "{} of numbers for {}",
+                "{} of numbers above zero for {}",
                 counted(pairs.len(), "row"),
                 counted(unknowns, "unknown")
             ),

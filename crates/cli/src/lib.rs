@@ -26,6 +26,7 @@ mod separate;
 mod study;
 mod tables;
 mod terminal;
+mod tip;
 mod version;
 
 use std::ffi::OsString;
@@ -67,11 +68,12 @@ pub fn command() -> clap::Command {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let given: Vec<OsString> = arguments.into_iter().collect();
     let command = color::apply(color::among(&given), command());
-    let matches = command.clone().try_get_matches_from(given);
+    let matches = command.clone().try_get_matches_from(&given);
     let read = matches.and_then(|m| Ok((arguments::Arguments::from_arg_matches(&m)?, m)));
     let (arguments, matches) = match read {
         Ok(read) => read,
         Err(error) => {
+            let error = tip::that_works(error, &given);
             let printed = error.print().and_then(|()| std::io::stdout().flush());
             return match (error.use_stderr(), printed) {
                 // Where nobody can read a complaint, the exit code still says it.

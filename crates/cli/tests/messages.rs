@@ -548,6 +548,23 @@ fn units_are_suggested_for_their_key() {
     }
 }
 
+/// The tip on a value that the parser takes for an option does what it says.
+#[test]
+fn values_with_a_dash_are_joined_to_their_option() {
+    let folder = bench();
+    std::fs::write(folder.path().join("case.toml"), CASE).unwrap();
+    let mut gap = pounding(folder.path());
+    let output = gap.args(["gap", "case.toml", "--points", "-2 %"]).output();
+    let said = message(&output.unwrap());
+    let (_, tip) = said.split_once("joined to its option: ").unwrap();
+    assert!(tip.starts_with("'--points=-2 %'"), "{said}");
+    let joined = run(folder.path(), "gap case.toml --points=-2");
+    assert!(!message(&joined).contains("unexpected"), "{joined:?}");
+    // Names of files stand behind two dashes.
+    let output = run(folder.path(), "motion info -1");
+    assert!(message(&output).contains("use '-- -1'"), "{output:?}");
+}
+
 /// An option out of range is shown where it stands, with whatever else is wrong.
 #[test]
 fn options_are_shown_where_they_stand() {

@@ -177,7 +177,7 @@ impl ShearBuilding {
     /// displacements of its floors. Gravity enters as in [`ShearBuilding::under_gravity`].
     ///
     /// # Errors
-    /// As [`ShearBuilding::under_gravity`], a matrix of another size, dashpots as
+    /// As [`ShearBuilding::under_gravity`], a matrix of another size or of storeys of other heights, dashpots as
     /// damping, and a matrix that is not positive definite, with what gravity takes off
     /// it.
     pub fn with_stiffness_matrix(
@@ -190,8 +190,20 @@ impl ShearBuilding {
     ) -> Result<Self, ShearBuildingError> {
         let parts = Parts::new(name, mass, height, damping, gravity)?;
         let asymmetry = stiffness.asymmetry();
-        let elastic = stiffness.into_matrix();
         let n = parts.mass.len();
+        let made_from = stiffness.heights().filter(|heights| heights.len() == n);
+        let mut both = parts.height.iter().zip(made_from.unwrap_or_default());
+        // A unit rounds.
+        let differ = |(own, other): (&f64, &f64)| (own - other).abs() > 1.0e-9 * own;
+        if let Some(storey) = both.position(differ) {
+            return Err(ShearBuildingError::OtherHeight {
+                building: parts.name,
+                storey: storey + 1,
+                height: parts.height[storey],
+                of_matrix: made_from.map_or(0.0, |heights| heights[storey]),
+            });
+        }
+        let elastic = stiffness.into_matrix();
         if elastic.nrows() != n {
             return Err(ShearBuildingError::Length {
                 building: parts.name,

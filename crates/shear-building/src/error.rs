@@ -44,6 +44,20 @@ pub enum ShearBuildingError {
         /// Storeys.
         expected: usize,
     },
+    /// A storey of a wall or a frame whose stiffness is that of another height.
+    #[error(
+        "building {building}, storey {storey}: its height is {height} m, and the stiffness matrix is that of a storey of {of_matrix} m"
+    )]
+    OtherHeight {
+        /// Name of the building.
+        building: String,
+        /// Storey, from 1.
+        storey: usize,
+        /// Height (m).
+        height: f64,
+        /// Height from which the matrix was made (m).
+        of_matrix: f64,
+    },
     /// A value that is not finite, or not positive where it must be.
     #[error("building {building}, storey {storey}: {quantity} = {} must be {required}", short(*value))]
     Value {
@@ -180,6 +194,9 @@ impl ShearBuildingError {
             }
             Self::Length { .. } => {
                 "give one value for each storey, the lowest first; of a matrix one row for each floor"
+            }
+            Self::OtherHeight { .. } => {
+                "give floors and stiffness the same heights; a matrix from other programs is given by its rows"
             }
             Self::Damping { .. } => {
                 "ratios are of critical damping, from 0 to below 1, usual are 0.02 to 0.05; factors and dashpots are zero or more, with one dashpot for each storey"

@@ -13,6 +13,8 @@ use nalgebra::DMatrix;
 pub struct LateralStiffness {
     matrix: DMatrix<f64>,
     asymmetry: f64,
+    /// Heights of the storeys that it was made from, if it was.
+    heights: Option<Vec<f64>>,
 }
 
 /// A matrix that is no stiffness of a building.
@@ -196,7 +198,7 @@ impl LateralStiffness {
             parts.sum::<f64>()
         };
         let matrix = DMatrix::from_fn(n, n, |i, j| flexibility(i.min(j), i.max(j)));
-        Self::inverse_of(matrix, 0.0)
+        Ok(Self::inverse_of(matrix, 0.0)?.of_heights(heights))
     }
 
     /// A frame as a fishbone: one column with the flexural rigidity `EI` (N m2) of all columns
@@ -243,7 +245,14 @@ impl LateralStiffness {
             matrix -= coupling.transpose() * factor.solve(&coupling);
         }
         let mean = DMatrix::from_fn(n, n, |i, j| 0.5 * (matrix[(i, j)] + matrix[(j, i)]));
-        Self::new(mean, 0.0)
+        Ok(Self::new(mean, 0.0)?.of_heights(heights))
+    }
+
+    fn of_heights(self, heights: &[f64]) -> Self {
+        Self {
+            heights: Some(heights.to_vec()),
+            ..self
+        }
     }
 
     fn new(matrix: DMatrix<f64>, asymmetry: f64) -> Result<Self, LateralStiffnessError> {
@@ -252,7 +261,11 @@ impl LateralStiffness {
         if !(smallest > f64::EPSILON * largest) {
             return Err(LateralStiffnessError::NotPositiveDefinite { smallest, largest });
         }
-        Ok(Self { matrix, asymmetry })
+        Ok(Self {
+            matrix,
+            asymmetry,
+            heights: None,
+        })
     }
 
     fn inverse_of(matrix: DMatrix<f64>, asymmetry: f64) -> Result<Self, LateralStiffnessError> {
@@ -284,6 +297,13 @@ impl LateralStiffness {
     #[must_use]
     pub fn asymmetry(&self) -> f64 {
         self.asymmetry
+    }
+
+    /// Heights (m) of the storeys of a wall or a frame, from the bottom; `None` for a matrix that was given
+    /// as such.
+    #[must_use]
+    pub fn heights(&self) -> Option<&[f64]> {
+        self.heights.as_deref()
     }
 
     pub(crate) fn into_matrix(self) -> DMatrix<f64> {

@@ -638,6 +638,26 @@ fn what_a_stiffness_matrix_cannot_have() {
         }
     };
     let wall = || Building::stiffness_matrix("core", matrix());
+    // A wall of 6 m is none of 6.5 m; a unit alone changes nothing.
+    let high = Floor {
+        height: Length::metres(3.5),
+        ..floor
+    };
+    refused(
+        wall().floor(floor).floor(high),
+        [
+            "building core, storey 2: its height is 3.5 m, and the stiffness matrix is that of a storey of 3 m",
+            "the same heights",
+        ],
+    );
+    let odd = LateralStiffness::cantilever(&[3.3; 2], &[6.0e9; 2], None).unwrap();
+    let millimetres = Floor {
+        height: Length::millimetres(3300.0),
+        ..floor
+    };
+    let same = Building::stiffness_matrix("core", odd).floors(2, millimetres);
+    let simulation = Simulation::of([same.undamped()]).ground_motion(el_centro());
+    simulation.run().unwrap();
     refused(
         wall().floor(floor).storey(storey(40.0, 3.0)),
         [

@@ -13,26 +13,40 @@ pub fn parameter_dimension(
     parameter: &ParameterDescriptor,
     exponent: Option<f64>,
 ) -> Dimension {
-    let exponent = |fixed| exponent.or(of.default_of("exponent")).unwrap_or(fixed);
+    let exponent = exponent_of_units(of, parameter, exponent);
     match parameter.unit {
         ParameterUnit::One => Dimension::NUMBER,
         ParameterUnit::Newton => Dimension::FORCE,
         ParameterUnit::NewtonPerMetre => Dimension::STIFFNESS,
         ParameterUnit::NewtonPerMetreToExponent => {
-            Dimension::stiffness_with_exponent(exponent(1.5))
+            Dimension::stiffness_with_exponent(exponent)
         }
         ParameterUnit::NewtonPerMetreToTwoPlusExponent => {
-            Dimension::stiffness_with_exponent(2.0 + exponent(1.0))
+            Dimension::stiffness_with_exponent(2.0 + exponent)
         }
         ParameterUnit::NewtonSecondPerMetre => Dimension::DASHPOT,
         ParameterUnit::NewtonSecondPerMetreToExponent => {
-            Dimension::dashpot_with_exponent(exponent(1.0))
+            Dimension::dashpot_with_exponent(exponent)
         }
         ParameterUnit::SecondPerMetre => Dimension::SLOWNESS,
         ParameterUnit::Metre => Dimension::LENGTH,
         ParameterUnit::MetrePerSecond => Dimension::VELOCITY,
         ParameterUnit::Second => Dimension::TIME,
     }
+}
+
+/// The exponent that a unit may follow from: that given, or the default, or the fixed one, 1.5 of a spring and 1
+/// of others.
+pub(crate) fn exponent_of_units(
+    of: &impl Descriptor,
+    parameter: &ParameterDescriptor,
+    exponent: Option<f64>,
+) -> f64 {
+    let fixed = match parameter.unit {
+        ParameterUnit::NewtonPerMetreToExponent => 1.5,
+        _ => 1.0,
+    };
+    exponent.or(of.default_of("exponent")).unwrap_or(fixed)
 }
 
 /// The error of a parameter that its model or law has not at all; `None` where that is known, or

@@ -30,10 +30,12 @@ mod dimension;
 mod error;
 mod excitation;
 mod number_file;
+mod used_parameters;
 
 pub use assemble::{
     Assembly, assemble, assemble_sharing, assemble_under_another_record, assemble_with_record,
-    assemble_without_gaps, methods_that_take, nothing_to_move_across, regap,
+    assemble_without_gaps, methods_that_take, nothing_to_move_across, parameters_of_gap,
+    parameters_of_link, parameters_of_storeys, regap,
 };
 pub use dimension::{parameter_dimension, unknown_parameter};
 pub use error::AssemblyError;
@@ -41,3 +43,4 @@ pub use excitation::{
     RecordFiles, further_record, process_record, read_record, read_target, scale_record,
     scale_target,
 };
+pub use used_parameters::{UsedParameter, UsedParameters};

@@ -146,7 +146,7 @@ fn dashpots_need_storeys() {
     assert!(
         error
             .message
-            .contains("with a stiffness matrix give ratios")
+            .contains("with a stiffness matrix or a plan give ratios")
     );
     assert_eq!(&text[error.span.clone()], "{ dashpots = 1e5 }");
 }

@@ -172,7 +172,7 @@ const ROWS: &[Row] = &[
         "[\"a\", \"a\"]",
         17,
         11,
-        "two different neighbours",
+        "two different neighbours are needed",
     ),
     (
         "[\"a\", \"b\"]",

@@ -142,7 +142,7 @@ fn unusual_spectra_are_warned_of() {
     assert_eq!(
         eurocode("0.25"),
         [
-            "`ag` of the spectrum of eurocode_8_2004 is 0.25 m/s2 (0.0254929 g), and in codes 0.05 g to 2 g; without a unit it is in m/s2: was \"0.25 g\" meant?"
+            "`ag` of the spectrum of eurocode_8_2004 is 0.25 m/s2 (0.0254929 g), and in codes 0.05 g to 2 g; if it has no unit, which is m/s2, was \"0.25 g\" meant?"
         ]
     );
     assert!(eurocode("250")[0].contains("was \"250 cm/s2\" meant?"));

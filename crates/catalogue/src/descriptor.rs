@@ -203,6 +203,23 @@ impl ParameterUnit {
             Self::Second => "s",
         }
     }
+
+    /// The unit as files and arguments take it, the exponent of the law in figures: `N/m^1.5`; empty of a pure number.
+    #[must_use]
+    pub fn with_exponent(self, exponent: f64) -> String {
+        // Sums of decimal powers carry noise that no reader wants to see.
+        let power = |power: f64| match (power * 1e9).round() / 1e9 {
+            1.0 => String::new(),
+            power => format!("^{power}"),
+        };
+        match self {
+            Self::One => String::new(),
+            Self::NewtonPerMetreToExponent => format!("N/m{}", power(exponent)),
+            Self::NewtonPerMetreToTwoPlusExponent => format!("N/m{}", power(2.0 + exponent)),
+            Self::NewtonSecondPerMetreToExponent => format!("N s{0}/m{0}", power(exponent)),
+            unit => unit.symbol().to_owned(),
+        }
+    }
 }
 
 /// One parameter that a user may give.

@@ -174,3 +174,40 @@ fn a_record_given_twice_is_refused() {
     assert_eq!(output.status.code(), Some(2), "{complaint}");
     assert!(complaint.contains("given twice"), "{complaint}");
 }
+
+/// What each contact and link got, with units: given values apart from defaults.
+#[test]
+fn check_tells_the_parameters_of_gaps_and_links() {
+    let links = [
+        "name = \"bar\"\nmodel = \"gap_hook\"\ntension_gap = \"20 mm\"\ntension_stiffness = \"24 MN/m\"\n",
+        "name = \"damper\"\nmodel = \"viscous_damper\"\ndamping = \"120 kN s^0.4/m^0.4\"\nexponent = 0.4\n",
+    ];
+    let links = links.map(|law| format!("[[link]]\nbetween = [\"b\", \"c\"]\n{law}"));
+    let case = format!("{}{}", tied("20 mm"), links.concat());
+    let (code, told) = answer(&case, "check", &[]);
+    assert_eq!(code, Some(0));
+    let parameter = |place: &Value, name: &str| {
+        let all = place.as_array().unwrap();
+        let found = all.iter().find(|p| p["name"] == name);
+        let found = found.unwrap_or_else(|| panic!("{name}: {place}"));
+        let value = found["value"].as_f64().unwrap();
+        let unit = found["unit"].as_str().unwrap().to_owned();
+        (value, unit, found["is_given"].as_bool().unwrap())
+    };
+    let contact = &told["gaps"][0]["levels"][0]["parameters"];
+    let expected = (2.75e9, "N/m^1.5".to_owned(), true);
+    assert_eq!(parameter(contact, "stiffness"), expected);
+    assert_eq!(
+        parameter(contact, "restitution"),
+        (0.65, String::new(), true)
+    );
+    let [bar, damper] = [1, 2].map(|link| &told["links"][link]["parameters"][0]);
+    assert_eq!(parameter(bar, "tension_gap"), (0.02, "m".to_owned(), true));
+    let compression = parameter(bar, "compression_stiffness");
+    assert_eq!(compression, (0.0, "N/m".to_owned(), false));
+    let damping = (1.2e5, "N s^0.4/m^0.4".to_owned(), true);
+    assert_eq!(parameter(damper, "damping"), damping);
+    // Values with their units are what a case takes.
+    let echoed = case.replace("\"120 kN s^0.4/m^0.4\"", "\"1.2e5 N s^0.4/m^0.4\"");
+    assert_eq!(answer(&echoed, "check", &[]).1["links"], told["links"]);
+}

@@ -314,6 +314,41 @@ fn a_contact_that_is_softer_than_storeys() {
     ] {
         assert_eq!(sound.check, [""; 0]);
     }
+    // On soil the storeys are as stiff as on a fixed base; where one of both has none, nothing is known.
+    let soil = "height = \"3 m\"\n[building.foundation]\nmass = \"150 t\"\nrotational_inertia = \"5400 t m2\"\nsoil = { shear_wave_speed = \"180 m/s\", density = \"1.8 t/m3\", poisson = 0.33, length = \"12 m\", width = \"12 m\" }";
+    let on_soil = |case: &str| {
+        let (first, others) = case.split_once("[[gap]]").unwrap();
+        let (a, b) = first.rsplit_once("[[building]]").unwrap();
+        let a = a
+            .replace("height = \"3 m\"", "height = \"3 m\"\n")
+            .trim_end()
+            .to_owned();
+        let table = soil.trim_start_matches("height = \"3 m\"\n");
+        format!("{a}\n{table}\n[[building]]{b}[[gap]]{others}")
+    };
+    one(
+        &said(&on_soil(&CASE.replace("93.5 MN/m", "93.5 kN/m"))),
+        &[
+            "93.5 kN/m",
+            "0.027 times the 3.46 MN/m",
+            "of storey 1 of \"a\"",
+        ],
+    );
+    let stiff_beside_soft = |a: &str| {
+        CASE.replace("stiffness = \"3.46 MN/m\"", a)
+            .replace("\"30 MN/m\"", "\"2215 MN/m\"")
+            .replace("\"100 t\"", "\"1000 t\"")
+    };
+    for sound in [
+        on_soil(&stiff_beside_soft("stiffness = \"3.46 MN/m\"")),
+        stiff_beside_soft("cantilever = { flexural_rigidity = \"6 GN m2\" }").replacen(
+            "{ stiffness_proportional = 0.05 }",
+            "{ ratio = 0.05, modes = [1, 2] }",
+            1,
+        ),
+    ] {
+        assert_eq!(said(&sound).check, [""; 0], "{sound}");
+    }
     // Walls have no storeys, and hold as well.
     let wall = CASE
         .replace("[\"a\", \"b\"]", "[\"b\", \"wall\"]\nlevels = [1, 2]")

@@ -225,7 +225,8 @@ impl PyCase {
     fn check_json(&self, py: Python<'_>) -> PyResult<String> {
         py.detach(|| {
             let assembly = self.assembly()?;
-            json(&Understood::of(&self.case, &assembly))
+            let understood = Understood::of(&self.case, &assembly);
+            json(&understood.map_err(|e| self.problem(Failure::of_case(e, &self.case)))?)
         })
         .map_err(PyErr::from)
     }

@@ -202,7 +202,7 @@ impl Damping {
                 Ok(DampingMatrix::Dense(matrix.clone()))
             }
             Self::Dashpots { .. } if matches!(stiffness, StiffnessMatrix::Dense(_)) => Err(
-                "dashpots stand in the storeys of a shear building; with a stiffness matrix give ratios"
+                "dashpots stand in the storeys of a shear building; with a stiffness matrix or a plan give ratios"
                     .to_owned(),
             ),
             Self::Dashpots { coefficients } => {

@@ -110,25 +110,30 @@ struct Storey {
 }
 
 impl Storey {
-    /// The softest of the storeys below and above the floors that meet at a level, of the buildings that
-    /// have storey stiffnesses. A slab on isolators has none: before they yield or slide they are as stiff as it
-    /// happens, and moat walls that it meets are softer than floors.
+    /// The softest of the storeys below and above the floors that meet at a level, those of a building on soil being
+    /// its own above it. `None` beside a building without storey stiffnesses: what is softest there is not known. A slab on
+    /// isolators is passed over: before they yield or slide they are as stiff as it happens, and moat walls that it
+    /// meets are softer than floors.
     fn softest_beside(system: &System, level: &ContactLevel) -> Option<Self> {
         let floors = level.between.iter().filter_map(|f| system.storey_of(*f));
-        let storeys = floors.filter_map(|(building, floor)| {
+        let mut softest: Option<Self> = None;
+        for (building, floor) in floors {
             let of = &system.buildings()[building];
             if floor == 0 && of.isolator().is_some() {
-                return None;
+                continue;
             }
-            let own = of.stiffness().iter().enumerate().skip(floor).take(2);
+            let all = of.without_foundation().stiffness();
+            let own = all.iter().enumerate().skip(floor).take(2);
             let (storey, stiffness) = own.min_by(|a, b| a.1.total_cmp(b.1))?;
-            Some(Self {
-                building,
-                storey,
-                stiffness: *stiffness,
-            })
-        });
-        storeys.min_by(|a, b| a.stiffness.total_cmp(&b.stiffness))
+            if softest.as_ref().is_none_or(|s| *stiffness < s.stiffness) {
+                softest = Some(Self {
+                    building,
+                    storey,
+                    stiffness: *stiffness,
+                });
+            }
+        }
+        softest
     }
 
     fn name(&self, system: &System) -> String {

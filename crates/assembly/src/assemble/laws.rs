@@ -15,6 +15,7 @@ use pounding_time_history::{Floor, LinkedPair, System};
 use super::foundation;
 use crate::dimension::parameter_value_as;
 use crate::error::AssemblyError;
+use crate::used_parameters::UsedParameters;
 
 /// Puts the laws of the case into the storeys of a building.
 pub(super) fn with_storey_laws(
@@ -108,17 +109,63 @@ pub(super) fn add_link(case: &Case, link: &Link, system: &mut System) -> Result<
 /// The law of each level of a link.
 fn laws_of_link(case: &Case, link: &Link) -> Result<Vec<StoreyLaw>, CaseError> {
     let descriptor = descriptor(case, &link.model)?;
-    let motion = link.foundations.as_ref().map(|f| f.value);
+    let turned = turns(link);
     (0..link.levels.len())
         .map(|place| {
-            let turned = |dimension: Dimension| match motion {
-                Some(FoundationMotion::Rocking) => dimension.of_rotation(),
-                _ => dimension,
-            };
             let values = parameters(case, descriptor, &link.parameters, place, turned)?;
             built(case, &link.model, descriptor, &values)
         })
         .collect()
+}
+
+/// The parameters of each level of a link, the lowest first.
+///
+/// # Errors
+/// As of a case that cannot be assembled.
+pub fn parameters_of_link(case: &Case, link: &Link) -> Result<Vec<UsedParameters>, CaseError> {
+    let descriptor = descriptor(case, &link.model)?;
+    let turned = turns(link);
+    (0..link.levels.len())
+        .map(|place| {
+            let values = parameters(case, descriptor, &link.parameters, place, turned)?;
+            let rotates = rotates(link);
+            Ok(UsedParameters::of(descriptor, values.values, rotates))
+        })
+        .collect()
+}
+
+/// The parameters of each storey of a building that follows a law, by its number from zero.
+///
+/// # Errors
+/// As of a case that cannot be assembled.
+pub fn parameters_of_storeys(
+    case: &Case,
+    building: &Building,
+) -> Result<Vec<(usize, UsedParameters)>, CaseError> {
+    let mut all = Vec::new();
+    for law in &building.laws {
+        let descriptor = descriptor(case, &law.model)?;
+        for (place, storey) in law.storeys.iter().enumerate() {
+            let values = parameters(case, descriptor, &law.parameters, place, |d| d)?;
+            all.push((*storey, UsedParameters::of(descriptor, values.values, false)));
+        }
+    }
+    all.sort_by_key(|(storey, _)| *storey);
+    Ok(all)
+}
+
+/// Of what dimension a link takes parameters that are those of a force and a displacement.
+fn turns(link: &Link) -> fn(Dimension) -> Dimension {
+    match rotates(link) {
+        true => Dimension::of_rotation,
+        false => |dimension| dimension,
+    }
+}
+
+/// Whether a link joins the rotations of foundations.
+fn rotates(link: &Link) -> bool {
+    let motion = link.foundations.as_ref().map(|f| f.value);
+    motion == Some(FoundationMotion::Rocking)
 }
 
 /// Refuses a link whose laws cannot be.

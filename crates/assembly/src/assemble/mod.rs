@@ -11,6 +11,7 @@ mod method;
 mod motions;
 mod plan;
 
+pub use laws::{parameters_of_link, parameters_of_storeys};
 pub use again::{assemble_with_record, assemble_without_gaps, regap};
 pub use method::methods_that_take;
 pub use motions::nothing_to_move_across;
@@ -31,6 +32,7 @@ use pounding_time_history::{
 use self::column::Hits;
 use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
+use crate::used_parameters::UsedParameters;
 use crate::excitation::{RecordFiles, accelerogram};
 use method::options;
 use motions::{Whose, on_their_ground};
@@ -468,16 +470,36 @@ const WITH_UNIT: &str =
 const OVERTURNED: &str =
     "correct stiffness, masses and heights, with their units; `p_delta = false` leaves gravity out";
 
-/// The impact model of a contact level, from zero.
-fn model(case: &Case, gap: &Gap, level: usize) -> Result<Arc<dyn ImpactModel>, CaseError> {
-    let at_model = |e: GapElementError| case.error(gap.model.span.clone(), e.to_string(), e.help());
-    let descriptor = registry::find(&gap.model.value).map_err(at_model)?;
+/// The parameters of the impact model of a contact level of a gap, from zero.
+///
+/// # Errors
+/// As of a case that cannot be assembled.
+pub fn parameters_of_gap(
+    case: &Case,
+    gap: &Gap,
+    level: usize,
+) -> Result<UsedParameters, CaseError> {
+    let descriptor = registry::find(&gap.model.value).map_err(at_model(case, gap))?;
+    let values = values_of_model(case, gap, descriptor, level)?;
+    Ok(UsedParameters::of(descriptor, values, false))
+}
+
+fn at_model<'c>(case: &'c Case, gap: &'c Gap) -> impl Fn(GapElementError) -> CaseError + use<'c> {
+    move |e| case.error(gap.model.span.clone(), e.to_string(), e.help())
+}
+
+/// The values (SI) that are given for the model of a contact level, from zero.
+fn values_of_model(
+    case: &Case,
+    gap: &Gap,
+    descriptor: &'static ModelDescriptor,
+    level: usize,
+) -> Result<Vec<(String, f64)>, CaseError> {
     let exponent = gap
         .parameters
         .iter()
         .find(|p| p.key.value == "exponent")
         .and_then(|p| Some(p.at(level)?.value.value));
-    let mut parameters = ModelParameters::default();
     let errors = Errors::default();
     let given = gap.parameters.iter();
     let given = given.filter_map(|p| Some((&p.key, p.at(level)?)));
@@ -487,6 +509,16 @@ fn model(case: &Case, gap: &Gap, level: usize) -> Result<Arc<dyn ImpactModel>, C
         })?;
         Ok((given.0.value.clone(), value))
     }));
+    errors.finish(read)
+}
+
+/// The impact model of a contact level, from zero.
+fn model(case: &Case, gap: &Gap, level: usize) -> Result<Arc<dyn ImpactModel>, CaseError> {
+    let at_model = at_model(case, gap);
+    let descriptor = registry::find(&gap.model.value).map_err(&at_model)?;
+    let mut parameters = ModelParameters::default();
+    let errors = Errors::default();
+    let read = values_of_model(case, gap, descriptor, level);
     if let Some(separation) = &gap.separation {
         parameters.separation = errors.keep(separation_rule(case, descriptor, separation));
     }

@@ -3,12 +3,13 @@
 use std::sync::Arc;
 
 use pounding_case::{Case, Located};
+use pounding_catalogue::numbers::six_digits;
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::processing::{
     ProcessingStep, across_one_another, is_one_series, start_together, starts_apart,
 };
 use pounding_shear_building::ShearBuilding;
-use pounding_time_history::{GroundAcceleration, GroundMotion, Support, System};
+use pounding_time_history::{GroundAcceleration, GroundMotion, LONGEST_DELAY, Support, System};
 
 use super::forces::on_floors;
 use super::initial_motion;
@@ -179,6 +180,16 @@ pub(super) fn on_their_ground(
         let mut along = 0;
         if let Some(given) = &building.ground {
             let (delay, own) = (given.value.delay, &given.value.motion);
+            if delay > LONGEST_DELAY {
+                let message = format!(
+                    "the ground under \"{}\" moves {} s later than the record, and at most {LONGEST_DELAY} s are taken",
+                    building.name.value,
+                    six_digits(delay)
+                );
+                let help = "give the delay in s, or distance and wave speed with their units";
+                let error = case.error(given.span.clone(), message, Some(help.to_owned()));
+                return Err(error.into());
+            }
             let same = |m: &GroundMotion| {
                 m.delay == delay && Arc::ptr_eq(&m.acceleration.samples, &first.samples)
             };

@@ -292,7 +292,7 @@ pub(super) fn sides(
 /// order would do.
 pub(crate) fn row_problem(left: Side, right: Side, last: usize) -> Option<(&'static str, bool)> {
     match (left, right) {
-        (Side::Wall, Side::Wall) => Some(("a gap cannot lie between two walls", false)),
+        (Side::Wall, Side::Wall) => Some(("two walls are no neighbours in the row", false)),
         (Side::Wall, Side::Building(i)) if i != 0 => Some((
             "a wall on the left can only stand beside the first building",
             i == last,
@@ -302,7 +302,7 @@ pub(crate) fn row_problem(left: Side, right: Side, last: usize) -> Option<(&'sta
             i == 0,
         )),
         (Side::Building(i), Side::Building(j)) if i == j => {
-            Some(("a gap needs two different neighbours", false))
+            Some(("two different neighbours are needed", false))
         }
         (Side::Building(i), Side::Building(j)) if i == j + 1 => Some((
             "the neighbours are in the wrong order: the left one comes first",

@@ -203,19 +203,19 @@ impl Bounds {
             }),
             Kind::Acceleration if low => self.holds(value * STANDARD_GRAVITY).then(|| {
                 let number = six_digits(value);
-                format!("without a unit it is in m/s2: was \"{number} g\" meant?")
+                format!("if it has no unit, which is m/s2, was \"{number} g\" meant?")
             }),
             Kind::Acceleration => self.holds(value / 100.0).then(|| {
                 let number = six_digits(value);
-                format!("without a unit it is in m/s2: was \"{number} cm/s2\" meant?")
+                format!("if it has no unit, which is m/s2, was \"{number} cm/s2\" meant?")
             }),
             Kind::Time => self.holds(value / 1000.0).then(|| {
                 let number = six_digits(value);
-                format!("without a unit it is in s: was \"{number} ms\" meant?")
+                format!("if it has no unit, which is s, was \"{number} ms\" meant?")
             }),
             Kind::Length => self.holds(value / 1000.0).then(|| {
                 let number = six_digits(value);
-                format!("without a unit it is in m: was \"{number} mm\" meant?")
+                format!("if it has no unit, which is m, was \"{number} mm\" meant?")
             }),
         }
     }

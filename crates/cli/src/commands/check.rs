@@ -2,8 +2,10 @@
 
 use std::path::Path;
 
-use pounding_assembly::Assembly;
-use pounding_case::Case;
+use pounding_assembly::{
+    Assembly, UsedParameters, parameters_of_gap, parameters_of_link, parameters_of_storeys,
+};
+use pounding_case::{Case, CaseError};
 use pounding_catalogue::wording::counted;
 use pounding_shear_building::{OnFoundation, ShearBuilding, SpringDashpot};
 use pounding_time_history::LevelPlace;
@@ -28,11 +30,11 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     if !as_json {
         let text = tables::understood(&case, &assembly);
         drop(progress);
-        return print(&text);
+        return print(&text.map_err(|e| Failure::of_case(e, &case))?);
     }
     let understood = Understood::of(&case, &assembly);
     drop(progress);
-    print(&pretty(&understood)?)
+    print(&pretty(&understood.map_err(|e| Failure::of_case(e, &case))?)?)
 }
 
 /// What `check --json` prints.
@@ -63,6 +65,8 @@ struct Building<'a> {
     period: &'a [f64],
     geometric_stiffness: &'a [f64],
     laws: Vec<Option<&'static str>>,
+    /// Parameters of the laws.
+    law_parameters: Vec<Option<UsedParameters>>,
     #[serde(skip_serializing_if = "Option::is_none")]
     isolator: Option<Isolator>,
     damping_ratio: &'a [f64],
@@ -159,6 +163,7 @@ struct ContactLevel<'a> {
     width: f64,
     effective_mass: f64,
     model: &'static str,
+    parameters: UsedParameters,
     #[serde(flatten)]
     place: &'a LevelPlace,
 }
@@ -170,6 +175,8 @@ struct Link<'a> {
     between: &'a [String; 2],
     levels: Vec<LevelPlace>,
     laws: Vec<&'static str>,
+    /// Parameters of the law of each level.
+    parameters: Vec<UsedParameters>,
 }
 
 /// The record as it is used.
@@ -191,57 +198,76 @@ struct Analysis {
 
 impl<'a> Understood<'a> {
     /// What was understood of a case.
-    #[must_use]
-    pub fn of(case: &Case, assembly: &'a Assembly) -> Self {
+    ///
+    /// # Errors
+    /// As of a case that cannot be assembled.
+    pub fn of(case: &Case, assembly: &'a Assembly) -> Result<Self, CaseError> {
         let system = &assembly.system;
         let of_floors = |b: &'a ShearBuilding| b.foundation().map_or(b, OnFoundation::fixed_base);
-        let buildings = system.buildings().iter().map(|b| Building {
-            name: b.name(),
-            mass: b.mass(),
-            stiffness: of_floors(b).stiffness(),
-            foundation: b.foundation().map(Foundation::of),
-            stiffness_matrix: of_floors(b).elastic_stiffness_matrix(),
-            height: b.height(),
-            elevation: b.elevations(),
-            period: &b.modes().period,
-            geometric_stiffness: b.geometric_stiffness(),
-            laws: b
-                .laws()
-                .iter()
-                .map(|l| l.as_ref().map(|l| l.law.descriptor().name))
-                .collect(),
-            isolator: Isolator::of(b),
-            damping_ratio: &b.modes().damping_ratio,
-            effective_mass: &b.modes().effective_mass,
+        let buildings = system.buildings().iter().zip(&case.buildings);
+        let buildings = buildings.map(|(b, given)| -> Result<_, CaseError> {
+            Ok(Building {
+                name: b.name(),
+                mass: b.mass(),
+                stiffness: of_floors(b).stiffness(),
+                foundation: b.foundation().map(Foundation::of),
+                stiffness_matrix: of_floors(b).elastic_stiffness_matrix(),
+                height: b.height(),
+                elevation: b.elevations(),
+                period: &b.modes().period,
+                geometric_stiffness: b.geometric_stiffness(),
+                laws: b
+                    .laws()
+                    .iter()
+                    .map(|l| l.as_ref().map(|l| l.law.descriptor().name))
+                    .collect(),
+                law_parameters: {
+                    let mut of_storeys = vec![None; b.laws().len()];
+                    for (storey, parameters) in parameters_of_storeys(case, given)? {
+                        of_storeys[storey] = Some(parameters);
+                    }
+                    of_storeys
+                },
+                isolator: Isolator::of(b),
+                damping_ratio: &b.modes().damping_ratio,
+                effective_mass: &b.modes().effective_mass,
+            })
         });
-        let gaps = system.gaps().iter().map(|g| {
-            let levels = system.levels_of(g).iter().map(|l| ContactLevel {
-                width: l.width,
-                effective_mass: l.effective_mass,
-                model: l.model.descriptor().name,
-                place: &l.place,
+        let gaps = system.gaps().iter().zip(&case.gaps);
+        let gaps = gaps.map(|(g, given)| -> Result<_, CaseError> {
+            let levels = system.levels_of(g).iter().enumerate();
+            let levels = levels.map(|(place, l)| -> Result<_, CaseError> {
+                Ok(ContactLevel {
+                    width: l.width,
+                    effective_mass: l.effective_mass,
+                    model: l.model.descriptor().name,
+                    parameters: parameters_of_gap(case, given, place)?,
+                    place: &l.place,
+                })
             });
-            Gap {
+            Ok(Gap {
                 name: &g.name,
                 between: &g.between,
-                levels: levels.collect(),
-            }
+                levels: levels.collect::<Result<_, _>>()?,
+            })
         });
-        let links = system.links().iter().enumerate().map(|(index, l)| {
+        let links = system.links().iter().zip(&case.links).enumerate();
+        let links = links.map(|(index, (l, given))| -> Result<_, CaseError> {
             let elements = &system.elements()[l.first_element..l.first_element + l.levels];
-            Link {
+            Ok(Link {
                 name: &l.name,
                 between: &l.between,
                 levels: system.link_levels(index),
                 laws: elements.iter().map(|e| e.law.descriptor().name).collect(),
-            }
+                parameters: parameters_of_link(case, given)?,
+            })
         });
         let record = &assembly.accelerogram;
         let duration = assembly.options.duration;
-        Self {
-            buildings: buildings.collect(),
-            gaps: gaps.collect(),
-            links: links.collect(),
+        Ok(Self {
+            buildings: buildings.collect::<Result<_, _>>()?,
+            gaps: gaps.collect::<Result<_, _>>()?,
+            links: links.collect::<Result<_, _>>()?,
             ground_motion: Motion {
                 samples: record.samples().len(),
                 time_step: record.time_step(),
@@ -256,6 +282,6 @@ impl<'a> Understood<'a> {
                 output_step: assembly.output_step,
                 duration: duration.unwrap_or(assembly.system.record_duration()),
             },
-        }
+        })
     }
 }

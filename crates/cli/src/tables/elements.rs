@@ -1,7 +1,8 @@
 //! Storeys with laws, and links.
 
+use pounding_assembly::UsedParameters;
 use pounding_case::Case;
-use pounding_catalogue::numbers::{fixed, fixed_or_small, shown_unit};
+use pounding_catalogue::numbers::{fixed, fixed_or_small, shown_unit, significant};
 use pounding_hysteresis::{LawDescriptor, Verification};
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{Element, LinkedMotion, Peak, System};
@@ -129,16 +130,36 @@ fn sources(descriptors: impl Iterator<Item = &'static LawDescriptor>) -> String 
     text
 }
 
-/// What `check` says of the laws of a building, and of gravity.
-pub(super) fn laws(building: &ShearBuilding) -> String {
+/// What `check` says of the parameters of a gap or a link, which has those of its levels: once where
+/// all have the same.
+pub(super) fn parameters(all: &[(String, UsedParameters)]) -> String {
+    let same = all.windows(2).all(|pair| pair[0].1 == pair[1].1);
+    match (same, all.first()) {
+        (_, None) => String::new(),
+        (true, Some((_, parameters))) => match parameters.to_string() {
+            none if none.is_empty() => none,
+            parameters => format!("parameters: {parameters}\n"),
+        },
+        (false, _) => {
+            let line = |(level, parameters)| format!("level {level}: {parameters}\n");
+            all.iter().map(|(level, p)| line((level, p))).collect()
+        }
+    }
+}
+
+/// What `check` says of the laws of a building with their parameters by storey, and of gravity.
+pub(super) fn laws(building: &ShearBuilding, parameters: &[(usize, UsedParameters)]) -> String {
     let mut text = String::new();
     for (i, law) in building.laws().iter().enumerate() {
         let Some(law) = law else { continue };
         let yields = law.yield_drift.map_or_else(String::new, |y| {
             format!(", yields at a drift of {:.3} mm", y * 1e3)
         });
+        let of = parameters.iter().find(|(storey, _)| *storey == i);
+        let of = of.map_or_else(String::new, |(_, parameters)| parameters.to_string());
+        let of = if of.is_empty() { of } else { format!(": {of}") };
         text.push_str(&format!(
-            "storey {}: law {}{yields}\n",
+            "storey {}: law {}{yields}{of}\n",
             i + 1,
             law.law.descriptor().name
         ));
@@ -194,8 +215,8 @@ pub(super) fn in_place_of_exact_steps(case: &Case, system: &System) -> &'static 
     }
 }
 
-/// What `check` says of links.
-pub(super) fn links(system: &System) -> String {
+/// What `check` says of links, with the parameters of their levels.
+pub(super) fn links(system: &System, used: &[Vec<UsedParameters>]) -> String {
     let mut text = String::new();
     for (index, link) in system.links().iter().enumerate() {
         let joins = link.joins;
@@ -214,13 +235,17 @@ pub(super) fn links(system: &System) -> String {
                 place.label(),
                 place.elevations_label(),
                 element.law.descriptor().name.to_owned(),
-                format!("{:.4e}", element.law.initial_stiffness()),
+                significant(element.law.initial_stiffness()),
                 element
                     .yield_deformation
                     .map_or_else(|| "-".to_owned(), |y| format!("{:.3}", y * factor)),
             ]);
         }
         text.push_str(&format!("\nLink {}\n{table}\n", link.name));
+        let labels = system.link_levels(index).into_iter().map(|p| p.label());
+        let of_levels = used.get(index).into_iter().flatten().cloned();
+        let all: Vec<_> = labels.zip(of_levels).collect();
+        text.push_str(&parameters(&all));
         let descriptors = elements(system, index).iter().map(|e| e.law.descriptor());
         text.push_str(&sources(descriptors));
     }

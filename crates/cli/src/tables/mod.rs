@@ -7,8 +7,8 @@ mod isolators;
 mod width;
 
 use comfy_table::{CellAlignment, Row};
-use pounding_assembly::Assembly;
-use pounding_case::Case;
+use pounding_assembly::{Assembly, parameters_of_gap, parameters_of_link, parameters_of_storeys};
+use pounding_case::{Case, CaseError};
 use pounding_catalogue::numbers::{fixed_or_small, shown_unit, six_digits};
 use pounding_catalogue::wording::counted;
 use pounding_gap_element::Verification;
@@ -396,14 +396,17 @@ fn hit_columns(system: &System, levels: &[ContactLevel]) -> String {
 }
 
 /// What `check` prints.
-pub fn understood(case: &Case, assembly: &Assembly) -> String {
+///
+/// # Errors
+/// As of a case that cannot be assembled.
+pub fn understood(case: &Case, assembly: &Assembly) -> Result<String, CaseError> {
     let mut text = format!("{}: the case is sound\n", case.file.display());
     for line in assembly.excitation() {
         text.push_str(&format!("  {line}\n"));
     }
     text.push_str(&warning_lines(&assembly.warnings()));
     text.push_str(&warning_lines(&case.separation.warnings()));
-    for b in assembly.system.buildings() {
+    for (b, given) in assembly.system.buildings().iter().zip(&case.buildings) {
         let on = b.foundation();
         let of_floors = on.map_or(&**b, |on| on.fixed_base());
         let matrix = of_floors.elastic_stiffness_matrix();
@@ -456,11 +459,11 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
         if matrix.is_some() {
             text.push_str("stiffness matrix: every floor acts on every other; K_ii is its diagonal, all of it is in --json\n");
         }
-        text.push_str(&elements::laws(b));
+        text.push_str(&elements::laws(b, &parameters_of_storeys(case, given)?));
         text.push_str(&isolators::understood(b));
         text.push_str(&foundation::understood(b));
     }
-    for gap in assembly.system.gaps() {
+    for (gap, given) in assembly.system.gaps().iter().zip(&case.gaps) {
         let mut table = new_table([
             "level",
             "elevations (m)",
@@ -484,10 +487,18 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
             )
         });
         text.push_str(&format!("\nGap {} ({model})\n{table}\n", gap.name));
+        let of_level = |(place, level): (usize, &ContactLevel)| {
+            Ok((level.place.label(), parameters_of_gap(case, given, place)?))
+        };
+        let of_levels: Result<Vec<_>, CaseError> =
+            levels.iter().enumerate().map(of_level).collect();
+        text.push_str(&elements::parameters(&of_levels?));
         text.push_str(&hit_columns(&assembly.system, levels));
         text.push_str(&secondary_sources(levels));
     }
-    text.push_str(&elements::links(&assembly.system));
+    let of_links = case.links.iter().map(|link| parameters_of_link(case, link));
+    let of_links: Vec<_> = of_links.collect::<Result<_, _>>()?;
+    text.push_str(&elements::links(&assembly.system, &of_links));
     let duration = assembly
         .options
         .duration
@@ -499,5 +510,5 @@ pub fn understood(case: &Case, assembly: &Assembly) -> String {
         six_digits(duration),
         assembly.output_step
     ));
-    text
+    Ok(text)
 }

@@ -106,13 +106,8 @@ pub fn unit_of(
     name: &str,
 ) -> Option<String> {
     let known = |name: &str| descriptor.parameters.iter().find(|p| p.name == name);
-    match known(name)?.unit {
-        ParameterUnit::One => None,
-        ParameterUnit::NewtonPerMetreToExponent => {
-            Some(format!("N/m^{}", exponent_of(descriptor, parameters)))
-        }
-        unit => Some(unit.symbol().to_owned()),
-    }
+    let unit = known(name)?.unit;
+    (unit != ParameterUnit::One).then(|| unit.with_exponent(exponent_of(descriptor, parameters)))
 }
 
 /// Exponent of the spring of a law, with which its force begins: as given, else that of the

@@ -116,21 +116,7 @@ impl Specimen {
         let given = self.parameters.values.get("exponent").copied();
         let default = known("exponent").and_then(|p| p.default);
         let exponent = given.or(default).unwrap_or(1.0);
-        // Sums of decimal powers carry noise that no reader wants to see.
-        let power = |power: f64| match (power * 1e9).round() / 1e9 {
-            1.0 => String::new(),
-            power => format!("^{power}"),
-        };
-        match known(parameter).map(|p| p.unit) {
-            None | Some(ParameterUnit::One) => String::new(),
-            Some(ParameterUnit::NewtonPerMetreToTwoPlusExponent) => {
-                format!("N/m{}", power(2.0 + exponent))
-            }
-            Some(ParameterUnit::NewtonSecondPerMetreToExponent) => {
-                format!("N s{0}/m{0}", power(exponent))
-            }
-            Some(unit) => unit.symbol().to_owned(),
-        }
+        known(parameter).map_or_else(String::new, |p| p.unit.with_exponent(exponent))
     }
 
     /// Refuses a path of this length (m) far beyond yield to a law that has to be integrated

@@ -26,7 +26,7 @@ use links::storeys;
 pub use links::{Link, LinkedMotion, LinkedPair};
 pub(crate) use motions::Grounds;
 use motions::Motions;
-pub use motions::{FloorForce, ForceHistory, GroundMotion, Support};
+pub use motions::{FloorForce, ForceHistory, GroundMotion, LONGEST_DELAY, Support};
 pub use place::{BuildingPoint, Floor};
 use place::{Row, no_storey};
 pub(crate) use sections::{SectionForce, SectionPlace};

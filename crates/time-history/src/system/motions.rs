@@ -218,8 +218,8 @@ struct Pushed {
     forces: Vec<usize>,
 }
 
-/// A day (s): beyond, the digits of the time do not tell the samples of a record apart.
-const LONGEST_DELAY: f64 = 86_400.0;
+/// Longest delay of a ground motion (s), a day: beyond, the digits of the time do not tell the samples of a record apart.
+pub const LONGEST_DELAY: f64 = 86_400.0;
 /// Breakpoints closer than this part of a time step are one.
 const SAME: f64 = 1.0e-9;
 

@@ -71,12 +71,17 @@ pub(super) fn cells(line: &Line<'_>) -> Option<Cells> {
     } else {
         plain.as_str()
     };
-    let separator = ['|', ';', '\t', ',']
-        .into_iter()
-        .find(|s| bare.contains(*s));
-    let cells: Vec<String> = match separator {
-        Some(separator) => bare.split(separator).map(str::to_owned).collect(),
-        None => words(bare),
+    let mut separators = ['|', ';', '\t', ','].into_iter();
+    let separator = separators.find(|s| bare.contains(*s));
+    let (separator, cells) = match quoted_cells(bare) {
+        Some((separator, cells)) => (Some(separator), cells),
+        None => {
+            let cells = match separator {
+                Some(separator) => bare.split(separator).map(str::to_owned).collect(),
+                None => words(bare),
+            };
+            (separator, cells)
+        }
     };
     // Separators may close the line.
     let mut names = cells;
@@ -89,6 +94,32 @@ pub(super) fn cells(line: &Line<'_>) -> Option<Cells> {
         names,
         separator,
     })
+}
+
+/// The cells of a line and what separates them, where quotes hold separators together: `Time (s),"Acc, NS (g)"`. One
+/// in quotes as a whole, or with a quote that nothing closes, has none.
+fn quoted_cells(line: &str) -> Option<(char, Vec<String>)> {
+    const QUOTE: char = '"';
+    let quotes = line.matches(QUOTE).count();
+    if quotes == 0 || !quotes.is_multiple_of(2) {
+        return None;
+    }
+    // Every second piece stands in quotes.
+    let outside = || line.split(QUOTE).step_by(2);
+    let separator = ['|', ';', '\t', ','];
+    let separator = separator
+        .into_iter()
+        .find(|s| outside().any(|piece| piece.contains(*s)))?;
+    let mut cells = vec![String::new()];
+    let mut in_quotes = false;
+    for c in line.chars() {
+        in_quotes ^= c == QUOTE;
+        match cells.last_mut() {
+            Some(cell) if in_quotes || c != separator => cell.push(c),
+            _ => cells.push(String::new()),
+        }
+    }
+    Some((separator, cells))
 }
 
 /// A line without Fortran formats in brackets, `(8F9.6)`, `[8(F9.6)]`, `(format: 5E14.7)`, which are no units.
@@ -826,6 +857,10 @@ mod tests {
             ("Time in s,Acceleration in g", SeriesUnit::G),
             ("time (s);a (m s-2);", SeriesUnit::M_S2),
             ("t (s), NS (gal)", SeriesUnit::CM_S2),
+            // Quotes hold commas together, but for a line that is one quotation.
+            ("Time (s),\"Acc, NS (gal)\"", SeriesUnit::CM_S2),
+            ("\"Time (s)\";\"Acc, m/s2\"", SeriesUnit::M_S2),
+            ("\"Time (s), Acc (g)\"", SeriesUnit::G),
         ] {
             let found = of(text).unwrap_or_else(|| panic!("{text}"));
             assert_eq!(found[0], Role::Time(1.0), "{text}");

@@ -18,16 +18,12 @@ pub fn parameter_dimension(
         ParameterUnit::One => Dimension::NUMBER,
         ParameterUnit::Newton => Dimension::FORCE,
         ParameterUnit::NewtonPerMetre => Dimension::STIFFNESS,
-        ParameterUnit::NewtonPerMetreToExponent => {
-            Dimension::stiffness_with_exponent(exponent)
-        }
+        ParameterUnit::NewtonPerMetreToExponent => Dimension::stiffness_with_exponent(exponent),
         ParameterUnit::NewtonPerMetreToTwoPlusExponent => {
             Dimension::stiffness_with_exponent(2.0 + exponent)
         }
         ParameterUnit::NewtonSecondPerMetre => Dimension::DASHPOT,
-        ParameterUnit::NewtonSecondPerMetreToExponent => {
-            Dimension::dashpot_with_exponent(exponent)
-        }
+        ParameterUnit::NewtonSecondPerMetreToExponent => Dimension::dashpot_with_exponent(exponent),
         ParameterUnit::SecondPerMetre => Dimension::SLOWNESS,
         ParameterUnit::Metre => Dimension::LENGTH,
         ParameterUnit::MetrePerSecond => Dimension::VELOCITY,

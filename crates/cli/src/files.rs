@@ -533,9 +533,9 @@ impl Replaced<'_> {
             )),
             Some(_) if other_text => going(format!("the result of another study{of}")),
             Some(_) => going(format!("the result of {kind}{of}")),
-            None if other_text && (self.named || found.file.is_empty()) => going(
-                "the result of another study, or of another version of this one".to_owned(),
-            ),
+            None if other_text && (self.named || found.file.is_empty()) => {
+                going("the result of another study, or of another version of this one".to_owned())
+            }
             None if other_text => going("the result of another version of this study".to_owned()),
             None if found.file.is_empty() && self.kind == Kind::Run && !self.named => {
                 going("the result of a run that does not say of which case file it is".to_owned())

@@ -89,8 +89,8 @@ pub use study_file::{
 };
 #[cfg(feature = "results")]
 pub use sweep::{
-    Progress, Shard, SweepOptions, SweepReport, default_result, default_result_of, parts_folder, study_name, sweep,
-    writable,
+    Progress, Shard, SweepOptions, SweepReport, default_result, default_result_of, parts_folder,
+    study_name, sweep, writable,
 };
 #[cfg(feature = "results")]
 pub use table::{RunTable, writable_table};

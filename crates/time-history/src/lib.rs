@@ -53,7 +53,7 @@ pub use relative_displacement::{RelativeDisplacement, isolated_demand, isolated_
 pub use summary::Summary;
 pub use system::{
     BuildingPoint, ContactLevel, Floor, FloorForce, ForceHistory, Gap, GroundAcceleration,
-    GroundMotion, LONGEST_DELAY, LevelMotion, LevelPlace, LevelResponse, Link, LinkedMotion, LinkedPair, Support,
-    System, UnequalFloors, more_pairs,
+    GroundMotion, LONGEST_DELAY, LevelMotion, LevelPlace, LevelResponse, Link, LinkedMotion,
+    LinkedPair, Support, System, UnequalFloors, more_pairs,
 };
 pub use warnings::Warning;

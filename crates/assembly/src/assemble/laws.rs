@@ -147,7 +147,10 @@ pub fn parameters_of_storeys(
         let descriptor = descriptor(case, &law.model)?;
         for (place, storey) in law.storeys.iter().enumerate() {
             let values = parameters(case, descriptor, &law.parameters, place, |d| d)?;
-            all.push((*storey, UsedParameters::of(descriptor, values.values, false)));
+            all.push((
+                *storey,
+                UsedParameters::of(descriptor, values.values, false),
+            ));
         }
     }
     all.sort_by_key(|(storey, _)| *storey);

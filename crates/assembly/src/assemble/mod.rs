@@ -11,8 +11,8 @@ mod method;
 mod motions;
 mod plan;
 
-pub use laws::{parameters_of_link, parameters_of_storeys};
 pub use again::{assemble_with_record, assemble_without_gaps, regap};
+pub use laws::{parameters_of_link, parameters_of_storeys};
 pub use method::methods_that_take;
 pub use motions::nothing_to_move_across;
 
@@ -32,8 +32,8 @@ use pounding_time_history::{
 use self::column::Hits;
 use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
-use crate::used_parameters::UsedParameters;
 use crate::excitation::{RecordFiles, accelerogram};
+use crate::used_parameters::UsedParameters;
 use method::options;
 use motions::{Whose, on_their_ground};
 

@@ -34,7 +34,9 @@ pub fn check(path: &Path, as_json: bool) -> Result<(), Failure> {
     }
     let understood = Understood::of(&case, &assembly);
     drop(progress);
-    print(&pretty(&understood.map_err(|e| Failure::of_case(e, &case))?)?)
+    print(&pretty(
+        &understood.map_err(|e| Failure::of_case(e, &case))?,
+    )?)
 }
 
 /// What `check --json` prints.

@@ -395,7 +395,10 @@ fn what_is_replaced_is_named() {
         std::fs::write(fixture.path(file), "mine\n").unwrap();
         // Said ahead of the work where it is long, else when it happens.
         let notes = |told: &str| {
-            let of = |said: &str| told.matches(&format!("{file} {said} replaced, which")).count();
+            let of = |said: &str| {
+                told.matches(&format!("{file} {said} replaced, which"))
+                    .count()
+            };
             of("is") + of("will be")
         };
         let output = run(&format!("{command} {file}"));

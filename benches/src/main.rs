@@ -55,8 +55,8 @@ fn answer(words: &[&str]) -> Result<String, Failure> {
         ["scaling"] => report::only_scaling(reference, &ground),
         ["recording", only @ ..] => recording::ratios(&reference, &ground, only),
         ["towers", storeys @ ..] => recording::towers(&ground, storeys),
-        ["recorded", case, model, kind] => {
-            recording::child(&reference, &ground, [case, model, kind])
+        ["recorded", case, model, kind, tolerance] => {
+            recording::child(&reference, &ground, [case, model, kind, tolerance])
         }
         ["python", interpreter] => python::beside_the_library(interpreter),
         ["sweeps"] => report::only_sweeps(&reference, &ground),

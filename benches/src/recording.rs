@@ -18,6 +18,9 @@ const RUNS: usize = 15;
 /// Step of the output grid (s): that of the examples.
 const GRID: f64 = 0.01;
 
+/// Relative tolerance where none is named.
+const TOLERANCE: &str = "1e-10";
+
 /// Name of two towers that never touch, before the number of their storeys; and what tells apart a
 /// run on buildings on which others were before.
 const TOWERS: &str = "towers-";
@@ -67,8 +70,8 @@ impl Runs<'_> {
 }
 
 /// What a run with all histories, but without their writing, costs beside the run alone, for every
-/// case and model or for those that are named: time, or with `instructions` before them the
-/// instructions that callgrind counts.
+/// case and model or for those that are named, to a tolerance that may be named after them: time, or
+/// with `instructions` before them the instructions that callgrind counts.
 pub(crate) fn ratios(
     reference: &ReferenceCases,
     ground: &GroundAcceleration,
@@ -81,30 +84,34 @@ pub(crate) fn ratios(
     };
     match only {
         ["instructions", only @ ..] => {
+            let tolerance = only.get(2).unwrap_or(&TOLERANCE);
             runs(only).table("million instructions", |case, model, _| {
-                let of = |kind: &str| instructions([case, model, kind]);
+                let of = |kind: &str| instructions([case, model, kind, tolerance]);
                 Ok((of("alone")?, of("recorded")?))
             })
         }
-        _ => runs(only).table("ms", |_, _, system| times(system)),
+        _ => {
+            let options = options(only.get(2).unwrap_or(&TOLERANCE))?;
+            runs(only).table("ms", |_, _, system| times(system, &options))
+        }
     }
 }
 
-fn times(system: &System) -> Result<(f64, f64), Failure> {
+fn times(system: &System, options: &RunOptions) -> Result<(f64, f64), Failure> {
     let (mut alone, mut recorded) = (Vec::new(), Vec::new());
     for _ in 0..RUNS {
         let start = thread_seconds();
-        once(system, "alone")?;
+        once(system, "alone", options)?;
         alone.push(1e3 * (thread_seconds() - start));
         let start = thread_seconds();
-        once(system, "recorded")?;
+        once(system, "recorded", options)?;
         recorded.push(1e3 * (thread_seconds() - start));
     }
     Ok((median(&alone), median(&recorded)))
 }
 
 /// Instructions (millions) of one run in a process of its own.
-fn instructions(words: [&str; 3]) -> Result<f64, Failure> {
+fn instructions(words: [&str; 4]) -> Result<f64, Failure> {
     let mut command = Command::new("valgrind");
     command.args(["--tool=callgrind", "--callgrind-out-file=/dev/null"]);
     command.arg("--toggle-collect=*recording*once*");
@@ -119,23 +126,25 @@ fn instructions(words: [&str; 3]) -> Result<f64, Failure> {
     Ok(1e-6 * count.trim().parse::<f64>()?)
 }
 
-/// One run of a case and a model, `alone` or with all histories: what callgrind looks at.
+/// One run of a case and a model, `alone` or with all histories, to a tolerance: what callgrind
+/// looks at.
 pub(crate) fn child(
     reference: &ReferenceCases,
     ground: &GroundAcceleration,
-    [case, model, kind]: [&str; 3],
+    [case, model, kind, tolerance]: [&str; 4],
 ) -> Result<String, Failure> {
     let case = match case.strip_prefix(TOWERS) {
         Some(storeys) => &uniform_row(2, storeys.parse()?, WIDE),
         None => reference.cases.get(case).ok_or("no such case")?,
     };
     let system = reference_system(case, model, ground.clone(), 1.0)?;
+    let options = options(tolerance)?;
     if kind == AGAIN {
         // What runs on the same buildings share is made by the second one.
-        one_run(&system)?;
-        one_run(&system)?;
+        one_run(&system, &options)?;
+        one_run(&system, &options)?;
     }
-    once(&system, kind)?;
+    once(&system, kind, &options)?;
     Ok(String::new())
 }
 
@@ -147,12 +156,13 @@ pub(crate) fn towers(ground: &GroundAcceleration, storeys: &[&str]) -> Result<St
         let case = format!("{TOWERS}{storeys}");
         let count: usize = storeys.parse()?;
         let floor_samples = (2 * count * (ground.samples.len() - 1)) as f64;
-        let counted = 1e6 * instructions([&case, MODEL, AGAIN])?;
+        let counted = 1e6 * instructions([&case, MODEL, AGAIN, TOLERANCE])?;
         let system = reference_system(&uniform_row(2, count, WIDE), MODEL, ground.clone(), 1.0)?;
         let mut least = f64::INFINITY;
+        let options = options(TOLERANCE)?;
         for _ in 0..RUNS {
             let start = thread_seconds();
-            one_run(&system)?;
+            one_run(&system, &options)?;
             least = least.min(1e9 * (thread_seconds() - start));
         }
         let (counted, least) = (counted / floor_samples, least / floor_samples);
@@ -161,27 +171,29 @@ pub(crate) fn towers(ground: &GroundAcceleration, storeys: &[&str]) -> Result<St
     Ok(text)
 }
 
-fn one_run(system: &System) -> Result<(), Failure> {
-    run(system, &options(), &mut [], &mut |_| {})?;
+fn one_run(system: &System, options: &RunOptions) -> Result<(), Failure> {
+    run(system, options, &mut [], &mut |_| {})?;
     Ok(())
 }
 
 /// A function of its own, by whose name callgrind counts.
 #[inline(never)]
-fn once(system: &System, kind: &str) -> Result<(), Failure> {
+fn once(system: &System, kind: &str, options: &RunOptions) -> Result<(), Failure> {
     if kind == "recorded" {
         let mut recorder = GridRecorder::into_sink(GRID, Nowhere)?;
-        run(system, &options(), &mut [&mut recorder], &mut |_| {})?;
+        run(system, options, &mut [&mut recorder], &mut |_| {})?;
         return Ok(());
     }
-    one_run(system)
+    one_run(system, options)
 }
 
-fn options() -> RunOptions {
-    RunOptions {
+/// To this relative tolerance, whatever it makes of the balance of energy.
+fn options(tolerance: &str) -> Result<RunOptions, Failure> {
+    Ok(RunOptions {
         method: MethodChoice::EventDriven {
-            relative_tolerance: 1e-10,
+            relative_tolerance: tolerance.parse()?,
         },
+        energy_tolerance: Some(1.0),
         ..RunOptions::default()
-    }
+    })
 }

@@ -497,7 +497,7 @@ impl ModalStep<'_> {
         workspace: &mut Workspace,
     ) -> Option<(f64, f64)> {
         let (rate, length) = (self.constants.fastest, self.constants.step);
-        let parts = (length / Series::longest(rate)).ceil().max(1.0);
+        let parts = (length * rate / Series::LONGEST).ceil().max(1.0);
         let step = length / parts;
         let [start, _] = sample.ends;
         let Workspace {
@@ -517,6 +517,7 @@ impl ModalStep<'_> {
                 step,
                 rate,
                 terms: 0,
+                negligible: Series::ROUND_OFF,
             };
             series.expand(self.constants, self.rows, &[], &from);
             if let Some((theta, top)) = series.maximum_of_difference(rows, above) {

@@ -4,19 +4,16 @@ use multiversion::multiversion;
 
 use super::rows::{ModalRow, total};
 use super::series::{Series, Works};
-use super::tables::{PARTS, TERMS, Terms, sample};
+use super::tables::{FEW, PARTS, Rule, TERMS, Terms, sample};
 use crate::contact_free::{Lane, ModeLanes, WIDTH};
 
-/// A remainder below this, relative to the motion, is round-off.
-const NEGLIGIBLE: f64 = 1.0e-17;
-
-/// Terms after which the remainder is round-off: `x^(k+1) e^x / (k+1)!`.
-pub(super) fn last_term(x: f64) -> usize {
+/// Terms after which the remainder beside the motion, `x^(k+1) e^x / (k+1)!`, is negligible.
+pub(super) fn last_term((x, negligible): (f64, f64)) -> usize {
     let mut k = 3;
     // No step is so long that the exponential is greater than this.
     let exponential = 1.0 + x + x * x;
     let mut remainder = x * x * x * x / 24.0 * exponential;
-    while remainder > NEGLIGIBLE && k < TERMS - 2 {
+    while remainder > negligible && k < TERMS - 2 {
         k += 1;
         remainder *= x * PARTS[k + 1];
     }
@@ -278,18 +275,26 @@ fn end_of<const LANES: usize>(
     "aarch64+neon"
 ))]
 pub(super) fn works(series: &Series, modes: &[ModeLanes]) -> Works {
+    if series.is_slow() {
+        works_by::<FEW>(series, modes, &series.tables.few)
+    } else {
+        works_by::<WIDTH>(series, modes, &series.tables.rule)
+    }
+}
+
+#[inline(always)]
+fn works_by<const NODES: usize>(series: &Series, modes: &[ModeLanes], rule: &Rule) -> Works {
     let (lanes, last, step) = (series.lanes, series.last, series.step);
     let (ground, slope) = series.ground;
-    let tables = &series.tables;
-    let weights = tables.weights.map(|w| step * w);
-    let loads = Lane::from_fn(|node| weights[node] * (ground + slope * step * tables.points[node]));
+    let weights = rule.weights.map(|w| step * w);
+    let loads = Lane::from_fn(|node| weights[node] * (ground + slope * step * rule.points[node]));
     let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
     for (c, m) in modes.iter().enumerate() {
-        let mut speeds = [Lane::ZERO; WIDTH];
+        let mut speeds = [Lane::ZERO; NODES];
         for k in (0..=last).rev() {
             let v = series.velocity[k * lanes + c];
             for (node, speed) in speeds.iter_mut().enumerate() {
-                let power = tables.gauss[k][node];
+                let power = rule.powers[k][node];
                 for l in 0..WIDTH {
                     speed[l] += power * v[l];
                 }
@@ -320,13 +325,13 @@ pub(super) fn works(series: &Series, modes: &[ModeLanes]) -> Works {
     "aarch64+neon"
 ))]
 pub(super) fn contact_works(series: &mut Series) {
-    let (tables, last, step) = (&series.tables, series.last, series.step);
+    let (rule, last, step) = (&series.tables.rule, series.last, series.step);
     for touch in &mut series.touches {
-        let force = sample(&touch.force, last, &tables.gauss);
-        let rate = sample(&touch.rate, last, &tables.gauss);
+        let force = sample(&touch.force, last, &rule.powers);
+        let rate = sample(&touch.rate, last, &rule.powers);
         let (mut work, mut impulse) = (Lane::ZERO, Lane::ZERO);
         for l in 0..WIDTH {
-            impulse[l] = tables.weights[l] * force[l];
+            impulse[l] = rule.weights[l] * force[l];
             work[l] = impulse[l] * rate[l];
         }
         touch.works = (step * total(&work), step * total(&impulse));

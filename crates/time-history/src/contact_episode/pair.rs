@@ -5,7 +5,7 @@ use pounding_gap_element::PowerLaw;
 use pounding_runge_kutta::tableau::{ERROR_3, ERROR_5, NODES, ROWS, STAGES, WEIGHTS};
 
 use super::clock::Clock;
-use super::point::Point;
+use super::point::{Point, TouchPoint};
 use super::rows::{LevelRows, total};
 use super::series::Works;
 use super::touch::Touch;
@@ -43,6 +43,9 @@ pub(crate) struct Pair {
     /// Work on every closed level (J), and impulse (N s).
     pub contact_works: Vec<(f64, f64)>,
     pub evaluations: u64,
+    /// Stands in for the end, and for the works on levels, while a part of the step is looked at.
+    part: Point,
+    part_works: Vec<(f64, f64)>,
 }
 
 impl Pair {
@@ -58,7 +61,29 @@ impl Pair {
             works: Works::default(),
             contact_works: Vec::with_capacity(levels),
             evaluations: 0,
+            part: Point::new(lanes, levels),
+            part_works: Vec::with_capacity(levels),
         }
+    }
+
+    /// A closed level inside the step, by a step of its own to there: what interpolates between
+    /// the ends of a long step is less accurate than the step.
+    pub(crate) fn inside(
+        &mut self,
+        scene: &Scene<'_>,
+        clock: &Clock,
+        (theta, k): (f64, usize),
+    ) -> TouchPoint {
+        let (time, works) = (clock.offset(theta), self.works);
+        std::mem::swap(&mut self.end, &mut self.part);
+        std::mem::swap(&mut self.contact_works, &mut self.part_works);
+        self.step(scene, &clock.until(time));
+        self.derive_end(scene, time);
+        let found = self.end.touches[k];
+        self.works = works;
+        std::mem::swap(&mut self.end, &mut self.part);
+        std::mem::swap(&mut self.contact_works, &mut self.part_works);
+        found
     }
 
     /// Takes a step from `start`, whose accelerations hold, to `end`, whose displacements

@@ -12,7 +12,7 @@ use super::touch_series::TouchSeries;
 use crate::bernstein::first_rise_of_series;
 use crate::contact::{Contact, Contacts};
 use crate::events::{Candidate, EventKind};
-use crate::polynomial::{Polynomial, first_rise_near, first_rise_of, fit, value};
+use crate::polynomial::{Polynomial, first_rise_near, first_rise_of, fit, negated, value};
 use crate::system::System;
 
 /// A function that passes its root by less than this part of its size only touches it: as
@@ -149,12 +149,18 @@ fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
     if rest[0].max(after) + bend < 0.0 {
         return None;
     }
-    let mut fitted = fit(&series.at_nodes(&rest));
-    fitted[0] = rest[0];
-    let theta = near(&fitted)?;
-    if theta <= 0.0 {
-        return Some(theta);
-    }
+    let theta = if zeros == 0 && rest[0] < 0.0 && after > 0.0 && after - rest[0] > 4.0 * bend {
+        // It only rises: where the chord has its root is near enough.
+        rest[0] / (rest[0] - after)
+    } else {
+        let mut fitted = fit(&series.at_nodes(&rest));
+        fitted[0] = rest[0];
+        let theta = near(&fitted)?;
+        if theta <= 0.0 {
+            return Some(theta);
+        }
+        theta
+    };
     // Floors that were let be may have closed by a trifle: they meet again where they set
     // out.
     let target = rest[0].max(0.0);
@@ -185,7 +191,7 @@ fn fall(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
     if zeros == 1 && first.min(after - terms[0]) - bend > 0.0 {
         return None;
     }
-    rise(series, &terms.map(|c| -c), zeros)
+    rise(series, &negated(*terms), zeros)
 }
 
 /// Newton's method from a root that is nearly right.
@@ -290,7 +296,7 @@ pub(crate) fn in_span(
             let (a, b) = span.touch(k);
             let delta = span.displacement(a, b);
             let rate = span.velocity(a, b);
-            let open = near(&delta.map(|c| -c));
+            let open = near(&negated(delta));
             keep(&mut first, open, (l, EventKind::Open), &muted);
             for (index, transition) in transitions(system, touch).iter().enumerate() {
                 let found = fires(system, touch, *transition, (&delta, &rate));
@@ -355,7 +361,7 @@ fn fires(
 ) -> Option<f64> {
     match (transition.guard, transition.direction) {
         (Guard::Velocity, Direction::Rising) => near(rate),
-        (Guard::Velocity, Direction::Falling) => near(&rate.map(|c| -c)),
+        (Guard::Velocity, Direction::Falling) => near(&negated(*rate)),
         _ => {
             let at = |x: f64| {
                 let (d, r) = (value(delta, x), value(rate, x));
@@ -363,5 +369,53 @@ fn fires(
             };
             first_rise_of(at, NEAR)
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Series that rise or not, from below zero, against the Bernstein hull: whether bounds decide,
+    /// the chord or a fit leads to the root.
+    #[test]
+    fn rises_are_those_of_the_hull() {
+        let (mut by_chord, mut others, mut never) = (0, 0, 0);
+        for seed in 0..4000_usize {
+            let number = |k: usize| {
+                let bits = (seed * 131 + k + 1).wrapping_mul(0x9e37_79b9) % 0x1_0000;
+                bits as f64 / 32768.0 - 1.0
+            };
+            let mut series = Series::new(1, 0);
+            series.last = 9 + seed % 9;
+            let rate = 0.2 + 2.5 * number(101).abs();
+            let (mut terms, mut factor) = ([0.0; TERMS], 1.0e-2);
+            for (k, term) in terms.iter_mut().enumerate().take(series.last + 1) {
+                *term = factor * number(k);
+                factor *= rate / (k + 1) as f64;
+            }
+            terms[0] = -terms[0].abs() - 1.0e-6;
+            let (after, bend) = series.end_and_bend(&terms);
+            let chord = after > 0.0 && after - terms[0] > 4.0 * bend;
+            let certain = first_rise_of_series(&terms[..=series.last]);
+            let found = rise(&series, &terms, 0);
+            match (found, certain) {
+                (Some(a), Some(b)) => {
+                    let (value, slope) = series.at(&terms, a);
+                    assert!(value.abs() < 1e-16, "{seed}: {value:e}");
+                    assert!((a - b).abs() < 1e-11, "{seed}: {a} {b} {slope:e}");
+                    (by_chord, others) = match chord {
+                        true => (by_chord + 1, others),
+                        false => (by_chord, others + 1),
+                    };
+                }
+                (None, None) => never += 1,
+                other => panic!("{seed}: {other:?}"),
+            }
+        }
+        assert!(
+            by_chord > 200 && others > 200 && never > 200,
+            "{by_chord} {others} {never}"
+        );
     }
 }

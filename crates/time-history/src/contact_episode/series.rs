@@ -10,8 +10,10 @@ use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH};
 use crate::polynomial::{fit, maximum_above};
 use crate::system::System;
 
-/// Maximum product of rate and step.
-const LONGEST: f64 = 1.3;
+/// Product of rate and step up to which Gauss's rule with six nodes is exact to round-off: over the
+/// square of a velocity it errs by `(6!)^4 / (13 (12!)^3) = 1.9e-16` times the twelfth derivative,
+/// which is at most `(2 x)^12` of the greatest square.
+pub(super) const SLOW: f64 = 0.6;
 
 /// Relative size below which a leading term is what a root that was just passed leaves.
 const NEGLIGIBLE_START: f64 = 1.0e-13;
@@ -36,8 +38,9 @@ pub(crate) struct SeriesStep<'a> {
     pub step: f64,
     /// Bound of the rate of the motion (1/s).
     pub rate: f64,
-    /// Terms at least.
+    /// Terms at least, and remainder beside the motion that may be left out.
     pub terms: usize,
+    pub negligible: f64,
 }
 
 /// Works of a step.
@@ -64,8 +67,9 @@ pub(crate) struct SeriesEnd<'a> {
 pub(crate) struct Series {
     pub(super) lanes: usize,
     rate: f64,
-    /// The last product of rate and step, and the number of terms that it takes.
-    product: f64,
+    longest: f64,
+    /// The last product of rate and step with its remainder, and the number of terms that it takes.
+    product: (f64, f64),
     enough: usize,
     /// Number of the last term.
     pub(super) last: usize,
@@ -85,16 +89,22 @@ pub(crate) struct Series {
     /// the second derivatives with respect to theta.
     pub bend: Vec<Lane>,
     pub snap: Vec<Lane>,
-    pub(super) tables: Tables,
+    pub(super) tables: &'static Tables,
 }
 
 impl Series {
+    /// Maximum product of rate and step.
+    pub(crate) const LONGEST: f64 = 1.3;
+    /// A remainder below this, relative to the motion, is round-off.
+    pub(crate) const ROUND_OFF: f64 = 1.0e-17;
+
     pub(crate) fn new(lanes: usize, levels: usize) -> Self {
         let terms = || vec![Lane::ZERO; lanes * TERMS];
         Self {
             lanes,
             rate: 0.0,
-            product: f64::NAN,
+            longest: 0.0,
+            product: (f64::NAN, 0.0),
             enough: 0,
             last: 0,
             step: 0.0,
@@ -107,22 +117,28 @@ impl Series {
             next_rates: vec![0.0; levels],
             bend: vec![Lane::ZERO; lanes],
             snap: vec![Lane::ZERO; lanes],
-            tables: Tables::new(),
+            tables: Tables::all(),
         }
     }
 
-    /// Bound of the rate (1/s) of the motion of the closed levels, of `sqrt(k / m) + c / m`.
+    /// Bound of the rate (1/s) of the motion with the closed levels, that of whose own is
+    /// `sqrt(k / m) + c / m`.
     pub(crate) fn rate(&self) -> f64 {
         self.rate
     }
 
-    /// Longest step (s) at a rate (1/s).
-    pub(crate) fn longest(rate: f64) -> f64 {
-        LONGEST / rate
+    /// Longest step (s).
+    pub(crate) fn longest(&self) -> f64 {
+        self.longest
     }
 
-    /// Takes the laws of the closed levels.
-    pub(crate) fn take_laws(&mut self, system: &System, rows: &LevelRows, touches: &[Touch]) {
+    /// Takes the laws of the closed levels, beside modes of which this is the fastest rate (1/s).
+    pub(crate) fn take_laws(
+        &mut self,
+        system: &System,
+        (rows, fastest): (&LevelRows, f64),
+        touches: &[Touch],
+    ) {
         for (index, touch) in touches.iter().enumerate() {
             let level = &system.levels()[touch.level];
             let (collision, phase) = (&touch.contact.collision, touch.contact.phase);
@@ -152,12 +168,14 @@ impl Series {
             self.mobility.extend(others);
         }
         let touches = &self.touches;
-        self.rate = contact_rate(&self.mobility, touches.len(), |l| match touches[l].law {
+        let rate = contact_rate(&self.mobility, touches.len(), |l| match touches[l].law {
             Law::Affine {
                 stiffness, dashpot, ..
             } => [stiffness, dashpot],
             Law::Powers(_) => [0.0; 2],
         });
+        self.rate = (fastest * fastest + rate * rate).sqrt();
+        self.longest = Self::LONGEST / self.rate;
     }
 
     /// Expands the motion over a step.
@@ -171,7 +189,7 @@ impl Series {
         let lanes = self.lanes;
         self.step = from.step;
         self.ground = from.ground;
-        let product = from.rate * from.step;
+        let product = (from.rate * from.step, from.negligible);
         if product != self.product {
             // Whole samples are alike.
             (self.product, self.enough) = (product, expansion::last_term(product));
@@ -187,10 +205,12 @@ impl Series {
         }
         expansion::expand(self, &constants.modes, &rows.levels);
         // What steps of more terms left would count in sums over four terms at once.
-        let rest = self.last + 1..(self.last / 4 + 1) * 4;
+        let (four, count) = (self.last / 4, self.last % 4 + 1);
         for touch in &mut self.touches {
             for terms in [&mut touch.delta, &mut touch.rate, &mut touch.force] {
-                terms[rest.clone()].fill(0.0);
+                for (l, term) in terms.as_chunks_mut::<4>().0[four].iter_mut().enumerate() {
+                    *term = if l < count { *term } else { 0.0 };
+                }
             }
         }
     }
@@ -303,6 +323,12 @@ impl Series {
     /// Works of ground motion and damping over the step.
     pub(crate) fn works(&self, modes: &[ModeLanes]) -> Works {
         expansion::works(self, modes)
+    }
+
+    /// Whether a rule of few nodes errs by round-off alone.
+    pub(super) fn is_slow(&self) -> bool {
+        let affine = |touch: &TouchSeries| matches!(touch.law, Law::Affine { .. });
+        self.product.0 <= SLOW && self.touches.iter().all(affine)
     }
 
     /// Works out [`TouchSeries::works`] of all closed levels.

@@ -18,6 +18,8 @@ pub(crate) struct StepLength {
     /// Part of the even steps tried lately that were rejected, and whether stability limits them.
     rejections: f64,
     limited: bool,
+    /// Whether the tolerance is so loose that one step of the pair is as good as series in a row.
+    loose: bool,
     /// Series of powers in a row that did not reach far, and steps of the pair since the last.
     short_series: u32,
     since_series: u32,
@@ -44,12 +46,22 @@ const FAR: f64 = 0.35;
 /// a step of the pair from which on it is worth while.
 const CONVERGENT: f64 = 0.7;
 const WORTH: f64 = 0.4;
+/// Series are exact to round-off, steps of the pair to a tolerance: from this one on fewer steps are
+/// worth more.
+const LOOSE: f64 = 1.0e-7;
 /// Bounds of the growth of steps.
 const FACTORS: [f64; 2] = [0.2, 4.0];
 /// Growth of the first step from start to start.
 const CAREFUL: f64 = 1.2;
 /// Growth of steps in the variable of a start.
 const GROWING: f64 = 1.5;
+/// Part of the growth that an error allows which is taken where it is more than these: after one
+/// bad start, the steps of all later ones would grow back from nothing.
+const TRUSTED: f64 = 0.5;
+/// Part of it that is taken where a tolerance is tight.
+const TIGHT: f64 = 0.65;
+/// Errors below this say no more than that.
+const SMALLEST: f64 = 1.0e-12;
 /// After so many series that did not reach far, one is tried every so many steps.
 const SHORT_SERIES: u32 = 16;
 /// Weight of one even step in the part that was rejected lately.
@@ -68,8 +80,10 @@ const SHORTEST: f64 = 1.0e-12;
 const GUESS: f64 = 2.0e-4;
 
 impl StepLength {
-    pub(crate) fn new() -> Self {
+    /// For steps of the pair to this relative tolerance.
+    pub(crate) fn new(tolerance: f64) -> Self {
         Self {
+            loose: tolerance >= LOOSE,
             next: GUESS,
             first: GUESS,
             since: None,
@@ -155,6 +169,9 @@ impl StepLength {
             Some(_) => self.growing,
             None => self.next,
         };
+        if self.loose && longest < rest && pair >= rest {
+            return None;
+        }
         (longest >= WORTH * pair.min(rest)).then_some(longest)
     }
 
@@ -173,9 +190,10 @@ impl StepLength {
 
     /// A step of this error was rejected; returns the shorter one to try.
     pub(crate) fn reject(&mut self, tried: &Proposal, error: f64) -> Proposal {
-        let factor = factor(error).min(0.7);
+        let factor = factor(error);
         match tried.pace {
             Pace::Start => {
+                let factor = factor.min(if self.loose { 0.85 } else { 0.7 });
                 let s = |t: f64| t.sqrt().sqrt();
                 let from = s(tried.since);
                 let to = from + factor * (s(tried.since + tried.length) - from);
@@ -188,7 +206,7 @@ impl StepLength {
             }
             Pace::Plain | Pace::End(_) => {
                 self.note_even_step(1.0);
-                self.next = factor * tried.length;
+                self.next = factor.min(0.7) * tried.length;
                 Proposal {
                     pace: Pace::Plain,
                     length: self.next,
@@ -209,7 +227,7 @@ impl StepLength {
                 let (a, b) = (s(tried.since), s(tried.since + tried.length));
                 if tried.since == 0.0 {
                     // One start is not quite like the next.
-                    let wanted = (factor.min(CAREFUL) * b).powi(4);
+                    let wanted = (growth(error, (CAREFUL, self.loose)) * b).powi(4);
                     // A step cut short says nothing against a longer one.
                     let short = length < tried.length || tried.length < self.first;
                     let wanted = if short {
@@ -219,7 +237,8 @@ impl StepLength {
                     };
                     self.first = wanted;
                 }
-                self.growing = (s(since) + factor.min(GROWING) * (b - a)).powi(4) - since;
+                self.growing =
+                    (s(since) + growth(error, (GROWING, self.loose)) * (b - a)).powi(4) - since;
                 self.since = Some(since);
                 if self.growing < FAR * since {
                     self.since = None;
@@ -252,6 +271,16 @@ impl StepLength {
     }
 }
 
+/// Growth of steps in the variable of a start, of what their error allows and what they usually
+/// take: no more than that where a tolerance is tight, since works are not controlled.
+fn growth(error: f64, (usual, loose): (f64, bool)) -> f64 {
+    if !loose {
+        return (TIGHT * factor(error)).min(usual);
+    }
+    let allowed = 0.9 / error.max(SMALLEST).sqrt().sqrt().sqrt();
+    allowed.min(usual.max(TRUSTED * allowed))
+}
+
 fn factor(error: f64) -> f64 {
     if error > 0.0 {
         (0.9 / error.sqrt().sqrt().sqrt()).clamp(FACTORS[0], FACTORS[1])
@@ -271,19 +300,22 @@ fn closes_slowly(point: &Point, time: f64) -> bool {
 
 /// Time (s) until floors in approach stop approaching, by the present motion.
 fn time_to_turn(scene: &Scene<'_>, point: &Point) -> f64 {
-    let mut earliest = f64::INFINITY;
-    for touch in scene.touches.iter().zip(&point.touches) {
-        let [_, v, a, j] = touch.1.motion;
-        // v + a t + j t^2 / 2 = 0 from v > 0.
-        if v > 0.0 && a < 0.0 {
-            let root = (a * a - 2.0 * v * j).max(0.0).sqrt();
-            let time = 2.0 * v / (root - a);
-            if time > SHORTEST {
-                earliest = earliest.min(time);
-            }
-        }
+    let touches = scene.touches.iter().zip(&point.touches);
+    touches.fold(f64::INFINITY, |earliest, (_, now)| {
+        earliest.min(turn(now.motion).unwrap_or(f64::INFINITY))
+    })
+}
+
+/// Time (s) until a level in approach, with this penetration and three derivatives, turns: the root
+/// of `v + a t + j t^2 / 2`. Where a contact has just begun, a force like a power has a rate of
+/// change that tells nothing.
+fn turn([delta, v, a, j]: [f64; 4]) -> Option<f64> {
+    if delta.abs() < CLOSED || v <= 0.0 || a >= 0.0 {
+        return None;
     }
-    earliest
+    let root = (a * a - 2.0 * v * j).max(0.0).sqrt();
+    let time = 2.0 * v / (root - a);
+    (time > SHORTEST).then_some(time)
 }
 
 /// Time (s) until the first contact ends whose force ends like a power of time.
@@ -310,4 +342,39 @@ fn time_to_end(scene: &Scene<'_>, point: &Point) -> f64 {
         }
     }
     earliest
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The rate of change of a force like `delta^(1/4)` at a closure, where the penetration is
+    /// round-off, would put the turn at once.
+    #[test]
+    fn a_contact_that_has_just_begun_tells_no_turn() {
+        let begun = [1.0e-17, 0.3, -2.0, -1.0e13];
+        assert_eq!(turn(begun), None);
+        let (v, a) = (0.3, -2.0);
+        let time = turn([1.0e-4, v, a, 0.0]).unwrap_or_default();
+        assert!((time - v / -a).abs() < 1e-15, "{time}");
+        assert_eq!(turn([1.0e-4, -v, a, 0.0]), None);
+    }
+
+    /// After one start that was far too short, those to follow grow back in one step where a
+    /// tolerance is loose, but never beyond what their error allows.
+    #[test]
+    fn starts_grow_by_their_error() {
+        for exponent in 0..20 {
+            let error = libm::pow(10.0, -f64::from(exponent));
+            let allowed = 0.9 * libm::pow(error.max(SMALLEST), -0.125);
+            for usual in [CAREFUL, GROWING] {
+                let loose = growth(error, (usual, true));
+                assert!(loose <= allowed * (1.0 + 1e-12), "{error:e}");
+                assert!(loose >= allowed.min(usual) * (1.0 - 1e-12), "{error:e}");
+                let tight = growth(error, (usual, false));
+                assert!(tight <= usual && tight <= allowed, "{error:e}");
+            }
+        }
+        assert!(growth(1.0e-12, (CAREFUL, true)) > 10.0);
+    }
 }

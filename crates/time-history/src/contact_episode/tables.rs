@@ -1,7 +1,9 @@
 //! Powers of the points at which series are sampled.
 
+use std::sync::OnceLock;
+
 use crate::contact_free::{Lane, WIDTH};
-use crate::polynomial::fit_nodes;
+use crate::polynomial::{GAUSS as GAUSS_OF_SIX, fit_nodes};
 
 /// Terms of a series at most, that of order zero included.
 pub(super) const TERMS: usize = 28;
@@ -33,29 +35,49 @@ pub(super) const PARTS: Terms = {
     parts
 };
 
-/// Powers of the nodes of a fit, and of Gauss's rule with its weights.
+/// Nodes of Gauss's rule for slow motions.
+pub(super) const FEW: usize = GAUSS_OF_SIX.len();
+
+/// A rule of Gauss: powers of its nodes, its nodes, and its weights.
 #[derive(Debug, Clone)]
-pub(super) struct Tables {
-    pub fit: [Lane; TERMS],
-    pub gauss: [Lane; TERMS],
+pub(super) struct Rule {
+    pub powers: [Lane; TERMS],
     pub points: Lane,
     pub weights: Lane,
 }
 
+/// Powers of the nodes of a fit, and rules of eight nodes and of [`FEW`].
+#[derive(Debug, Clone)]
+pub(super) struct Tables {
+    pub fit: [Lane; TERMS],
+    pub rule: Rule,
+    pub few: Rule,
+}
+
 impl Tables {
-    pub(super) fn new() -> Self {
-        let (points, weights) = (
-            Lane(GAUSS.map(|(node, _)| node)),
-            Lane(GAUSS.map(|(_, weight)| weight)),
-        );
+    /// Made once.
+    pub(super) fn all() -> &'static Self {
+        static TABLES: OnceLock<Tables> = OnceLock::new();
+        TABLES.get_or_init(Self::new)
+    }
+
+    fn new() -> Self {
         let powers = |points: Lane| -> [Lane; TERMS] {
             std::array::from_fn(|k| points.map(|x| x.powi(k as i32)))
         };
+        let rule = |nodes: &[(f64, f64)]| {
+            let value = |node: usize| nodes.get(node).copied().unwrap_or_default();
+            let points = Lane::from_fn(|node| value(node).0);
+            Rule {
+                powers: powers(points),
+                points,
+                weights: Lane::from_fn(|node| value(node).1),
+            }
+        };
         Self {
             fit: powers(Lane(fit_nodes())),
-            gauss: powers(points),
-            points,
-            weights,
+            rule: rule(&GAUSS),
+            few: rule(&GAUSS_OF_SIX),
         }
     }
 }
@@ -149,6 +171,30 @@ pub(super) fn maximum(terms: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// The square of `v = cos(x theta + phase)`, whose derivatives are the fastest for its rate.
+    #[test]
+    fn six_nodes_are_exact_for_slow_motions() {
+        let x = super::super::series::SLOW;
+        for place in 0..60 {
+            let phase = 0.1 * f64::from(place);
+            let integral = |rule: &Rule| -> f64 {
+                let nodes = rule.points.0.iter().zip(&rule.weights.0);
+                let square = |point: f64| {
+                    let v = libm::cos(x * point + phase);
+                    v * v
+                };
+                nodes.map(|(point, weight)| weight * square(*point)).sum()
+            };
+            let tables = Tables::all();
+            let sine = |theta: f64| libm::sin(2.0 * (x * theta + phase));
+            let exact = 0.5 + 0.25 * (sine(1.0) - sine(0.0)) / x;
+            for rule in [&tables.few, &tables.rule] {
+                let found = integral(rule);
+                assert!((found - exact).abs() < 1e-15, "{phase}: {found} {exact}");
+            }
+        }
+    }
 
     /// Against sums term by term, for every number of terms.
     #[test]

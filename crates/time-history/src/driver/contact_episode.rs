@@ -17,6 +17,9 @@ use crate::events::Candidate;
 use crate::options::MethodChoice;
 use crate::system::System;
 
+/// Part of the tolerance that the remainder of a series of powers may have.
+const NEGLIGIBLE: f64 = 1.0e-9;
+
 /// Exact contact-free motion, and contacts between contact-free phases.
 pub(super) struct Open<'a> {
     /// Of the whole system, or of a part of it.
@@ -42,8 +45,9 @@ pub(super) struct ContactEpisode {
     pub lengths: StepLength,
     pub absolute: Vec<Lane>,
     pub tolerance: f64,
-    /// Terms of a series of powers.
+    /// Terms of a series of powers, and what its remainder may be beside the motion.
     pub terms: usize,
+    pub negligible: f64,
     /// Whether the list of closed levels holds, and whether they all are affine.
     pub listed: bool,
     pub affine: bool,
@@ -98,10 +102,11 @@ impl ContactEpisode {
             pair: Pair::new(lanes, count),
             rates: Rates::new(lanes),
             closings: vec![0.0; all],
-            lengths: StepLength::new(),
+            lengths: StepLength::new(relative_tolerance),
             absolute: vec![Lane::ZERO; lanes],
             tolerance: relative_tolerance,
             terms: series_terms(relative_tolerance),
+            negligible: Series::ROUND_OFF.max(NEGLIGIBLE * relative_tolerance),
             listed: false,
             affine: false,
             powers: false,
@@ -238,7 +243,9 @@ impl Driver<'_> {
                 e.affine = are_affine(&e.touches, self.system);
                 e.powers = e.affine || are_powers(&e.touches, self.system);
                 if e.powers {
-                    e.series.take_laws(self.system, &e.rows, &e.touches);
+                    let fastest = open.constants.fastest;
+                    e.series
+                        .take_laws(self.system, (&e.rows, fastest), &e.touches);
                 }
                 e.listed = true;
             }
@@ -265,14 +272,17 @@ impl Driver<'_> {
             } else {
                 None
             };
-            let taken = match series {
-                Some(length) => self.by_series(open, (segment, tau), length, observers)?,
-                None => None,
+            let mut taken = (0.0, None);
+            let done = match series {
+                Some(length) => {
+                    self.by_series(open, (segment, tau), (length, &mut taken), observers)?
+                }
+                None => false,
             };
-            let (step, event) = match taken {
-                Some(taken) => taken,
-                None => self.by_pair(open, (segment, tau), longest, observers)?,
-            };
+            if !done {
+                self.by_pair(open, (segment, tau), (longest, &mut taken), observers)?;
+            }
+            let (step, event) = taken;
             if let Some((event, whole)) = event
                 && event.theta * whole <= EVENT_TOLERANCE
             {
@@ -404,5 +414,5 @@ impl Driver<'_> {
 
 /// Terms of a series of powers: more are worth while where more digits are asked for.
 fn series_terms(tolerance: f64) -> usize {
-    (10.0 - libm::log10(tolerance)).clamp(14.0, 22.0) as usize
+    (6.0 - 1.5 * libm::log10(tolerance)).clamp(12.0, 22.0) as usize
 }

@@ -25,7 +25,10 @@ impl Driver<'_> {
         if self.method.flies() && !is_cheaper_by_series(self.system) {
             self.open = Open::new(self.system, &self.options.method).map(Box::new);
             let open = self.open.as_ref();
-            let parts = open.and_then(|open| Parts::new(self.system, &open.constants));
+            let parts = open.and_then(|open| {
+                let tolerance = open.contact_episode.tolerance;
+                Parts::new(self.system, &open.constants, tolerance)
+            });
             self.parts = parts.map(Box::new);
         }
         if self.method.flies() && self.system.contact_free().is_none() {

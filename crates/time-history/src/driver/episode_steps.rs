@@ -13,10 +13,13 @@ use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::outcome::Peak;
-use crate::polynomial::{bound, fit, fit_nodes, maximum_above, value};
+use crate::polynomial::{derivative, fit, fit_nodes, maximum_above, value};
 
 /// Part of the present peak below which a fitted maximum is not looked at closer.
-const BELOW_PEAK: f64 = 1.0 - 1.0e-6;
+const BELOW_PEAK: f64 = 1.0 - 1.0e-3;
+/// Greatest part by which what is left of the rate of change may raise a maximum that was looked
+/// at: as much errs the fit.
+const CORRECTION: f64 = 1.0e-3;
 
 /// Size (m) of penetrations beside which the last terms of a series of powers are small.
 const SERIES_SIZE: f64 = 1.0e-5;
@@ -34,33 +37,40 @@ struct Trial {
 }
 
 impl Driver<'_> {
-    /// A step by the series, cut at its first event; `None` where a series of powers does
-    /// not reach far.
+    /// A step by the series, cut at its first event, into `taken`; false where a series of powers
+    /// does not reach far.
     pub(super) fn by_series(
         &mut self,
         open: &mut Open<'_>,
         (segment, tau): (&Segment, f64),
-        longest: f64,
+        (longest, taken): (f64, &mut Taken),
         observers: &mut Observers<'_, '_>,
-    ) -> Result<Option<Taken>, TimeHistoryError> {
+    ) -> Result<bool, TimeHistoryError> {
         let Open {
             constants,
             phase,
             contact_episode: e,
         } = open;
         let constants: &ContactFree = constants;
-        let rate = e.series.rate();
-        let rate = (constants.fastest * constants.fastest + rate * rate).sqrt();
-        let parts = (longest / Series::longest(rate)).ceil().max(1.0);
-        let whole = longest / parts;
+        let most = e.series.longest();
+        let whole = if longest <= most {
+            longest
+        } else {
+            longest / (longest / most).ceil()
+        };
         let start = segment.start + tau;
         let from = SeriesStep {
             displacement: &e.pair.start.motion[0],
             velocity: &e.pair.start.motion[1],
             ground: (segment.acceleration_at(tau), segment.slope),
             step: whole,
-            rate,
+            rate: e.series.rate(),
             terms: if e.affine { 0 } else { e.terms },
+            negligible: if e.affine {
+                Series::ROUND_OFF
+            } else {
+                e.negligible
+            },
         };
         e.series.expand(constants, &e.rows, &e.touches, &from);
         self.series_terms += e.series.terms() as u64;
@@ -74,7 +84,7 @@ impl Driver<'_> {
             let reach = e.series.reach(SERIES_SIZE * e.tolerance);
             if reach < FAR_ENOUGH {
                 e.lengths.refuse_series();
-                return Ok(None);
+                return Ok(false);
             }
             if reach < 1.0 {
                 e.series.shorten(reach);
@@ -98,7 +108,8 @@ impl Driver<'_> {
         let mut step = whole;
         if let Some(event) = event {
             if event.theta * whole <= EVENT_TOLERANCE {
-                return Ok(Some((0.0, Some((event, whole)))));
+                *taken = (0.0, Some((event, whole)));
+                return Ok(true);
             }
             if event.theta < 1.0 {
                 step = event.theta * whole;
@@ -135,7 +146,8 @@ impl Driver<'_> {
         if !e.affine {
             e.lengths.accept_series(step);
         }
-        Ok(Some((step, event.map(|event| (event, whole)))))
+        *taken = (step, event.map(|event| (event, whole)));
+        Ok(true)
     }
 
     /// Takes works and peaks of the series as it now is, from its start (s) on.
@@ -176,14 +188,14 @@ impl Driver<'_> {
         }
     }
 
-    /// A step by the pair, cut at its first event.
+    /// A step by the pair, cut at its first event, into `taken`.
     pub(super) fn by_pair(
         &mut self,
         open: &mut Open<'_>,
         (segment, tau): (&Segment, f64),
-        longest: f64,
+        (longest, taken): (f64, &mut Taken),
         observers: &mut Observers<'_, '_>,
-    ) -> Result<Taken, TimeHistoryError> {
+    ) -> Result<(), TimeHistoryError> {
         let Open {
             constants,
             phase,
@@ -211,7 +223,8 @@ impl Driver<'_> {
         let event = self.event_of((&scene, &e.levels), &e.pair, phase, &trial.clock, longest);
         if let Some((found, time)) = &event {
             if *time <= EVENT_TOLERANCE {
-                return Ok((0.0, Some((*found, whole))));
+                *taken = (0.0, Some((*found, whole)));
+                return Ok(());
             }
             let (place, contacts) = ((found.level, found.kind), &self.contacts);
             let clock = &mut trial.clock;
@@ -251,10 +264,11 @@ impl Driver<'_> {
         }
         note_floors_of_span(&scene, &span, &mut e.rates, &mut phase.tracks(), start);
         note_sections_of_span(&constants.rows.sections, &span, phase.sections(), start);
-        self.note_contacts(&scene, &span, &e.pair, start);
+        self.note_contacts(&scene, &trial.clock, &mut e.pair, start);
         closings(&e.rows, &e.levels, &e.pair.end.motion[0], &mut e.closings);
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
-        Ok((step, event))
+        *taken = (step, event);
+        Ok(())
     }
 
     /// Tries steps of the pair, ever shorter, until one is accurate.
@@ -331,16 +345,16 @@ impl Driver<'_> {
     }
 
     /// Takes works and peaks of the closed levels.
-    fn note_contacts(&mut self, scene: &Scene<'_>, span: &Span<'_>, pair: &Pair, start: f64) {
+    fn note_contacts(&mut self, scene: &Scene<'_>, clock: &Clock, pair: &mut Pair, start: f64) {
         let layout = self.dynamics.layout;
         self.state[layout.input()] += pair.works.input;
         self.state[layout.viscous()] += pair.works.viscous;
-        for (k, (touch, works)) in scene.touches.iter().zip(&pair.contact_works).enumerate() {
-            let l = touch.level;
+        for (k, touch) in scene.touches.iter().enumerate() {
+            let (l, works) = (touch.level, pair.contact_works[k]);
             self.state[layout.work(l)] += works.0;
             self.state[layout.impulse(l)] += works.1;
             let peaks = (&mut self.peaks.penetration[l], &mut self.peaks.force[l]);
-            note_contact(scene, span, k, peaks, start);
+            note_contact(scene, (pair, clock), k, peaks, start);
         }
     }
 }
@@ -367,44 +381,68 @@ fn begin(
 /// Takes the peaks of one closed level.
 fn note_contact(
     scene: &Scene<'_>,
-    span: &Span<'_>,
+    (pair, clock): (&mut Pair, &Clock),
     k: usize,
     (penetration, force): (&mut Peak, &mut Peak),
     start: f64,
 ) {
     let touch = &scene.touches[k];
     let level = &scene.system.levels()[touch.level];
+    let span = Span {
+        start: &pair.start,
+        end: &pair.end,
+        clock,
+    };
     let (a, b) = span.touch(k);
-    let (delta, rate) = (span.displacement(a, b), span.velocity(a, b));
-    let end = start + span.clock.offset(1.0);
+    let (first, last) = (pair.start.touches[k], pair.end.touches[k]);
+    let end = start + clock.offset(1.0);
     penetration.raise(b[0], end);
-    if a[1] * b[1] <= 0.0
-        && let Some((theta, top)) = maximum_above(&delta, penetration.value)
-    {
-        penetration.raise(top, start + span.clock.offset(theta));
-    }
-    let (first, last) = (&span.start.touches[k], &span.end.touches[k]);
     force.raise(first.force, start);
     force.raise(last.force, end);
-    if first.force_rate * last.force_rate > 0.0 {
+    let (turns, forced) = (
+        a[1] * b[1] <= 0.0,
+        first.force_rate * last.force_rate <= 0.0,
+    );
+    if !turns && !forced {
         return;
     }
+    let delta = span.displacement(a, b);
+    if turns && let Some((theta, top)) = maximum_above(&delta, penetration.value) {
+        penetration.raise(top, start + clock.offset(theta));
+    }
+    if !forced {
+        return;
+    }
+    let rate = span.velocity(a, b);
     let at = |theta: f64| {
         let (delta, rate) = (value(&delta, theta), value(&rate, theta));
         touch.contact.force(level, delta, rate).value
     };
     let nodes = fit_nodes();
     let mut samples = nodes.map(at);
-    samples[0] = span.start.touches[k].force;
-    samples[nodes.len() - 1] = span.end.touches[k].force;
+    samples[0] = first.force;
+    samples[nodes.len() - 1] = last.force;
     let fitted = fit(&samples);
-    if bound(&fitted) <= force.value * BELOW_PEAK {
+    let Some((theta, _)) = maximum_above(&fitted, force.value * BELOW_PEAK) else {
+        return;
+    };
+    if theta <= 0.0 || theta >= 1.0 {
         return;
     }
-    for (theta, sample) in nodes.iter().zip(samples) {
-        force.raise(sample, start + span.clock.offset(*theta));
-    }
-    if let Some((theta, _)) = maximum_above(&fitted, force.value * BELOW_PEAK) {
-        force.raise(at(theta), start + span.clock.offset(theta));
-    }
+    let now = pair.inside(scene, clock, (theta, k));
+    // Where the rate of change is zero: the fit tells how it goes on from here.
+    let bend = value(&derivative(&derivative(&fitted)), theta);
+    let by_time = clock.span() * clock.rate(theta);
+    let change = now.force_rate * by_time;
+    let left = (-0.5 * change * change / bend).clamp(0.0, CORRECTION * now.force.abs());
+    let left = if bend < 0.0 { left } else { 0.0 };
+    let time = start + clock.offset((theta - change / bend).clamp(0.0, 1.0));
+    force.raise(
+        now.force + left,
+        if left > 0.0 {
+            time
+        } else {
+            start + clock.offset(theta)
+        },
+    );
 }

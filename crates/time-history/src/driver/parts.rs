@@ -113,7 +113,7 @@ pub(super) struct Parts {
 
 impl Parts {
     /// `None` for what is no row.
-    pub(super) fn new(system: &System, constants: &ContactFree) -> Option<Self> {
+    pub(super) fn new(system: &System, constants: &ContactFree, tolerance: f64) -> Option<Self> {
         let buildings = system.buildings().len();
         let lanes = constants.modes.len();
         if buildings < ROW || lanes < LANES[1] || !system.sections().is_empty() {
@@ -137,7 +137,7 @@ impl Parts {
             touching: vec![false; buildings],
             part_of: vec![0; buildings],
             ranges: Vec::with_capacity(buildings),
-            lengths: vec![StepLength::new(); buildings],
+            lengths: vec![StepLength::new(tolerance); buildings],
             acceleration_known: vec![false; buildings],
             free: FreeSample::new(constants),
             whole: true,

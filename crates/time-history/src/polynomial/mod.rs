@@ -61,6 +61,14 @@ pub(crate) fn difference(a: &Polynomial, b: &Polynomial) -> Polynomial {
     std::array::from_fn(|k| a[k] - b[k])
 }
 
+/// Coefficients with their signs changed. A loop, where closures over an array are calls.
+pub(crate) fn negated<const COUNT: usize>(mut p: [f64; COUNT]) -> [f64; COUNT] {
+    for c in &mut p {
+        *c = -*c;
+    }
+    p
+}
+
 /// Cheap bound of the absolute value on the unit interval.
 pub(crate) fn bound(p: &Polynomial) -> f64 {
     p.iter().map(|c| c.abs()).sum()
@@ -235,7 +243,7 @@ pub(crate) fn maximum_above(p: &Polynomial, floor: f64) -> Option<(f64, f64)> {
         };
         return (top > floor).then_some((theta, top));
     }
-    let falling = derivative(p).map(|c| -c);
+    let falling = negated(derivative(p));
     let mut search = Search {
         function: p,
         falling: &falling,
@@ -254,7 +262,7 @@ pub(crate) fn absolute_maximum(p: &Polynomial, floor: f64) -> Option<(f64, f64)>
     }
     let up = maximum_above(p, floor);
     let level = up.map_or(floor, |(_, top)| top);
-    maximum_above(&p.map(|c| -c), level).or(up)
+    maximum_above(&negated(*p), level).or(up)
 }
 
 /// Branch and bound on the Bernstein hull; `level` is the best value so far.

@@ -69,6 +69,18 @@ pub fn fixed(value: f64, decimals: usize) -> String {
     }
 }
 
+/// With this many decimals, rounded up: what suffices suffices as it is shown. What is above the digits shown by less
+/// than a millionth of their last is round-off.
+#[must_use]
+pub fn rounded_up(value: f64, decimals: usize) -> String {
+    let scale = libm::pow(10.0, decimals as f64);
+    let up = (value * scale - 1.0e-6).ceil() / scale;
+    match up.is_finite() {
+        true => fixed(up, decimals),
+        false => fixed(value, decimals),
+    }
+}
+
 /// With this many decimals, or with three digits and an exponent where the decimals would make a
 /// zero of what is none.
 #[must_use]

@@ -6,8 +6,13 @@ use crate::estimate::short;
 use crate::system::System;
 use crate::warnings::Warning;
 
-/// Height (m) that no storey reaches, and no pier.
-const HEIGHT: f64 = 400.0;
+/// Height (m) that hardly any storey reaches, and hardly any pier.
+const HEIGHT: f64 = 100.0;
+/// Heights (m) from which on millimetres were meant, and not centimetres or inches.
+const HEIGHT_IN_MILLIMETRES: f64 = 1000.0;
+/// Mass (kg) of hardly any floor of a building, in storeys of at least this height (m): a square metre of a slab has as
+/// much.
+const LEAST_FLOOR: (f64, f64) = (500.0, 2.0);
 /// Damping ratios of the fundamental mode that dampers give at most, and that a structure has at least (-).
 const DAMPING: (f64, f64) = (0.5, 1.0e-4);
 /// Period on soil over that on a fixed base (-) beyond which no building is left on such soil.
@@ -46,7 +51,13 @@ fn in_millimetres(length: f64) -> String {
 }
 
 fn of_building(building: &ShearBuilding) -> Vec<Warning> {
-    let said = [height(building), damping(building), soft_soil(building)];
+    let said = [
+        height(building),
+        light_floor(building),
+        upside_down(building),
+        damping(building),
+        soft_soil(building),
+    ];
     let said = said.into_iter().flatten().chain(isolators(building));
     said.map(|says| Warning::UnusualValue {
         of: building.name().to_owned(),
@@ -59,11 +70,48 @@ fn height(building: &ShearBuilding) -> Option<String> {
     let storeys = building.height().iter().enumerate();
     let (storey, height) = storeys.max_by(|a, b| a.1.total_cmp(b.1))?;
     (*height > HEIGHT).then(|| {
+        let meant = match *height > HEIGHT_IN_MILLIMETRES {
+            true => in_millimetres(*height),
+            false => format!(
+                "check the unit; \"{0} cm\" would be {1} m, and \"{0} in\" {2} m",
+                short(*height),
+                short(0.01 * height),
+                short(0.0254 * height)
+            ),
+        };
+        format!("storey {} is {} m high: {meant}", storey + 1, short(*height))
+    })
+}
+
+/// A floor as light as none, in a storey as high as a building's: one in t without its unit, or all of a system of
+/// units that is not that of SI, in which periods are right and forces are not.
+fn light_floor(building: &ShearBuilding) -> Option<String> {
+    let (least, height) = LEAST_FLOOR;
+    let floors = building.mass().iter().zip(building.height()).enumerate();
+    let light = floors.filter(|(_, (mass, high))| **mass < least && **high >= height);
+    let (floor, (mass, _)) = light.min_by(|a, b| a.1.0.total_cmp(b.1.0))?;
+    Some(format!(
+        "floor {} has {} kg, in a storey of {} m: check the unit; a mass without one is in kg, a stiffness in N/m, a length in m",
+        floor + 1,
+        short(*mass),
+        short(building.height()[floor])
+    ))
+}
+
+/// A stiffness matrix whose first mode is greatest at the lowest floor: rows from the roof down.
+fn upside_down(building: &ShearBuilding) -> Option<String> {
+    let own = building.without_foundation();
+    if own.isolator().is_some() || own.elastic_stiffness_matrix().is_none() {
+        return None;
+    }
+    let modes = own.modes();
+    let shape = modes.shape.column(modes.fundamental());
+    let floors = own.mass().len();
+    let (lowest, roof) = (shape[0].abs(), shape[floors - 1].abs());
+    (lowest > roof).then(|| {
         format!(
-            "storey {} is {} m high: {}",
-            storey + 1,
-            short(*height),
-            in_millimetres(*height)
+            "in its first mode the lowest floor moves {} times as far as the roof: rows and columns of a stiffness matrix stand from the lowest floor up",
+            short(lowest / roof)
         )
     })
 }

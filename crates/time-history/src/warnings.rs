@@ -25,7 +25,7 @@ const PERIODS: (f64, f64) = (0.005, 20.0);
 const SMALL_MASS: (f64, f64, f64) = (1000.0, 2.0, 0.2);
 /// Drift ratio at yield that no storey is below: a thousandth of what storeys have at least, as with a
 /// yield force in N where kN are meant.
-const YIELD_DRIFT_RATIO: f64 = 5.0e-6;
+const YIELD_DRIFT_RATIO: f64 = 5.0e-5;
 /// Peak ground acceleration (g) that strong records hardly exceed.
 const GROUND_ACCELERATION: f64 = 3.0;
 /// Drift ratio beyond which buildings are no longer what the case says.

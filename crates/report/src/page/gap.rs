@@ -254,15 +254,24 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             answer.say(&at("governing/provided"), 1.0e3),
         ),
     };
+    let fallen = match collapsed {
+        0 => String::new(),
+        some => format!(
+            ", of which {some} count as such because a building collapses without contact"
+        ),
+    };
     points.push(format!(
-        "{} of {} {} its buildings into contact; {} may.{governs}",
+        "{} of {} {} it{fallen}; {} may (probability of contact {} to {} at {} confidence).{governs}",
         answer.at(&at("records_in_contact")),
         counted(records, "record"),
-        agreeing(&records, "brings", "bring"),
+        agreeing(&records, "closes", "close"),
         match allowed {
             0 => "none".to_owned(),
             some => some.to_string(),
         },
+        answer.say(&at("contact_probability_bounds/0"), 1.0),
+        answer.say(&at("contact_probability_bounds/1"), 1.0),
+        answer.say_percent("/confidence"),
     ));
     let driven = answer.at(&at("records_driven_by_neighbours")).as_u64();
     let driven = driven.filter(|count| *count > 0);

@@ -127,6 +127,14 @@ fn points(answer: Answer<'_>) -> Vec<String> {
             remarks.map(|r| format!("{name}: {}.", answer.quote(&at(&format!("remarks/{r}"))))),
         );
     }
+    let of_level = |level: &Value| level["collapsed"].as_u64();
+    let collapsed: u64 = answer.list("/levels").iter().filter_map(of_level).sum();
+    if collapsed > 0 {
+        points.push(format!(
+            "<strong>In {} a building collapses</strong>, which counts as pounding and as reaching every limit.",
+            counted(collapsed as usize, "run")
+        ));
+    }
     for (g, gap) in answer.list("/gaps").iter().enumerate() {
         let at = |path: &str| format!("/gaps/{g}/{path}");
         let name = named(gap["gap"].as_str().unwrap_or_default());

@@ -1,10 +1,28 @@
 //! Numbers as engineers write them.
 
+use pounding_catalogue::numbers::rounded_up;
+
 /// Parts of the names of numbers that may be as small as they like: round-off leaves none of them.
 const SMALL: [&str; 4] = ["mean_annual_frequency", "/hazard/", "residual", "p_value"];
 
-/// Four figures of the number of this name or path; a dash for what is not known.
+/// Parts of the names of widths that are asked for: as they are shown they suffice.
+const REQUIRED: [&str; 3] = ["/required", "required/by_count", "required/lognormal/width"];
+
+/// Four figures of the number of this name or path, of a width that is asked for at least those; a dash for what is
+/// not known.
 pub(super) fn figures_of(name: &str, x: f64) -> String {
+    let is_required = |part: &&str| match part.contains("required/") {
+        true => name.contains(*part),
+        false => name.ends_with(*part),
+    };
+    if x.is_finite() && x > 0.0 && REQUIRED.iter().any(|part| is_required(&part)) {
+        let shown = figures(x);
+        let decimals = shown.split_once('.').map_or(0, |(_, after)| after.len());
+        return match shown.contains('e') {
+            true => shown,
+            false => rounded_up(x, decimals),
+        };
+    }
     match SMALL.iter().any(|part| name.contains(part)) {
         true => figures_above(0.0, x),
         false => figures(x),

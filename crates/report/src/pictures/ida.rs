@@ -91,10 +91,10 @@ fn curves(report: &IdaReport) -> Vec<Plot> {
                 look: Look::summary(dash),
             });
         }
-        // Where half of the records are shown: the greatest are few.
+        // As far as the fractiles reach, of which those among collapses are not finite: the greatest records are few.
         let finite = |x: &f64| x.is_finite();
-        let upper = report.levels.iter().map(|l| 100.0 * l.fractiles[index][2]);
-        let upper = upper.filter(finite).fold(0.0, f64::max);
+        let fractiles = report.levels.iter().flat_map(|l| l.fractiles[index]);
+        let upper = fractiles.map(|x| 100.0 * x).filter(finite).fold(0.0, f64::max);
         let horizontal = Axis::linear("maximum drift ratio (%)");
         let all = report.curves[index].iter().flatten();
         let largest = all.map(|x| 100.0 * x).filter(finite).fold(0.0, f64::max);

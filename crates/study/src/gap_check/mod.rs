@@ -51,7 +51,7 @@ pub(crate) use demand::levels;
 pub(crate) use parallel::in_parallel;
 pub(crate) use parallel::{Ending, runs_in_parallel};
 #[cfg(feature = "results")]
-pub(crate) use records::across_of_another;
+pub(crate) use records::{across_of_another, on_grounds_of_their_own};
 pub(crate) use records::warnings;
 #[cfg(feature = "results")]
 pub(crate) use records::{of_each_record, of_reading, said_in_reading};

@@ -6,8 +6,8 @@ use std::mem::discriminant;
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::{Assembly, AssemblyError, assemble, assemble_under_another_record};
-use pounding_case::{Case, GroundMotion, Located};
-use pounding_catalogue::wording::one_line;
+use pounding_case::{Building, Case, GroundMotion, Located};
+use pounding_catalogue::wording::{agreeing, one_line};
 use pounding_ground_motion::{Accelerogram, Offset};
 use pounding_time_history::Warning;
 
@@ -45,6 +45,9 @@ pub(crate) fn warnings(case: &Case, records: &[CaseUnderRecord]) -> Vec<String> 
     told.extend(of_reading(read));
     told.extend(of_each_record(excitation));
     told.extend(beside_that_across(case, records));
+    let own = case.resolve(&case.ground_motion.file.value);
+    let others = records.iter().filter(|r| r.file != own).count();
+    told.extend(on_grounds_of_their_own(case, others));
     told
 }
 
@@ -111,6 +114,27 @@ fn beside_that_across(case: &Case, records: &[CaseUnderRecord]) -> Option<String
         .collect();
     let remedy = "records of a study have their own";
     across_of_another(&named, records.len(), (across, remedy))
+}
+
+/// What the user should know of buildings that have a record of their own, which they keep under so many
+/// other records than that of the case.
+pub(crate) fn on_grounds_of_their_own(case: &Case, records: usize) -> Option<String> {
+    let has_own = |b: &&Building| b.ground.as_ref().is_some_and(|g| g.value.motion.is_some());
+    let names = case.buildings.iter().filter(has_own);
+    let names: Vec<String> = names.map(|b| format!("\"{}\"", b.name.value)).collect();
+    if records == 0 || names.is_empty() {
+        return None;
+    }
+    Some(format!(
+        "{} {} under the record of {} own in `ground` while {} the place of that of the case: neighbours move with different earthquakes; leave `file` out of `ground`, or give a `delay` there",
+        names.join(", "),
+        agreeing(&names.len(), "stays", "stay"),
+        agreeing(&names.len(), "its", "their"),
+        match records {
+            1 => "another record takes".to_owned(),
+            some => format!("{some} records take"),
+        },
+    ))
 }
 
 /// The warning of these of so many records.

@@ -29,7 +29,7 @@ use crate::design::Design;
 use crate::error::StudyError;
 use crate::gap_check::{Repeated, of_each_record, of_reading};
 use crate::study_file::{
-    IntensityMeasure, RecordKind, Study, Target, Value, Values, Variable, beside_that_across,
+    IntensityMeasure, RecordKind, Study, Target, Value, Values, Variable, beside_that_across, on_grounds_of_their_own,
 };
 use pounding_files::checksum::hexadecimal;
 
@@ -132,6 +132,7 @@ impl<'s> Runner<'s> {
             )
         }));
         warnings.extend(beside_that_across(study));
+        warnings.extend(on_grounds_of_their_own(study));
         let told = || motions.all.iter().zip(&study.records);
         warnings.extend(of_reading(told().filter_map(|(motion, source)| {
             Some((source.name.as_str(), motion.as_ref().ok()?.warnings.clone()))

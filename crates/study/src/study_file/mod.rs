@@ -27,7 +27,7 @@ pub use intensity::IntensityMeasure;
 pub use pounding_results::study::Value;
 pub use read::study_schema;
 pub(crate) use readings::Readings;
-pub(crate) use records::beside_that_across;
+pub(crate) use records::{beside_that_across, on_grounds_of_their_own};
 pub use values::{Spacing, Values};
 pub(crate) use varied_entry::VariedEntry;
 use varied_entry::{set_all, set_numbers};

@@ -158,6 +158,14 @@ pub(crate) fn beside_that_across(study: &Study) -> Option<String> {
     across_of_another(&kept, study.records.len(), (across, remedy))
 }
 
+/// The same of buildings with records of their own.
+pub(crate) fn on_grounds_of_their_own(study: &Study) -> Option<String> {
+    let varies = |v: &Variable| matches!(v.target, Target::Record);
+    let some = study.variables.iter().any(varies);
+    let records = if some { study.records.len() } else { 0 };
+    crate::gap_check::on_grounds_of_their_own(&study.base, records)
+}
+
 /// Reads `records` and `synthetic` of a variable.
 pub(super) fn records(
     reader: &Reader<'_>,

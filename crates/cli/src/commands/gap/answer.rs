@@ -1,5 +1,6 @@
 //! The answer for a gap, before everything else.
 
+use pounding_catalogue::numbers::{rounded_up, six_digits};
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_separation::Requirement;
 use pounding_study::gap_check::{
@@ -91,6 +92,15 @@ fn driven(gap: &GapReport) -> String {
     )
 }
 
+/// A width that is provided (m) in mm: one decimal, or as many as it has.
+fn in_millimetres(provided: f64) -> String {
+    let (shown, all) = (format!("{:.1}", provided * 1e3), six_digits(provided * 1e3));
+    match all.len() > shown.len() {
+        true => all,
+        false => shown,
+    }
+}
+
 /// The level that decides where levels have different widths, and by how much.
 fn governing(check: &GapCheck, gap: &GapReport) -> String {
     if gap.of_one_width() || gap.required.by_count.is_none() {
@@ -102,11 +112,11 @@ fn governing(check: &GapCheck, gap: &GapReport) -> String {
         left => format!("{left:.2} mm left"),
     };
     format!(
-        "  level {} governs: required {:.2} mm (the demand of {}), provided {:.1} mm, {left}\n",
+        "  level {} governs: required {} mm (the demand of {}), provided {} mm, {left}\n",
         gap.levels[governing.level].place.label(),
-        governing.required * 1e3,
+        rounded_up(governing.required * 1e3, 2),
         check.records[governing.record].name,
-        governing.provided * 1e3,
+        in_millimetres(governing.provided),
     )
 }
 
@@ -124,12 +134,12 @@ fn required(check: &GapCheck, gap: &GapReport) -> String {
         );
     };
     let mut text = format!(
-        "  {} {:.2} mm by count ({} of {} may touch)",
+        "  {} {} mm by count ({} of {} may touch)",
         match gap.of_one_width() {
             true => "required",
             false => "one width at all levels would have to be",
         },
-        by_count * 1e3,
+        rounded_up(by_count * 1e3, 2),
         required.allowed_contacts,
         counted(gap.records(), "record"),
     );
@@ -143,10 +153,10 @@ fn required(check: &GapCheck, gap: &GapReport) -> String {
     text.push('\n');
     match &required.lognormal {
         Ok(fit) => text.push_str(&format!(
-            "  lognormal demand (median {:.2} mm, dispersion {:.3}): {:.2} mm is exceeded with probability {p}; {confidence} % bounds {:.2} to {:.2} mm\n",
+            "  lognormal demand (median {:.2} mm, dispersion {:.3}): {} mm is exceeded with probability {p}; {confidence} % bounds {:.2} to {:.2} mm\n",
             fit.median * 1e3,
             fit.dispersion,
-            fit.width * 1e3,
+            rounded_up(fit.width * 1e3, 2),
             fit.bounds.0 * 1e3,
             fit.bounds.1 * 1e3,
         )),
@@ -163,8 +173,8 @@ fn provided(gap: &GapReport) -> String {
     }
     let level = &gap.levels[gap.governing.level];
     format!(
-        "  provided {:.1} mm at level {}, where the demand is the maximum\n",
-        level.width * 1e3,
+        "  provided {} mm at level {}, where the demand is the maximum\n",
+        in_millimetres(level.width),
         level.place.label()
     )
 }
@@ -361,7 +371,7 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
             shown(displacement[0]),
             shown(displacement[1]),
             widths(&width.requirement),
-            format!("{:.1}", provided * 1e3),
+            in_millimetres(*provided),
             reached.to_owned(),
             width.provision.name().to_owned(),
             width.provision.status().name().to_owned(),

@@ -473,7 +473,7 @@ fn page_shows_the_governing_level() {
     let Some(told) = asked_of_page(&by_level, &expressions) else {
         return;
     };
-    assert_eq!(told[0], json!(["Gap demand at level 2-2", "91.81 mm"]));
+    assert_eq!(told[0], json!(["Gap demand at level 2-2", "91.82 mm"]));
     assert_eq!(told[1], json!(["Provided width at level 2-2", "100 mm"]));
     let rows = json!([
         ["1-1", "60", "49.45", "0"],

@@ -152,14 +152,109 @@ fn masses_that_no_storey_has() {
         ],
     );
     assert_eq!(warned.check.len(), 1, "{:?}", warned.check);
-    for (from, to) in [
-        ("height = \"3 m\"", "height = \"0.5 m\""),
-        ("3.46 MN/m", "0.03 MN/m"),
-        ("[25, 20]", "[25, 1500]"),
-    ] {
-        let plausible = said(&bare.replace(from, to));
-        assert!(plausible.check.is_empty(), "{to}: {:?}", plausible.check);
+    let model = said(&bare.replace("height = \"3 m\"", "height = \"0.5 m\""));
+    assert!(model.check.is_empty(), "{:?}", model.check);
+    // Softer, as in another system of units, or one floor alone: what the floor has is said.
+    for (from, to) in [("3.46 MN/m", "0.03 MN/m"), ("[25, 20]", "[1500, 20]")] {
+        let warned = said(&bare.replace(from, to));
+        one(
+            &warned,
+            &[
+                "a: floor 2 has 20 kg, in a storey of 3 m",
+                "a mass without one is in kg",
+            ],
+        );
+        assert_eq!(warned.check.len(), 1, "{:?}", warned.check);
     }
+}
+
+/// Heights in cm, and a stiffness matrix with its rows from the roof down, of which periods say nothing.
+#[test]
+fn storeys_in_centimetres_and_matrices_upside_down() {
+    let high = CASE.replace("height = \"3 m\"", "height = 300");
+    one(
+        &said(&high),
+        &["a: storey 2 is 300 m high", "\"300 cm\" would be 3 m"],
+    );
+    let matrix = |rows: &str| {
+        let case = CASE.replacen(
+            "stiffness = \"3.46 MN/m\"",
+            &format!("stiffness_matrix = {rows}"),
+            1,
+        );
+        said(&case.replacen(
+            "{ stiffness_proportional = 0.05 }",
+            "{ ratio = 0.05, modes = [1, 2] }",
+            1,
+        ))
+    };
+    let sound = matrix("[[6.92e6, -3.46e6], [-3.46e6, 3.46e6]]");
+    assert!(sound.check.is_empty(), "{:?}", sound.check);
+    one(
+        &matrix("[[3.46e6, -3.46e6], [-3.46e6, 6.92e6]]"),
+        &[
+            "a: in its first mode the lowest floor moves 1.62 times as far as the roof",
+            "from the lowest floor up",
+        ],
+    );
+}
+
+/// A building that keeps a record of its own while the others are under another one, and a demand that
+/// still grows when the record ends: `gap` and `sweep` say so.
+#[test]
+fn records_that_stay_and_records_that_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let record = |steps: usize, amplitude: f64| {
+        let rows = (0..steps).map(|i| {
+            let t = 0.01 * i as f64;
+            format!("{t:.2},{:.6}\n", amplitude * (6.0 * t).sin())
+        });
+        format!("time (s),acceleration (m/s2)\n{}", rows.collect::<String>())
+    };
+    write("record.csv", &record(400, 2.0));
+    write("other.csv", &record(40, -2.0));
+    let case = CASE.replace("duration = \"2 s\"\n", "");
+    let own = case.replacen(
+        "name = \"b\"",
+        "name = \"b\"\nground = { file = \"record.csv\" }",
+        1,
+    );
+    write("case.toml", &case);
+    write("own.toml", &own);
+    write(
+        "study.toml",
+        "case = \"own.toml\"\n[[variable]]\nrecords = [\"other.csv\"]\n",
+    );
+    let told = |arguments: &str| {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .args(arguments.split(' '))
+            .current_dir(folder.path())
+            .output()
+            .unwrap();
+        let both = [output.stdout, output.stderr].concat();
+        String::from_utf8(both)
+            .unwrap()
+            .split_whitespace()
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let stays = "\"b\" stays under the record of its own in `ground` while";
+    for command in [
+        "gap own.toml --points 0 --records other.csv",
+        "sweep study.toml -o out.h5",
+    ] {
+        assert!(
+            told(command).contains(stays),
+            "{command}: {}",
+            told(command)
+        );
+    }
+    assert!(!told("gap own.toml --points 0").contains(stays));
+    let ends = "a demand is greatest at the last instant";
+    let short = told("gap case.toml --points 0 --records other.csv");
+    assert!(short.contains(&format!("other: {ends}")), "{short}");
+    assert!(!told("gap case.toml --points 0").contains(ends));
 }
 
 /// 40 kN over 3.46 MN/m are 11.6 mm; in N they are 0.0116 mm, with which the run would take steps of

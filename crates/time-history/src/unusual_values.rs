@@ -4,7 +4,7 @@ use pounding_shear_building::ShearBuilding;
 
 use crate::estimate::short;
 use crate::system::System;
-use crate::warnings::Warning;
+use crate::warnings::{SMALL_MASS, Warning};
 
 /// Height (m) that hardly any storey reaches, and hardly any pier.
 const HEIGHT: f64 = 100.0;
@@ -89,6 +89,13 @@ fn light_floor(building: &ShearBuilding) -> Option<String> {
     let (least, height) = LEAST_FLOOR;
     let floors = building.mass().iter().zip(building.height()).enumerate();
     let light = floors.filter(|(_, (mass, high))| **mass < least && **high >= height);
+    // All of them light and stiff: that is said by itself.
+    let (small, _, stiff) = SMALL_MASS;
+    let modes = building.modes();
+    let all_small = building.mass().iter().all(|mass| *mass < small);
+    if all_small && modes.period.get(modes.fundamental()).is_some_and(|period| *period < stiff) {
+        return None;
+    }
     let (floor, (mass, _)) = light.min_by(|a, b| a.1.0.total_cmp(b.1.0))?;
     Some(format!(
         "floor {} has {} kg, in a storey of {} m: check the unit; a mass without one is in kg, a stiffness in N/m, a length in m",

@@ -22,7 +22,7 @@ const PERIODS: (f64, f64) = (0.005, 20.0);
 /// A mass (kg) that no floor of a building falls below, the height (m) from which storeys are those of
 /// a building and not of a model of one, and a period (s) that models and light buildings exceed:
 /// with all masses a thousand times as large a building of 6 s has it.
-const SMALL_MASS: (f64, f64, f64) = (1000.0, 2.0, 0.2);
+pub(crate) const SMALL_MASS: (f64, f64, f64) = (1000.0, 2.0, 0.2);
 /// Drift ratio at yield that no storey is below: a thousandth of what storeys have at least, as with a
 /// yield force in N where kN are meant.
 const YIELD_DRIFT_RATIO: f64 = 5.0e-5;

@@ -196,7 +196,7 @@ fn the_level_of_the_least_margin_governs() {
         );
         assert!(shown.contains(verdict), "{shown}");
         assert!(
-            shown.contains("one width at all levels would have to be 117.16 mm by count"),
+            shown.contains("one width at all levels would have to be 117.17 mm by count"),
             "{shown}"
         );
         let found = json(&gap_in(folder.path(), &["--points", "0", "--json"]))["gaps"][0].clone();

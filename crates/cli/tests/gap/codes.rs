@@ -201,7 +201,7 @@ fn seven_records_one_code() {
     }
     for number in [
         "148.95 mm by count",
-        "152.96 mm",
+        "152.97 mm",
         "144.77 to 172.89 mm",
         "TOO SMALL",
     ] {

@@ -27,6 +27,12 @@ const elements = (() => {
     if (size !== 0 && (size < 1e-3 || size >= 1e7)) return x.toExponential(digits - 1).replace("e+", "e");
     return String(rounded);
   };
+  // A width that is asked for, so that it suffices as it is shown.
+  const shownAtLeast = (x) => {
+    const text = shown(x);
+    const step = 10 ** -(text.split(".")[1] || "").length;
+    return Number(text) >= x * (1 - 1e-9) ? text : shown(Number(text) + step);
+  };
   // A ratio with two decimals, as pages of results have it.
   const ratio = (x) => (!Number.isFinite(x) ? "–" : x >= 1e4 ? x.toExponential(1).replace("e+", "e") : x.toFixed(2));
   // A text as a value of a table of comma-separated values, as those of the command line have it: what a
@@ -69,5 +75,5 @@ const elements = (() => {
     link.remove();
     setTimeout(() => URL.revokeObjectURL(address), 60000);
   };
-  return { part, html, svg, shown, ratio, quoted, counted, clean, ticks, more, save };
+  return { part, html, svg, shown, shownAtLeast, ratio, quoted, counted, clean, ticks, more, save };
 })();

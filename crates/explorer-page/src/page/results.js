@@ -1,7 +1,7 @@
 "use strict";
 // The answer of the run: in numbers, storey by storey, and its impacts over time.
 const resultsOf = (documentation) => {
-  const { part, html, svg, shown, ratio, quoted, counted, ticks, more } = elements;
+  const { part, html, svg, shown, shownAtLeast, ratio, quoted, counted, ticks, more } = elements;
   const GAP_CHECK = "reference/gap-check.md";
   const RESULT = "reference/result-file.md";
   const most = (values) => values.reduce((m, x) => (x > m ? x : m), 0);
@@ -30,7 +30,7 @@ const resultsOf = (documentation) => {
   // What a gap demands; a building that collapses without contact leaves that unknown.
   const demandOf = (demand, name, where) => {
     const known = Number.isFinite(demand);
-    const text = known ? `${shown(1e3 * demand)} mm` : "not known";
+    const text = known ? `${shownAtLeast(1e3 * demand)} mm` : "not known";
     const means = known
       ? `the width that the buildings without contact would just not close${where}`
       : "without contact a building collapses, or cannot be followed to the end";

@@ -257,7 +257,8 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     let fallen = match collapsed {
         0 => String::new(),
         some => format!(
-            ", of which {some} count as such because a building collapses without contact"
+            ", of which {some} {} because a building collapses without contact",
+            agreeing(&some, "counts as such", "count as such")
         ),
     };
     points.push(format!(

@@ -369,6 +369,7 @@ pub fn gap_check_dealt(
         gaps.push(report);
         roofs.extend(lower_roof::left_out(&place));
     }
+    let at_the_end = records::greatest_at_the_end(records, &demands);
     let sweep = swept.map(|asked| {
         let tell = |done, _| progress(records.len() + done, total);
         let identity = || identity("gap", asked, case, records);
@@ -390,6 +391,7 @@ pub fn gap_check_dealt(
         warnings: warnings(case, records)
             .into_iter()
             .chain(roofs)
+            .chain(at_the_end)
             .chain(separation.warnings())
             .chain(repeated.warnings(&names))
             .collect(),

@@ -11,6 +11,7 @@ use pounding_catalogue::wording::{agreeing, one_line};
 use pounding_ground_motion::{Accelerogram, Offset};
 use pounding_time_history::Warning;
 
+use super::demand::RecordDemand;
 use super::error::CheckError;
 
 /// A record with the case put under it.
@@ -102,6 +103,37 @@ pub(crate) fn of_each_record<'r>(found: impl Iterator<Item = (&'r str, Warning)>
     let told = kinds.into_iter();
     told.map(|(name, warning, of)| and_more(format!("{name}: {warning}"), of.len() - 1))
         .collect()
+}
+
+/// What the user should know of records at whose end a gap would have to be widest: the buildings go on.
+pub(crate) fn greatest_at_the_end(
+    records: &[CaseUnderRecord],
+    demands: &[RecordDemand],
+) -> Option<String> {
+    let ends = |demand: &&RecordDemand| {
+        let of = records.iter().find(|record| record.name == demand.name);
+        let end = of.map(|record| {
+            let assembly = &record.assembly;
+            let whole = assembly.system.record_duration();
+            assembly.options.duration.unwrap_or(whole)
+        });
+        let mut gaps = demand.demand.iter().map(|levels| {
+            let greatest = levels.iter().max_by(|a, b| a.value.total_cmp(&b.value));
+            greatest.map(|peak| (peak.value, peak.time))
+        });
+        gaps.any(|peak| match (peak, end) {
+            (Some((value, time)), Some(end)) => value > 0.0 && time >= end * (1.0 - 1.0e-9),
+            _ => false,
+        })
+    };
+    let mut named = demands.iter().filter(ends).map(|d| d.name.as_str());
+    let first = named.next()?;
+    Some(and_more(
+        format!(
+            "{first}: a demand is greatest at the last instant, and may grow on: let the run go on after the record by `process = [{{ pad = {{ after = \"10 s\" }} }}]`, or by `duration` in [analysis] for the record of the case"
+        ),
+        named.count(),
+    ))
 }
 
 /// What the user should know of records that stand beside the record across the row that the case

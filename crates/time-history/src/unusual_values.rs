@@ -79,7 +79,11 @@ fn height(building: &ShearBuilding) -> Option<String> {
                 short(0.0254 * height)
             ),
         };
-        format!("storey {} is {} m high: {meant}", storey + 1, short(*height))
+        format!(
+            "storey {} is {} m high: {meant}",
+            storey + 1,
+            short(*height)
+        )
     })
 }
 
@@ -93,7 +97,12 @@ fn light_floor(building: &ShearBuilding) -> Option<String> {
     let (small, _, stiff) = SMALL_MASS;
     let modes = building.modes();
     let all_small = building.mass().iter().all(|mass| *mass < small);
-    if all_small && modes.period.get(modes.fundamental()).is_some_and(|period| *period < stiff) {
+    if all_small
+        && modes
+            .period
+            .get(modes.fundamental())
+            .is_some_and(|period| *period < stiff)
+    {
         return None;
     }
     let (floor, (mass, _)) = light.min_by(|a, b| a.1.0.total_cmp(b.1.0))?;

@@ -11,11 +11,11 @@ const REQUIRED: [&str; 3] = ["/required", "required/by_count", "required/lognorm
 /// Four figures of the number of this name or path, of a width that is asked for at least those; a dash for what is
 /// not known.
 pub(super) fn figures_of(name: &str, x: f64) -> String {
-    let is_required = |part: &&str| match part.contains("required/") {
-        true => name.contains(*part),
-        false => name.ends_with(*part),
+    let is_required = |part: &str| match part.contains("required/") {
+        true => name.contains(part),
+        false => name.ends_with(part),
     };
-    if x.is_finite() && x > 0.0 && REQUIRED.iter().any(|part| is_required(&part)) {
+    if x.is_finite() && x > 0.0 && REQUIRED.iter().any(|part| is_required(part)) {
         let shown = figures(x);
         let decimals = shown.split_once('.').map_or(0, |(_, after)| after.len());
         return match shown.contains('e') {

@@ -94,7 +94,10 @@ fn curves(report: &IdaReport) -> Vec<Plot> {
         // As far as the fractiles reach, of which those among collapses are not finite: the greatest records are few.
         let finite = |x: &f64| x.is_finite();
         let fractiles = report.levels.iter().flat_map(|l| l.fractiles[index]);
-        let upper = fractiles.map(|x| 100.0 * x).filter(finite).fold(0.0, f64::max);
+        let upper = fractiles
+            .map(|x| 100.0 * x)
+            .filter(finite)
+            .fold(0.0, f64::max);
         let horizontal = Axis::linear("maximum drift ratio (%)");
         let all = report.curves[index].iter().flatten();
         let largest = all.map(|x| 100.0 * x).filter(finite).fold(0.0, f64::max);

@@ -50,9 +50,9 @@ pub(crate) use demand::levels;
 #[cfg(feature = "results")]
 pub(crate) use parallel::in_parallel;
 pub(crate) use parallel::{Ending, runs_in_parallel};
+pub(crate) use records::warnings;
 #[cfg(feature = "results")]
 pub(crate) use records::{across_of_another, on_grounds_of_their_own};
-pub(crate) use records::warnings;
 #[cfg(feature = "results")]
 pub(crate) use records::{of_each_record, of_reading, said_in_reading};
 pub use systems::rebuilt;

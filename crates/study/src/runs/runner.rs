@@ -29,7 +29,8 @@ use crate::design::Design;
 use crate::error::StudyError;
 use crate::gap_check::{Repeated, of_each_record, of_reading};
 use crate::study_file::{
-    IntensityMeasure, RecordKind, Study, Target, Value, Values, Variable, beside_that_across, on_grounds_of_their_own,
+    IntensityMeasure, RecordKind, Study, Target, Value, Values, Variable, beside_that_across,
+    on_grounds_of_their_own,
 };
 use pounding_files::checksum::hexadecimal;
 

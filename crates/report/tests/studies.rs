@@ -94,7 +94,7 @@ fn the_answer_of_a_gap_check_comes_first() {
     for text in [
         "EN 1998-1:2004 gives no answer for gap &lt;img",
         "data-factor=\"1e3\" value=\"21.10\">21.10</data> mm are required",
-        "1 of 2 records bring its buildings into contact; none may.",
+        "1 of 2 records close it; none may.",
         "Level 1-1 governs:",
         "<li>A width of",
         "is needed so that no record closes it",

@@ -254,6 +254,16 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             answer.say(&at("governing/provided"), 1.0e3),
         ),
     };
+    // Answers of early versions have none.
+    let probability = match answer.at(&at("contact_probability_bounds")).is_array() {
+        false => String::new(),
+        true => format!(
+            " (probability of contact {} to {} at {} confidence)",
+            answer.say(&at("contact_probability_bounds/0"), 1.0),
+            answer.say(&at("contact_probability_bounds/1"), 1.0),
+            answer.say_percent("/confidence"),
+        ),
+    };
     let fallen = match collapsed {
         0 => String::new(),
         some => format!(
@@ -262,7 +272,7 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
         ),
     };
     points.push(format!(
-        "{} of {} {} it{fallen}; {} may (probability of contact {} to {} at {} confidence).{governs}",
+        "{} of {} {} it{fallen}; {} may{probability}.{governs}",
         answer.at(&at("records_in_contact")),
         counted(records, "record"),
         agreeing(&records, "closes", "close"),
@@ -270,9 +280,6 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
             0 => "none".to_owned(),
             some => some.to_string(),
         },
-        answer.say(&at("contact_probability_bounds/0"), 1.0),
-        answer.say(&at("contact_probability_bounds/1"), 1.0),
-        answer.say_percent("/confidence"),
     ));
     let driven = answer.at(&at("records_driven_by_neighbours")).as_u64();
     let driven = driven.filter(|count| *count > 0);

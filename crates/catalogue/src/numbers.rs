@@ -153,6 +153,21 @@ mod tests {
         );
     }
 
+    /// 207.943 mm do not suffice where 207.94 are shown; round-off of 117.2 mm asks for no more.
+    #[test]
+    fn what_suffices_suffices_as_it_is_shown() {
+        for (value, decimals, text) in [
+            (207.943_117, 2, "207.95"),
+            (207.943_117, 1, "208.0"),
+            (117.200_000_000_000_02, 1, "117.2"),
+            (20.0, 2, "20.00"),
+            (0.0, 2, "0.00"),
+            (1234.1, 0, "1235"),
+        ] {
+            assert_eq!(rounded_up(value, decimals), text);
+        }
+    }
+
     #[test]
     fn small_numbers_are_no_zeros() {
         for (value, text) in [

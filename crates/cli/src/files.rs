@@ -6,27 +6,42 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use pounding_files::{
-    AskedOfTargets, FileUse, LeftOver, PartFile, ask_of_targets, left_over, tell_of_replaced,
+    AskedOfTargets, FileUse, LeftOver, PartFile, ask_of_targets, left_over, left_over_in,
+    tell_of_replaced,
 };
 use pounding_report::Answered;
 use pounding_results::{Kind, Label};
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
-use pounding_study::{ShardName, is_shard_of_check};
+use pounding_study::{RECORDS_FOLDER, ShardName, is_shard_of_check};
 
 use crate::arguments::InputPath;
 use crate::failure::Failure;
+use crate::heartbeat;
 use crate::output::note;
 use crate::separate::is_child;
 
 /// Names the part files of an output that a killed process has left behind. They stay: on a
 /// file system that several machines share, another one may write them.
 pub fn name_left_over(output: &Path) {
-    for LeftOver { path, process } in left_over(output) {
-        note(&format!(
-            "{} is an unfinished file of process {process}, which does not run on this machine: unless another machine is writing it, delete it",
-            path.display()
-        ));
+    left_over(output).iter().for_each(name_unfinished);
+}
+
+/// The same of all files of a folder of shards, and of those in which its shards tell of themselves and share their records.
+pub fn name_left_over_in(folder: &Path) {
+    for folder in [
+        folder.to_owned(),
+        folder.join(heartbeat::FOLDER),
+        folder.join(RECORDS_FOLDER),
+    ] {
+        left_over_in(&folder).iter().for_each(name_unfinished);
     }
+}
+
+fn name_unfinished(LeftOver { path, process }: &LeftOver) {
+    note(&format!(
+        "{} is an unfinished file of process {process}, which does not run on this machine: unless another machine is writing it, delete it",
+        path.display()
+    ));
 }
 
 /// The records that arguments name, with those in folders; files in folders that are no records

@@ -19,7 +19,7 @@ const SILENT: Duration = Duration::from_secs(90);
 /// More runs a second, or a time (s), than there can be.
 const LONGEST: f64 = 1.0e15;
 /// The folder of these files in that of the shards.
-const FOLDER: &str = "status";
+pub const FOLDER: &str = "status";
 
 /// What a shard does, or how it ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]

@@ -185,6 +185,8 @@ impl Now {
         let part = self.done as f64 / self.total.max(1) as f64;
         let seconds = elapsed.as_secs_f64();
         let mut line = match self.unit {
+            // Records are read before the runs are counted.
+            Unit::Runs if self.total == 0 => "no run begun".to_owned(),
             Unit::Runs => format!(
                 "{} of {} ({:.0} %)",
                 self.done,
@@ -267,7 +269,7 @@ mod tests {
         );
         assert_eq!(
             line(now(Unit::Runs, 0, 0, ""), 60.0),
-            "0 of 0 runs (0 %), 60 s elapsed"
+            "no run begun, 60 s elapsed"
         );
         assert_eq!(
             line(now(Unit::Part, 250, 1000, ""), 3600.0),

@@ -185,7 +185,8 @@ impl Scene {
             };
             let (left_walls, right_walls) = (here(0), here(1));
             if !left_walls.is_empty() {
-                let wall = scene.add(WALL, None, 0.25 * width, vec![top(building)]);
+                let top = top_of_wall(row, (&left_walls, 1), top(building));
+                let wall = scene.add(WALL, None, 0.25 * width, vec![top]);
                 left_walls.iter().for_each(|g| body_of[*g][0] = wall);
                 scene.offsets += widest(row, &left_walls);
             }
@@ -211,7 +212,8 @@ impl Scene {
             }
             if !right_walls.is_empty() {
                 scene.offsets += widest(row, &right_walls);
-                let wall = scene.add(WALL, None, 0.25 * width, vec![top(building)]);
+                let top = top_of_wall(row, (&right_walls, 0), top(building));
+                let wall = scene.add(WALL, None, 0.25 * width, vec![top]);
                 right_walls.iter().for_each(|g| body_of[*g][1] = wall);
             }
         }
@@ -311,6 +313,15 @@ impl Scene {
     }
 }
 
+/// How high a wall beside a building is drawn (m): to its highest level in these gaps, of which the building is on this
+/// side; to the roof where no level says.
+fn top_of_wall(row: &Row, (gaps, side): (&[usize], usize), roof: f64) -> f64 {
+    let levels = gaps.iter().flat_map(|g| &row.gaps[*g].levels);
+    let elevations = levels.map(|(elevations, _)| elevations[side]);
+    let highest = elevations.filter(|z| *z > 0.0).reduce(f64::max);
+    highest.map_or(roof, |z| z.min(roof))
+}
+
 /// The width of the widest level of some gaps (m).
 fn widest(row: &Row, gaps: &[usize]) -> f64 {
     let levels = gaps.iter().flat_map(|g| &row.gaps[*g].levels);
@@ -352,5 +363,24 @@ mod tests {
         assert_eq!((many.size, many.turned), (0.45, true));
         assert_eq!(many.shown[19], "building 20");
         assert!(many.below > 0.6 * 0.45 * 11.0, "{}", many.below);
+    }
+
+    /// The wall of a moat reaches as far as it is met, a fire wall to the roof.
+    #[test]
+    fn walls_are_as_high_as_they_are_met() {
+        let wall = |levels: &[f64]| {
+            let row = Row {
+                buildings: vec![("base isolated".to_owned(), vec![0.5, 4.0, 8.0])],
+                gaps: vec![RowGap {
+                    between: [Neighbour::Building(0), Neighbour::Wall],
+                    levels: levels.iter().map(|z| ([*z, f64::NAN], 0.3)).collect(),
+                }],
+                reach: 0.2,
+            };
+            Scene::of(&row).bodies[1].elevation.clone()
+        };
+        assert_eq!(wall(&[0.5]), [0.5]);
+        assert_eq!(wall(&[0.5, 4.0, 8.0]), [8.0]);
+        assert_eq!(wall(&[]), [8.0]);
     }
 }

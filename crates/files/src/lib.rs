@@ -16,5 +16,5 @@ mod part_file;
 pub use file_use::{FileUse, FileUseError, same_file};
 pub use part_file::{
     AskedOfTargets, LeftOver, PartFile, PlaceTaken, ask_of_targets, free_name, left_over,
-    remove_left_by, remove_part_files, runs_here, tell_of_replaced, write,
+    left_over_in, remove_left_by, remove_part_files, runs_here, tell_of_replaced, write,
 };

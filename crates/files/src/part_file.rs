@@ -184,6 +184,7 @@ impl PartFile {
             .write(true)
             .open(&self.path)?
             .sync_all()?;
+        keep_permissions(&self.path, &self.target);
         let mut all = standing();
         if let Some(part) = self.part.take() {
             let placed = place(part, (&self.named, &self.target), may);
@@ -208,6 +209,14 @@ impl Drop for PartFile {
             let _ = part.close();
             all.retain(|p| *p != self.path);
         }
+    }
+}
+
+/// Gives a new file the permissions of the one that it replaces. A file system that has none, or somebody else's, keeps
+/// those of a new file.
+fn keep_permissions(part: &Path, target: &Path) {
+    if let Ok(before) = target.metadata() {
+        let _ = std::fs::set_permissions(part, before.permissions());
     }
 }
 
@@ -384,12 +393,31 @@ pub struct LeftOver {
 pub fn left_over(target: &Path) -> Vec<LeftOver> {
     let target = behind_links(target);
     let start = start_of_name(&target);
-    let entries = std::fs::read_dir(folder_of(&target)).into_iter().flatten();
+    let mut left = left_in(folder_of(&target), |name| name.strip_prefix(&start));
+    for part in &mut left {
+        // As the target is named.
+        part.path = target.with_file_name(part.path.file_name().unwrap_or_default());
+    }
+    left
+}
+
+/// The same of all targets in a folder.
+#[must_use]
+pub fn left_over_in(folder: &Path) -> Vec<LeftOver> {
+    left_in(folder, |name| {
+        // Neither the process nor what follows it holds a dot.
+        let part = name.strip_suffix(ENDING)?.rsplit_once('.')?.1;
+        Some(&name[name.len() - ENDING.len() - part.len()..])
+    })
+}
+
+/// The part files in a folder, of whose names this is left behind the target's.
+fn left_in(folder: &Path, behind: impl Fn(&str) -> Option<&str>) -> Vec<LeftOver> {
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
     let names = entries.filter_map(|entry| entry.ok().map(|e| e.file_name()));
     let left = |name: OsString| {
-        let path = target.with_file_name(&name);
-        let name = name.to_str()?;
-        let middle = name.strip_prefix(&start)?.strip_suffix(ENDING)?;
+        let path = folder.join(&name);
+        let middle = behind(name.to_str()?)?.strip_suffix(ENDING)?;
         let (process, random) = middle.split_once('-')?;
         let random = !random.is_empty() && random.bytes().all(|b| b.is_ascii_alphanumeric());
         let process = process.parse().ok().filter(|_| random)?;
@@ -615,6 +643,25 @@ mod tests {
         symlink("nothing", at("nowhere")).unwrap();
         assert!(write(&at("nowhere"), b"x").is_err());
         assert_eq!(names(folder.path()), ["farther", "link", "nowhere"]);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn permissions_of_what_is_replaced_stay() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a");
+        write(&target, b"before").unwrap();
+        let mode = || target.metadata().unwrap().permissions().mode() & 0o777;
+        let new = mode();
+        for own in [0o600, 0o640, 0o666] {
+            std::fs::set_permissions(&target, std::fs::Permissions::from_mode(own)).unwrap();
+            write(&target, b"after").unwrap();
+            assert_eq!(mode(), own);
+        }
+        std::fs::remove_file(&target).unwrap();
+        write(&target, b"new").unwrap();
+        assert_eq!(mode(), new);
     }
 
     #[test]

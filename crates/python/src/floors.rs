@@ -20,6 +20,9 @@ use crate::watch::watched;
 /// Progress is told in parts of this.
 const WHOLE: usize = 1000;
 
+/// Part of the time that runs take, about; spectra take the rest.
+const RUNS: f64 = 0.1;
+
 /// Floors as Python names them, or the roofs.
 type Floors = Option<Vec<(String, usize)>>;
 
@@ -72,10 +75,11 @@ fn floor_spectra_json<'py>(
             periods: &periods,
             dampings: &dampings,
         };
-        let motions = FloorMotions::new(&assembly, wanted, &mut |part| {
-            watch.ask((part * WHOLE as f64) as usize, WHOLE)
+        let tell = |part: f64| watch.ask((part * WHOLE as f64) as usize, WHOLE);
+        let motions = FloorMotions::new(&assembly, wanted, &mut |part| tell(RUNS * part));
+        let spectra = motions.and_then(|motions| {
+            motions.spectra(&periods, &mut |part| tell(RUNS + (1.0 - RUNS) * part))
         });
-        let spectra = motions.and_then(|motions| motions.spectra(&periods));
         json(&spectra.map_err(failed)?)
     })?;
     Ok(made?)

@@ -113,7 +113,12 @@ fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
     for method in ["tolist", "isoformat"] {
         // Arrays and numbers of NumPy; days. A class of such has the method without a value.
         if value.hasattr(method)? && !is_class {
-            return of(&value.call_method0(method)?, path, depth + 1);
+            let made = value.call_method0(method)?;
+            // A number of NumPy that Python has no type for comes back as it is.
+            if made.get_type().is(&value.get_type()) {
+                break;
+            }
+            return of(&made, path, depth + 1);
         }
     }
     // The order of a set is none.

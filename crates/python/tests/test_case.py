@@ -323,6 +323,25 @@ def test_values_beyond_any_case_have_their_place(value: object, pair_dict: dict)
     assert told.value.help
 
 
+def test_long_doubles_are_numbers(pair_dict: dict) -> None:
+    def written(mass: object) -> str:
+        pair_dict["building"][0]["mass"] = mass
+        return pounding.Case.from_dict(pair_dict).source
+
+    assert written(np.longdouble(25e3)) == written(25e3)
+    of_storeys = [25e3, 26e3, 27e3]
+    assert written(np.array(of_storeys, np.longdouble)) == written(of_storeys)
+
+
+def test_ragged_lists_are_refused_as_all_else() -> None:
+    for call in (
+        lambda: pounding.Motion([[1], [1, 2]], 0.01),
+        lambda: pounding.spectrum(pounding.Motion([0, 1.0], 0.01), [[1], [1, 2]]),
+    ):
+        with pytest.raises(pounding.CaseError, match="no list of numbers"):
+            call()
+
+
 def test_a_day_is_the_text_of_one(pair_dict: dict) -> None:
     pair_dict["separation"] = {"date": datetime.date(2018, 3, 22)}
     assert 'date = "2018-03-22"' in pounding.Case.from_dict(pair_dict).source

@@ -75,3 +75,20 @@ def test_what_has_no_spectrum_is_refused(arguments: dict[str, object], message: 
     with pytest.raises(pounding.PoundingError, match=message) as refused:
         pounding.floor_spectra(PAIR, **arguments)  # type: ignore[arg-type]
     assert refused.value.help
+
+
+def test_spectra_tell_how_far_they_are_and_can_be_ended() -> None:
+    periods = np.geomspace(0.05, 4.0, 200)
+    told: list[tuple[int, int]] = []
+    pounding.floor_spectra(
+        PAIR, periods=periods, progress=lambda done, total: told.append((done, total))
+    )
+    assert told == sorted(told)
+    assert told[-1][0] == told[-1][1]
+
+    def end(done: int, total: int) -> None:
+        if 2 * done > total:
+            raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        pounding.floor_spectra(PAIR, periods=np.geomspace(0.05, 4.0, 2000), progress=end)

@@ -449,7 +449,11 @@ impl Reader {
             law: self.text(group, "law")?,
             levels: self.levels(group)?,
             deformation: self.column(group, "peak/deformation")?,
+            deformation_time: self.column(group, "peak/deformation_time")?,
             force: self.column(group, "peak/force")?,
+            force_time: self.column(group, "peak/force_time")?,
+            deformations: self.table(group, "deformation")?,
+            forces: self.table(group, "force")?,
             energy_dissipated: columns.map(last).collect(),
         })
     }

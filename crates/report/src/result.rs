@@ -241,10 +241,41 @@ pub struct LinkResult {
     pub units: [String; 2],
     /// Peak deformation.
     pub deformation: Vec<f64>,
+    /// When it comes (s).
+    pub deformation_time: Vec<f64>,
     /// Peak force, or moment between rotations.
     pub force: Vec<f64>,
+    /// When it comes (s).
+    pub force_time: Vec<f64>,
+    /// Deformation over time, a column for each level.
+    pub deformations: Table,
+    /// The same of the force, positive in tension.
+    pub forces: Table,
     /// Energy dissipated by the end (J).
     pub energy_dissipated: Vec<f64>,
+}
+
+impl LinkResult {
+    /// Whether it joins rotations of foundations, so that moments take the place of forces.
+    #[must_use]
+    pub fn turns(&self) -> bool {
+        self.units[0] == "rad"
+    }
+
+    /// The level with the greatest force.
+    #[must_use]
+    pub fn governing_level(&self) -> Option<usize> {
+        let levels = 0..self.force.len();
+        levels.max_by(|a, b| self.force[*a].total_cmp(&self.force[*b]))
+    }
+
+    /// Whether the greatest force of a level is one in tension, by the output times; `None` without a force.
+    #[must_use]
+    pub fn in_tension(&self, level: usize) -> Option<bool> {
+        let all = (level < self.forces.columns).then(|| self.forces.column(level))?;
+        let greatest = all.fold(0.0_f64, |m, f| if f.abs() > m.abs() { f } else { m });
+        (greatest != 0.0).then_some(greatest > 0.0)
+    }
 }
 
 /// Energies over time (J).

@@ -10,6 +10,7 @@ mod attributes;
 mod chunks;
 pub mod dimension_scales;
 mod hdf5_file;
+mod inputs;
 mod label;
 mod run;
 pub mod study;
@@ -20,6 +21,7 @@ use std::path::Path;
 
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum, check};
 
+pub use inputs::Inputs;
 pub use label::{Kind, Label, OfStudy};
 pub use run::{
     MAXIMUM_RESPONSES, ResponsesTooLarge, RunEnding, RunHead, RunWriter, WriteError, check_size,

@@ -134,6 +134,14 @@ pub enum StudyError {
         /// What it is.
         reason: String,
     },
+    /// An output in the place of a file that the result was made of.
+    #[error("{path} is not replaced: it is a {what} of this study")]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// What it is.
+        what: &'static str,
+    },
     /// The name of a shard for another result, by which commands would take it for that shard.
     #[error("{path} has the name of a shard, {shard}, which the result is not")]
     NamedAsShard {
@@ -286,6 +294,7 @@ impl StudyError {
             Self::NotMerged { .. } => {
                 "name another result with -o, merge this one with the others, or move it away if it is of no use"
             }
+            Self::Input { .. } => "give the output another name",
             Self::NotUtf8 { .. } => "rename the file, or the folder, in UTF-8",
             Self::NamedAsShard { .. } => "name another result with -o",
             Self::Busy { .. } => "wait for it, or name another result with -o",

@@ -68,7 +68,7 @@ pub use fractiles::fractile;
 #[cfg(feature = "results")]
 pub use ida::*;
 #[cfg(feature = "results")]
-pub use merge::{MergeReport, merge, read_by_study};
+pub use merge::{MergeReport, merge, read_by_study, refuse_name_of_shard};
 #[cfg(feature = "results")]
 pub use pounding_results::study::{
     Coordinate, Description, Fault, MergeOptions, Part, ResultReader, StudyFileError, Survey,
@@ -76,7 +76,8 @@ pub use pounding_results::study::{
 };
 #[cfg(feature = "results")]
 pub use runs::{
-    Axis, Ending, IsolatedQuantities, IsolatedRun, Layout, Place, Quantity, RecordReport, Row,
+    Axis, Ending, IsolatedQuantities, IsolatedRun, Layout, Place, Quantity, RECORDS_FOLDER,
+    RecordReport, Row,
 };
 #[cfg(feature = "results")]
 pub use shard_name::ShardName;

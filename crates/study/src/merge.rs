@@ -4,8 +4,8 @@ use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
 use pounding_files::FileUse;
-use pounding_results::Label;
 use pounding_results::study::{Description, MergeOptions, ResultWriter, Shards};
+use pounding_results::{Inputs, Label};
 
 use crate::error::StudyError;
 use crate::shard_name::ShardName;
@@ -36,7 +36,7 @@ pub struct MergeReport {
 ///
 /// # Errors
 /// [`StudyError::FileUse`] if the output or the table is one of the files, or one that the study reads,
-/// as [`Shards::open`], [`StudyError::NamedAsShard`], [`StudyError::NotMerged`] if runs of the study would be lost that stand
+/// or was made of ([`StudyError::Input`]), as [`Shards::open`], [`StudyError::NamedAsShard`], [`StudyError::NotMerged`] if runs of the study would be lost that stand
 /// in the place of the output alone, or [`StudyError::ResultFile`].
 pub fn merge(
     files: &[PathBuf],
@@ -66,6 +66,9 @@ pub fn merge(
     let whole = shards.description();
     refuse_name_of_shard(output, None)?;
     spare_what_is_not_merged(&shards, output)?;
+    for path in [Some(output), csv].into_iter().flatten() {
+        spare_inputs(whole, path)?;
+    }
     let mut writer = ResultWriter::create(output, whole, shards.count()?)?;
     if let Some(study) = study_file(files, whole, output) {
         writer = writer.of_study_file(whole, &study);
@@ -107,6 +110,21 @@ pub fn read_by_study(shards: &[PathBuf]) -> Vec<(&'static str, PathBuf)> {
     files
 }
 
+/// A file that the study was made of stays, even where the shards do not lead to it, as from another folder.
+fn spare_inputs(whole: &Description, path: &Path) -> Result<(), StudyError> {
+    let inputs = Inputs {
+        texts: &[&whole.study, &whole.case],
+        records: &whole.records,
+    };
+    match inputs.holds(path) {
+        Some(what) => Err(StudyError::Input {
+            path: path.to_owned(),
+            what,
+        }),
+        None => Ok(()),
+    }
+}
+
 /// The study file that the merged result says it is of, as one call would: that of the shards, under
 /// the default name of the whole.
 fn study_file(shards: &[PathBuf], merged: &Description, output: &Path) -> Option<PathBuf> {
@@ -120,7 +138,10 @@ fn study_file(shards: &[PathBuf], merged: &Description, output: &Path) -> Option
 
 /// What is no shard, or is another one, has no name of a shard: in a folder of shards it would be
 /// taken for that.
-pub(crate) fn refuse_name_of_shard(output: &Path, own: Option<Shard>) -> Result<(), StudyError> {
+///
+/// # Errors
+/// [`StudyError::NamedAsShard`].
+pub fn refuse_name_of_shard(output: &Path, own: Option<Shard>) -> Result<(), StudyError> {
     let name = output.file_name().map(|name| name.to_string_lossy());
     let is_other = |named: &ShardName| {
         own.is_none_or(|own| (own.index, own.count) != (named.index, named.count))

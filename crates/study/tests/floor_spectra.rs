@@ -28,7 +28,25 @@ fn roofs_of_the_three_storey_pair() {
         dampings: &[0.05],
     };
     let motions = FloorMotions::new(&assembly, wanted, &mut |_| ControlFlow::Continue(())).unwrap();
-    let found = motions.spectra(&periods).unwrap();
+    let mut parts = Vec::new();
+    let found = motions.spectra(&periods, &mut |part| {
+        parts.push(part);
+        ControlFlow::Continue(())
+    });
+    let found = found.unwrap();
+    assert!(parts.is_sorted() && parts.last() == Some(&1.0), "{parts:?}");
+    let stopped = motions.spectra(&periods, &mut |_| ControlFlow::Break(()));
+    assert!(matches!(stopped, Err(FloorSpectraError::Stopped)));
+    // Each period by itself, however many are asked for at once.
+    let many: Vec<f64> = (1..40).map(|i| 0.05 * f64::from(i)).collect();
+    let goes_on = &mut |_| ControlFlow::Continue(());
+    let all = motions.spectra(&many, goes_on).unwrap();
+    let one = motions.spectra(&many[37..38], goes_on).unwrap();
+    let [all, one] = [&all, &one].map(|s| &s.floors[0].spectra[0].pounding);
+    assert_eq!(
+        (all.periods.len(), all.acceleration[37]),
+        (39, one.acceleration[0])
+    );
     let light = &found.floors[0].spectra[0];
     let alone = light.alone.as_ref().unwrap();
     assert!(light.pounding.acceleration[0] > 20.0 * alone.acceleration[0]);

@@ -1,9 +1,12 @@
-//! Values of buildings and joints that hardly any has, more likely a slip of the unit or of the key.
+//! Values of buildings, joints and links that hardly any has, more likely a slip of the unit or of the key.
 
+use pounding_catalogue::STANDARD_GRAVITY;
+use pounding_hysteresis::laboratory::{self, Step};
+use pounding_hysteresis::{HysteresisLaw, Motion};
 use pounding_shear_building::ShearBuilding;
 
 use crate::estimate::short;
-use crate::system::System;
+use crate::system::{LinkedMotion, System};
 use crate::warnings::{SMALL_MASS, Warning};
 
 /// Height (m) that hardly any storey reaches, and hardly any pier.
@@ -24,7 +27,12 @@ const YIELD_DISPLACEMENT: f64 = 0.5;
 /// Width (m) of no seat.
 const SEAT: f64 = 30.0;
 
-/// Warnings of all buildings and joints.
+/// Deformations (m) to which a link is drawn and pushed, at a metre a second: beyond the last no floors move.
+const DEFORMATIONS: [f64; 7] = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0];
+/// Force of a link over the weight of the lighter building (-) below which nobody needs the link.
+const LINK_FORCE: f64 = 1.0e-3;
+
+/// Warnings of all buildings, joints and links.
 pub(crate) fn of(system: &System) -> Vec<Warning> {
     let buildings = system.buildings().iter();
     let mut found: Vec<Warning> = buildings.flat_map(|b| of_building(b)).collect();
@@ -38,7 +46,63 @@ pub(crate) fn of(system: &System) -> Vec<Warning> {
             in_millimetres(seat)
         ),
     }));
+    let links = (0..system.links().len()).filter_map(|link| weak_link(system, link));
+    found.extend(links);
     found
+}
+
+/// A link that takes next to no force, whatever its floors do.
+fn weak_link(system: &System, index: usize) -> Option<Warning> {
+    let link = &system.links()[index];
+    if link.joins == LinkedMotion::FoundationRotation {
+        return None;
+    }
+    let buildings = system.buildings().iter();
+    let joined = buildings.filter(|b| link.between.iter().any(|name| name == b.name()));
+    let weights = joined.map(|b| STANDARD_GRAVITY * b.mass().iter().sum::<f64>());
+    let weight = weights.min_by(f64::total_cmp)?;
+    let levels = &system.elements()[link.first_element..link.first_element + link.levels];
+    let forces = levels.iter().map(|level| greatest_force(&*level.law));
+    let most = forces.fold(0.0, f64::max);
+    (most < LINK_FORCE * weight).then(|| {
+        let takes = match most > 0.0 {
+            true => format!(
+                "takes at most {} N within a metre either way at 1 m/s, {} times the weight of the lighter building",
+                short(most),
+                short(most / weight)
+            ),
+            false => "takes no force within a metre either way".to_owned(),
+        };
+        Warning::UnusualValue {
+            of: format!("link {}", link.name),
+            says: format!(
+                "it {takes}: check the units of its parameters; those without one are in N, N/m, N s/m and m"
+            ),
+        }
+    })
+}
+
+/// Greatest force (N) of a new element over [`DEFORMATIONS`] either way, or more.
+fn greatest_force(law: &dyn HysteresisLaw) -> f64 {
+    // Such a variable would be integrated along the path, which every run of a study would pay for.
+    if law.variable_bound().is_finite() {
+        let [.., furthest] = DEFORMATIONS;
+        return law.initial_stiffness() * furthest;
+    }
+    let forces = [1.0, -1.0].into_iter().flat_map(|side| {
+        let mut from = 0.0;
+        let steps = DEFORMATIONS.iter().map(|to| {
+            let motion = Motion {
+                deformation: side * to,
+                velocity: side,
+            };
+            let duration = to - from;
+            from = *to;
+            Step { motion, duration }
+        });
+        laboratory::drive_steps(law, steps)
+    });
+    forces.fold(0.0, |most, point| most.max(point.force.abs()))
 }
 
 /// What a length in metres would be if millimetres were meant.

@@ -43,6 +43,8 @@ pub(crate) const APPROACH_VELOCITY: f64 = 0.5;
 const ISOLATOR: (f64, f64) = (0.2, 0.7);
 /// Steps times floors from which a run takes long enough to say so.
 const LONG_RUN: f64 = 1.0e9;
+/// Part of a duration that is no more than its round-off.
+const SAME_TIME: f64 = 1.0e-12;
 /// Part of the largest input energy up to which what contacts give is the error of a method.
 const ROUND_OFF: f64 = 1.0e-4;
 
@@ -84,7 +86,7 @@ pub enum Warning {
     },
     /// A value that hardly any building or joint has, more likely a slip of the unit or the key.
     UnusualValue {
-        /// Building or gap.
+        /// Building, gap or link.
         of: String,
         /// The value, and what may be meant.
         says: String,
@@ -162,6 +164,15 @@ pub enum Warning {
         duration: f64,
         /// When the peak ground acceleration comes (s).
         peak: f64,
+    },
+    /// A run that ends while a floor is displaced most.
+    EndsAtPeak {
+        /// Name of the building.
+        building: String,
+        /// Storey below the floor, from 1.
+        storey: usize,
+        /// Duration of the run (s).
+        duration: f64,
     },
     /// A run that ends before a force is largest.
     EndsBeforeForce {
@@ -385,6 +396,15 @@ impl fmt::Display for Warning {
                 "the run ends at {} s, before the peak ground acceleration at {} s{place}, and what follows is left out: take a longer `duration`, or leave it out; where a filter puts zeros before the record, `keep_pads = false` in the filter leaves them out",
                 six_digits(*duration),
                 six_digits(*peak)
+            ),
+            Self::EndsAtPeak {
+                building,
+                storey,
+                duration,
+            } => write!(
+                f,
+                "{building}, floor above storey {storey}: the displacement is greatest where the run ends, at {} s, and may grow on: take a longer `duration`; a record that is too short goes on with `process = [{{ pad = {{ after = \"10 s\" }} }}]`",
+                six_digits(*duration)
             ),
             Self::EndsBeforeForce {
                 building,
@@ -745,6 +765,37 @@ impl Warning {
         })
     }
 
+    /// The warning of the first building whose displacement is greatest at the end of the run, unless it is `told` already
+    /// that more is to come.
+    fn ends_at_peak(
+        system: &System,
+        options: &RunOptions,
+        buildings: &[BuildingOutcome],
+        told: &[Self],
+    ) -> Option<Self> {
+        let is_short = |w: &Self| {
+            matches!(
+                w,
+                Self::EndsBeforePeak { .. } | Self::EndsBeforeForce { .. } | Self::NothingMoves
+            )
+        };
+        if told.iter().any(is_short) {
+            return None;
+        }
+        let duration = options.duration.unwrap_or_else(|| system.record_duration());
+        let last = duration * (1.0 - SAME_TIME);
+        buildings.iter().find_map(|building| {
+            let at_end = |peak: &Peak| peak.value > 0.0 && peak.time >= last;
+            let mut storeys = building.storeys.iter();
+            let storey = storeys.rposition(|s| at_end(&s.displacement))?;
+            Some(Self::EndsAtPeak {
+                building: building.name.clone(),
+                storey: storey + 1,
+                duration,
+            })
+        })
+    }
+
     /// What can be said of it afterwards.
     pub(crate) fn after(
         system: &System,
@@ -753,6 +804,7 @@ impl Warning {
         largest_input: f64,
     ) -> Vec<Self> {
         let mut warnings = standing(system, options);
+        warnings.extend(Self::ends_at_peak(system, options, buildings, &warnings));
         let event_driven = matches!(options.method, MethodChoice::EventDriven { .. });
         if let (true, Some(curved)) = (event_driven, system.first_curved_element()) {
             let place = system.place_of_element(curved);

@@ -7,6 +7,7 @@ use pounding_catalogue::wording::counted;
 use pounding_files::FileUse;
 use pounding_files::checksum::Checksum;
 use pounding_report::{Answered, ReportError, RunResult};
+use pounding_results::Inputs;
 use pounding_study::{ResultReader, Study};
 
 use crate::failure::Failure;
@@ -71,6 +72,9 @@ pub fn report(
         // HDF5, but no run: it may be a study.
         Err(no_run @ ReportError::NotAResult { .. }) => {
             let result = ResultReader::open(path, without).map_err(|_| page::failed(no_run))?;
+            let made_of = &result.description;
+            let texts = [made_of.study.as_str(), &made_of.case];
+            spare_inputs(&output, (&texts, &made_of.records))?;
             match asked.study {
                 Some(study) => page_of_study(study, &result, &output, &mut files)?,
                 None => page::write_sweep(&result, path, &output)?,
@@ -80,6 +84,7 @@ pub fn report(
         result => {
             let result = result.map_err(page::failed)?;
             no_study(asked, "the result of a run")?;
+            spare_inputs(&output, (&[&result.case], &result.record_sha256))?;
             page::write_run(&result, path, &output)?;
             let impacts: usize = result.gaps.iter().map(|g| g.impacts.len()).sum();
             let held = [
@@ -94,6 +99,21 @@ pub fn report(
         warnings(&read).iter().for_each(|text| warn(text));
     }
     print(&format!("{held}: page written to {}", output.display()))
+}
+
+/// A file that the result was made of is not replaced by its page.
+fn spare_inputs(output: &Path, (texts, records): (&[&str], &str)) -> Result<(), Failure> {
+    let inputs = Inputs { texts, records };
+    match inputs.holds(output) {
+        None => Ok(()),
+        Some(what) => Err(Failure::input(
+            format!(
+                "{} is not replaced: it is a {what} of this result",
+                output.display()
+            ),
+            Some("give the page another name with -o".to_owned()),
+        )),
+    }
 }
 
 /// The page of what another command has answered.

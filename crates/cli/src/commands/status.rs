@@ -17,6 +17,7 @@ use serde::Serialize;
 use crate::arguments::{StatusArguments, value};
 use crate::deal::is_shard;
 use crate::failure::Failure;
+use crate::files::name_left_over_in;
 use crate::heartbeat::{Beat, State, damaged, read, told};
 use crate::interruption::{resumed, shell_line};
 use crate::output::{note, pretty, print, print_as_it_is};
@@ -59,8 +60,14 @@ pub fn status(arguments: &StatusArguments) -> Result<(), Failure> {
                 // To the beginning of a screen that is empty from there on.
                 let _ = write!(std::io::stdout(), "\x1b[H\x1b[J");
             }
-            let told: Vec<String> = studies.iter().map(|s| s.told(&arguments.folder)).collect();
+            let told: Vec<String> = (studies.iter())
+                .map(|study| study.told(&arguments.folder, &studies))
+                .collect();
             print(&told.join("\n"))?;
+        }
+        // What running shards write, perhaps on other machines, is not left over.
+        if studies.iter().all(|study| study.running.is_empty()) {
+            name_left_over_in(&arguments.folder);
         }
         match (done, arguments.watch) {
             (true, _) => return Ok(()),
@@ -490,8 +497,30 @@ impl Progress {
         })
     }
 
-    /// How far all shards are, and what to do.
-    fn told(&self, folder: &Path) -> String {
+    /// The command that merges all shards, beside those of other studies that the folder may hold.
+    fn merging(&self, folder: &Path, all: &[Self]) -> String {
+        let head = shell_line(&[program(), "merge".to_owned()]);
+        let own = self.merged(folder);
+        let shards = match all.len() {
+            1 => shell_line(&[path_word(folder)]),
+            // What a shell makes of it: files of this study, dealt in so many shards.
+            _ => {
+                let start = format!("{}.shard-", self.name);
+                let start = shell_line(&[path_word(&folder.join(start))]);
+                format!("{start}*-of-{}.h5", self.shards)
+            }
+        };
+        let as_well = all.iter().filter(|other| other.merged(folder) == own);
+        let output = match as_well.count() > 1 || ShardName::of(&own.to_string_lossy()).is_some() {
+            true => PathBuf::from(format!("{}.of-{}.merged.h5", self.name, self.shards)),
+            false => own,
+        };
+        let last = shell_line(&["-o".to_owned(), path_word(&output)]);
+        format!("{head} {shards} {last}")
+    }
+
+    /// How far all shards are, and what to do; `all` are the studies in the folder.
+    fn told(&self, folder: &Path, all: &[Self]) -> String {
         let mut text = format!(
             "{}: {} of {} done in {}, {} finished",
             self.name,
@@ -553,13 +582,7 @@ impl Progress {
         if self.is_done() {
             text.push_str(&format!(
                 "merge them with\n  {}\n",
-                shell_line(&[
-                    program(),
-                    "merge".to_owned(),
-                    path_word(folder),
-                    "-o".to_owned(),
-                    path_word(&self.merged(folder))
-                ])
+                self.merging(folder, all)
             ));
         }
         text
@@ -602,7 +625,10 @@ impl Of {
 }
 
 fn how(beat: &Beat, found: Option<&Standing>) -> String {
-    let mut text = format!("{} of {}", beat.finished, counted(beat.runs, "run"));
+    let mut text = match beat.runs {
+        0 => "no run begun".to_owned(),
+        runs => format!("{} of {}", beat.finished, counted(runs, "run")),
+    };
     if beat.failed > 0 {
         text.push_str(&format!(", {} failed", beat.failed));
     }

@@ -25,7 +25,7 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
             into: arguments.sharing.into.as_deref(),
             planning: &arguments.planning,
         };
-        return plan::print_plan(&study, &planned, scheduler, arguments.json);
+        return plan::print_plan(&study, &planned, (scheduler, arguments.json), &mut files);
     }
     let shard = shard(&arguments.sharing, &arguments.running)?;
     let into = arguments.sharing.into.as_deref();

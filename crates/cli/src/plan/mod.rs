@@ -8,14 +8,16 @@ mod slurm;
 use std::path::Path;
 
 use pounding_catalogue::wording::counted;
-use pounding_study::{Study, Value, default_result};
+use pounding_files::FileUse;
+use pounding_study::{Study, Value, default_result, refuse_name_of_shard, writable};
 use serde::Serialize;
 
 use crate::arguments::{PlanArguments, RunningArguments, Scheduler, time_limit};
 use crate::failure::Failure;
+use crate::files::reads_too;
 use crate::interruption::{quoted, shell_line};
 use crate::output::{note, pretty, print, print_as_it_is};
-use crate::study::name;
+use crate::study::{name, table_has_a_place};
 
 /// What is planned: the command, as it was given.
 pub struct Planned<'p> {
@@ -74,13 +76,15 @@ struct Scripts<'p> {
     shell: String,
 }
 
-/// Prints how a study is dealt in shards, or one of the scripts.
+/// Prints how a study is dealt in shards, or one of the scripts. That the outputs have no place is found out now, not
+/// after the runs; `files` are those of the arguments.
 pub fn print_plan(
     study: &Study,
     planned: &Planned<'_>,
-    scheduler: Option<Scheduler>,
-    json: bool,
+    (scheduler, json): (Option<Scheduler>, bool),
+    files: &mut FileUse,
 ) -> Result<(), Failure> {
+    outputs_have_a_place(study, planned, files)?;
     let plan = Plan::of(study, planned)?;
     if !json {
         has_effect(planned.planning, scheduler)?;
@@ -106,6 +110,36 @@ pub fn print_plan(
         Some(Scheduler::Dask) => print_as_it_is(&dask::script(&plan)),
         Some(Scheduler::Shell) => print_as_it_is(&shell::script(&plan)),
         None => print(&plan.overview(study)),
+    }
+}
+
+/// Holds the outputs of the commands that a plan prints against the files of the study, as those commands will.
+fn outputs_have_a_place(
+    study: &Study,
+    planned: &Planned<'_>,
+    files: &mut FileUse,
+) -> Result<(), Failure> {
+    let running = planned.running;
+    let output = match &running.output {
+        Some(output) => output.to_path_buf(),
+        None => {
+            let output = default_result(&study.file);
+            files.writes("result", &output);
+            output
+        }
+    };
+    reads_too(files, study.files())?;
+    refuse_name_of_shard(&output, None)?;
+    writable(&output)?;
+    if let Some(csv) = &running.csv {
+        table_has_a_place(csv)?;
+    }
+    match planned.into {
+        Some(into) if into.exists() && !into.is_dir() => Err(Failure::input(
+            format!("--into {} is no folder", into.display()),
+            Some("name a folder for the results of the shards".to_owned()),
+        )),
+        _ => Ok(()),
     }
 }
 

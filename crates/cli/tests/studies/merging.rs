@@ -445,3 +445,62 @@ fn no_result_has_the_name_of_another_shard() {
     assert!(bench.bytes(&format!("all/{name}")) == before);
     bench.text(&format!("sweep study.toml --shard 1/3 -o {name}"));
 }
+
+/// Where a call does not find the study of its shards, as from another folder, the files that it was made of stay all
+/// the same: they are known by what they hold. So they do under the page of a result.
+#[test]
+fn inputs_stay_wherever_shards_are_merged() {
+    let bench = Bench::new(MIXED);
+    let motions = super::root().join("ground_motions");
+    for record in ["el_centro_1940_ns.csv", "kobe_1995_jma_ns.csv"] {
+        std::fs::copy(motions.join(record), bench.path(record)).unwrap();
+    }
+    for index in 1..=2 {
+        bench.text(&format!("sweep study.toml --shard {index}/2 --into all"));
+    }
+    bench.text("run case.toml -o run.h5");
+    bench.text("sweep study.toml -o whole.h5");
+    std::fs::rename(bench.path("study.toml"), bench.path("renamed.toml")).unwrap();
+    std::fs::copy(bench.path("case.toml"), bench.path("copy.toml")).unwrap();
+    let before = |name: &str| bench.bytes(name);
+    let records =
+        ["el_centro_1940_ns.csv", "kobe_1995_jma_ns.csv"].map(|name| (name, before(name)));
+    let elsewhere = tempfile::tempdir().unwrap();
+    let at = |name: &str| bench.path(name).display().to_string();
+    let calls = [
+        format!("merge {} -o {}", at("all"), at("el_centro_1940_ns.csv")),
+        format!(
+            "merge {} -o m.h5 --csv {}",
+            at("all"),
+            at("kobe_1995_jma_ns.csv")
+        ),
+        format!(
+            "merge {} -o {}",
+            at("whole.h5"),
+            at("el_centro_1940_ns.csv")
+        ),
+        format!(
+            "report {} -o {}",
+            at("whole.h5"),
+            at("kobe_1995_jma_ns.csv")
+        ),
+        format!("report {} -o {}", at("run.h5"), at("el_centro_1940_ns.csv")),
+    ];
+    for call in &calls {
+        let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+            .args(call.split(' '))
+            .current_dir(elsewhere.path())
+            .output()
+            .unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{call}: {told}");
+        assert!(
+            told.contains("is not replaced: it is a record of"),
+            "{call}: {told}"
+        );
+        for (name, content) in &records {
+            assert!(before(name) == *content, "{call}: {name}");
+        }
+    }
+    assert!(!elsewhere.path().join("m.h5").exists());
+}

@@ -364,3 +364,26 @@ values = ["0.05 g", "0.2 g", "0.4 g", "0.8 g"]
 [ida]
 gaps = ["20 mm"]
 "#;
+
+/// That a result has no place is said by the plan, not after its runs.
+#[test]
+fn a_plan_whose_result_has_no_place_is_refused() {
+    let bench = Bench::new(MIXED);
+    std::fs::write(bench.path("file"), "x").unwrap();
+    for (outputs, code, why) in [
+        ("-o case.toml", 2, "case.toml"),
+        ("-o a.shard-1-of-3.h5", 2, "has the name of a shard"),
+        ("-o none/x.h5", 4, "none"),
+        ("-o x.h5 --csv none/x.csv", 4, "none"),
+        ("-o x.h5 --into file", 2, "--into file is no folder"),
+    ] {
+        for planned in ["", "=shell", "=slurm"] {
+            let told =
+                bench.complaint(&format!("sweep study.toml --plan{planned} {outputs}"), code);
+            assert!(told.contains(why), "{outputs}: {told}");
+        }
+    }
+    std::fs::copy(bench.path("study.toml"), bench.path("own.h5")).unwrap();
+    bench.complaint("sweep own.h5 --plan", 2);
+    bench.text("sweep study.toml --plan -o x.h5");
+}

@@ -523,3 +523,66 @@ fn a_result_that_may_not_be_read_is_not_called_gone() {
         "{told}"
     );
 }
+
+/// Of two studies in one folder each is merged by what is shown for it, and so are two dealings of one, under names of
+/// their own.
+#[test]
+fn each_study_of_a_folder_is_merged_as_told() {
+    let bench = Bench::new(MIXED);
+    std::fs::copy(bench.path("study.toml"), bench.path("one of it.toml")).unwrap();
+    let other = std::fs::read_to_string(bench.path("study.toml")).unwrap();
+    std::fs::write(bench.path("other.toml"), format!("{other}\n# another\n")).unwrap();
+    let shard = |study: &str, shard: &str| {
+        let mut call = bench.command(&format!("sweep --shard {shard} --into mix"));
+        assert!(call.arg(study).output().unwrap().status.success());
+    };
+    for (study, count) in [("one of it.toml", 2), ("other.toml", 2), ("other.toml", 3)] {
+        (1..=count).for_each(|index| shard(study, &format!("{index}/{count}")));
+    }
+    let told = bench.text("status mix");
+    let merges: Vec<&str> = told
+        .lines()
+        .filter(|line| line.contains(" merge "))
+        .collect();
+    assert_eq!(merges.len(), 3, "{told}");
+    for line in merges {
+        let done = Command::new("sh")
+            .args(["-c", line])
+            .current_dir(bench.folder.path())
+            .output()
+            .unwrap();
+        assert!(done.status.success(), "{line}: {done:?}");
+    }
+    for result in [
+        "one of it.h5",
+        "other.of-2.merged.h5",
+        "other.of-3.merged.h5",
+    ] {
+        assert!(bench.path(result).exists(), "{result}: {told}");
+    }
+}
+
+/// What killed processes leave behind where shards tell of themselves and share records is named.
+#[test]
+fn part_files_beside_those_of_shards_are_named() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml --shard 1/2 --into all");
+    let left = [
+        "all/x.shard-1-of-2.h5.999999999-abCdeF.part",
+        "all/status/x.shard-1-of-2.json.999999999-abCdeF.part",
+        "all/records/list.json.999999999-abCdeF.part",
+    ];
+    for name in left {
+        std::fs::write(bench.path(name), "half").unwrap();
+    }
+    std::fs::write(bench.path("all/notes.part"), "a file of somebody").unwrap();
+    let output = bench.run("status all");
+    let told = String::from_utf8(output.stderr).unwrap();
+    for name in left {
+        assert!(
+            told.contains(&format!("{name} is an unfinished file")),
+            "{told}"
+        );
+    }
+    assert!(!told.contains("notes.part"), "{told}");
+}

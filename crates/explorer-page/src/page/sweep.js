@@ -183,14 +183,14 @@ const sweepOf = (state, background, dashes, actions) => {
       html(
         "details",
         { open: open[0] },
-        html("summary", {}, `Widths by ${known.length} provisions of codes and ${gap.combinations.length} rules: the dashed lines`),
+        html("summary", {}, `Widths by ${counted(known.length, "provision")} of codes and ${counted(gap.combinations.length, "rule")}: the dashed lines`),
         table([
           row("this record", gap.demand, "maximum approach of the buildings without contact", "demand"),
           ...known.map(code),
           ...gap.combinations.map((rule) => row(rule.name, rule.width, "combination of the peak displacements", "rule")),
         ]),
       ),
-      html("details", { open: open[1] }, html("summary", {}, `${others.length} provisions give no width`), table(others.map(code))),
+      html("details", { open: open[1] }, html("summary", {}, `${others.length === 1 ? "1 provision gives" : `${others.length} provisions give`} no width`), table(others.map(code))),
     );
   };
 

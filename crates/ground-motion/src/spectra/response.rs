@@ -191,6 +191,16 @@ impl ResponseSpectrum {
     }
 
     /// Adds the peaks of an oscillator of this period (s), above zero.
+    /// Adds the periods of another spectrum, of the same motion and damping.
+    pub fn append(&mut self, other: Self) {
+        self.periods.extend(other.periods);
+        self.displacement.extend(other.displacement);
+        self.velocity.extend(other.velocity);
+        self.acceleration.extend(other.acceleration);
+        self.pseudo_velocity.extend(other.pseudo_velocity);
+        self.pseudo_acceleration.extend(other.pseudo_acceleration);
+    }
+
     pub(super) fn push_peaks(&mut self, period: f64, peaks: &OscillatorPeaks) {
         let frequency = TAU / period;
         let displacement = peaks.displacement.value;

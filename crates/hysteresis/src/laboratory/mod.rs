@@ -82,7 +82,8 @@ pub fn drive(
 }
 
 /// Drives a new element step by step.
-fn drive_steps(
+#[must_use]
+pub fn drive_steps(
     law: &dyn HysteresisLaw,
     steps: impl IntoIterator<Item = Step>,
 ) -> Vec<LaboratoryPoint> {

@@ -22,9 +22,9 @@ __all__ = ["Motion", "formats", "measures", "read_motion", "spectrum"]
 
 def _real(values: npt.ArrayLike, name: str, of: str) -> npt.NDArray[np.float64]:
     """Real numbers along one dimension."""
-    if np.ma.is_masked(values) or np.iscomplexobj(values):
-        raise refused(f"{name} has masked or complex values", "give real numbers, all of them")
     try:
+        if np.ma.is_masked(values) or np.iscomplexobj(values):
+            raise refused(f"{name} has masked or complex values", "give real numbers, all of them")
         kind = np.asarray(values).dtype
         if kind.kind not in "iufO":
             raise refused(f"{name} has values of type {kind}", "give real numbers")

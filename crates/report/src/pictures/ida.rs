@@ -23,7 +23,12 @@ pub fn fragility(report: &IdaReport) -> Chart {
         .iter()
         .map(|state| (state.name.clone(), state))
         .collect();
-    plots.extend(panels(report, "Probability of a state", &states, highest));
+    // A single curve has no legend to name it.
+    let heading = match &states[..] {
+        [(name, _)] => format!("Probability of {name}"),
+        _ => "Probability of a state".to_owned(),
+    };
+    plots.extend(panels(report, &heading, &states, highest));
     for gap in &report.gaps {
         let widths: Vec<f64> = gap.widths.iter().map(|w| w.width * 1e3).collect();
         let results = gap.widths.iter().map(|w| &w.result);

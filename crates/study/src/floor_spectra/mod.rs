@@ -290,13 +290,25 @@ impl<'a> FloorMotions<'a> {
         })
     }
 
-    /// The spectra at these periods (s), none of which should be shorter than the shortest that the motions were made for.
+    /// The spectra at these periods (s), none of which should be shorter than the shortest that the motions were made for;
+    /// `progress` is told how far it is, from 0 to 1, and says whether to go on.
     ///
     /// # Errors
-    /// Periods that no spectrum has.
-    pub fn spectra(&self, periods: &[f64]) -> Result<FloorSpectra, FloorSpectraError> {
+    /// Periods that no spectrum has, and [`FloorSpectraError::Stopped`].
+    pub fn spectra(
+        &self,
+        periods: &[f64],
+        progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+    ) -> Result<FloorSpectra, FloorSpectraError> {
         let numbered = self.floors.iter().enumerate();
-        let floors = numbered.map(|(number, place)| self.of_floor(number, *place, periods));
+        let of_motion = 2 + usize::from(self.alone.is_some());
+        let mut work = Work {
+            done: 0,
+            total: self.floors.len() * self.dampings.len() * of_motion * periods.len(),
+            progress,
+        };
+        let floors =
+            numbered.map(|(number, place)| self.of_floor(number, *place, (periods, &mut work)));
         Ok(FloorSpectra {
             floors: floors.collect::<Result<_, _>>()?,
             impacts: impacts(&self.with.0),
@@ -309,7 +321,7 @@ impl<'a> FloorMotions<'a> {
         &self,
         number: usize,
         place: FloorPlace,
-        periods: &[f64],
+        (periods, work): (&[f64], &mut Work<'_>),
     ) -> Result<FloorWithSpectra, FloorSpectraError> {
         let building = &self.assembly.system.buildings()[place.building];
         let peak = |(outcome, _): &(Outcome, Motions)| {
@@ -318,9 +330,9 @@ impl<'a> FloorMotions<'a> {
         };
         let spectra = self.dampings.iter().map(|damping| {
             let (_, with) = &self.with;
-            let spectrum = |motion: &[FloorMotion]| floor_spectrum(motion, periods, *damping);
+            let mut spectrum = |motion: &[FloorMotion]| work.spectrum(motion, periods, *damping);
             Ok(SpectraOfFloor {
-                ground: spectrum_of_ground(&with[number], periods, *damping)?,
+                ground: spectrum(&of_ground(&with[number]))?,
                 pounding: spectrum(&with[number])?,
                 alone: match &self.alone {
                     Some((_, motions)) => Some(spectrum(&motions[number])?),
@@ -459,17 +471,53 @@ impl Recorder for PieceRecorder<'_> {
     }
 }
 
-/// The spectrum of the ground under a floor: of one that stays where it is.
-fn spectrum_of_ground(
-    motion: &[FloorMotion],
-    periods: &[f64],
-    damping: f64,
-) -> Result<ResponseSpectrum, GroundMotionError> {
+/// The motion of the ground below a floor, as of one that does not move on it.
+fn of_ground(motion: &[FloorMotion]) -> Vec<FloorMotion> {
     let still = |piece: &FloorMotion| FloorMotion {
         displacement: [0.0; 2],
         velocity: [0.0; 2],
         ..*piece
     };
-    let still: Vec<FloorMotion> = motion.iter().map(still).collect();
-    floor_spectrum(&still, periods, damping)
+    motion.iter().map(still).collect()
+}
+
+/// Periods between two questions whether to go on.
+const PERIODS_AT_ONCE: usize = 16;
+
+/// How far the spectra are.
+struct Work<'p> {
+    /// Periods of all spectra: done, and in all.
+    done: usize,
+    total: usize,
+    progress: &'p mut dyn FnMut(f64) -> ControlFlow<()>,
+}
+
+impl Work<'_> {
+    fn spectrum(
+        &mut self,
+        motion: &[FloorMotion],
+        periods: &[f64],
+        damping: f64,
+    ) -> Result<ResponseSpectrum, FloorSpectraError> {
+        let (first, rest) = periods.split_at(periods.len().min(PERIODS_AT_ONCE));
+        let mut all = self.part(motion, first, damping)?;
+        for part in rest.chunks(PERIODS_AT_ONCE) {
+            all.append(self.part(motion, part, damping)?);
+        }
+        Ok(all)
+    }
+
+    fn part(
+        &mut self,
+        motion: &[FloorMotion],
+        periods: &[f64],
+        damping: f64,
+    ) -> Result<ResponseSpectrum, FloorSpectraError> {
+        let spectrum = floor_spectrum(motion, periods, damping)?;
+        self.done += periods.len();
+        match (self.progress)(self.done as f64 / self.total.max(1) as f64) {
+            ControlFlow::Continue(()) => Ok(spectrum),
+            ControlFlow::Break(()) => Err(FloorSpectraError::Stopped),
+        }
+    }
 }

@@ -11,7 +11,9 @@ use super::{
     FloorMotions, FloorSpectra, FloorSpectraError, FloorSpectraWanted, FloorWithSpectra, RIGID,
 };
 use crate::fractiles::fractiles;
-use crate::gap_check::{CaseUnderRecord, CheckError, Progress, Repeated, in_parallel, warnings};
+use crate::gap_check::{
+    CaseUnderRecord, CheckError, Ending, Progress, Repeated, runs_in_parallel, warnings,
+};
 
 /// The spectra of the floors under one record.
 #[derive(Debug, Clone, Serialize)]
@@ -100,17 +102,21 @@ pub fn floor_spectra_under(
     lists: &[&[f64]],
     (threads, progress): (usize, Progress<'_>),
 ) -> Result<Vec<FloorSpectraOverRecords>, FloorSpectraError> {
-    let one = |number: usize| {
+    let one = |number: usize, ending: &mut Ending<'_>| {
         let record = &records[number];
-        let goes_on = &mut |_| ControlFlow::Continue(());
+        // A record takes long: whether to go on is asked in between too.
+        let goes_on = &mut |_| match ending.goes_on() {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        };
         let motions = FloorMotions::new(&record.assembly, wanted, goes_on)?;
         let mut answers = Vec::new();
         for periods in lists {
-            answers.push(motions.spectra(periods)?);
+            answers.push(motions.spectra(periods, goes_on)?);
         }
         Ok((answers, motions.alone_fails))
     };
-    let made = in_parallel(records.len(), threads, progress, one);
+    let made = runs_in_parallel(records.len(), threads, progress, one);
     let made: Vec<Result<_, FloorSpectraError>> = made.map_err(|error| match error {
         CheckError::Stopped => FloorSpectraError::Stopped,
         error => FloorSpectraError::Records(Box::new(error)),

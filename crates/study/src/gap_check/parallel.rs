@@ -37,6 +37,11 @@ impl<'w> Ending<'w> {
         }
     }
 
+    /// Whether to go on with what is no run.
+    pub(crate) fn goes_on(&self) -> bool {
+        (self.goes_on)()
+    }
+
     fn checked(&self) -> Result<(), TimeHistoryError> {
         match self.ended.get() {
             false => Ok(()),

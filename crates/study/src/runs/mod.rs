@@ -22,3 +22,4 @@ pub(crate) use proportion::{
     FurtherFactors, factors_of_further, further_motions, intensity_of_case,
 };
 pub(crate) use runner::{Runner, factor, wanted, written};
+pub use shared_records::FOLDER as RECORDS_FOLDER;

@@ -19,7 +19,7 @@ use crate::study_file::{RecordKind, RecordSource, Study};
 use pounding_files::checksum::hexadecimal;
 
 /// The folder of the copies in that of the shards.
-const FOLDER: &str = "records";
+pub const FOLDER: &str = "records";
 /// The list of what is known of them.
 const LIST: &str = "list.json";
 

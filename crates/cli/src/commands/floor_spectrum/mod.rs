@@ -57,6 +57,9 @@ pub fn floor_spectrum(arguments: &FloorSpectrumArguments, files: FileUse) -> Res
     }
 }
 
+/// Part of the time that runs take, about; spectra take the rest.
+const RUNS: f64 = 0.1;
+
 /// What is asked for.
 struct Asked<'a> {
     arguments: &'a FloorSpectrumArguments,
@@ -86,19 +89,32 @@ impl<'a> Asked<'a> {
         self.have_a_place()?;
         let failed = |error| self.failed(error);
         let progress = Progress::begin(Unit::Part)?;
-        let motions = FloorMotions::new(&assembly, self.wanted(&floors), &mut |part| {
-            progress.show((1000.0 * part) as usize, 1000, "");
+        // Runs first, which take less time; spectra by their periods; then those of the picture.
+        let more = match &arguments.plot {
+            Some(_) if self.drawn != self.periods => self.drawn.len(),
+            _ => 0,
+        };
+        let parts = [RUNS, 1.0 - RUNS].map(|part| 1000.0 * part);
+        let asked = parts[1] * self.periods.len() as f64 / (self.periods.len() + more) as f64;
+        let show = |done: f64| {
+            progress.show(done as usize, 1000, "");
             ControlFlow::Continue(())
+        };
+        let motions = FloorMotions::new(&assembly, self.wanted(&floors), &mut |part| {
+            show(parts[0] * part)
         });
         let motions = motions.map_err(failed)?;
-        let answer = motions.spectra(self.periods).map_err(failed)?;
+        let of_answer = &mut |part: f64| show(parts[0] + asked * part);
+        let answer = motions.spectra(self.periods, of_answer).map_err(failed)?;
         let smooth;
-        let drawn = match &arguments.plot {
-            Some(_) if self.drawn != self.periods => {
-                smooth = motions.spectra(self.drawn).map_err(failed)?;
+        let drawn = match more {
+            0 => &answer,
+            _ => {
+                let of_picture =
+                    &mut |part: f64| show(parts[0] + asked + (parts[1] - asked) * part);
+                smooth = motions.spectra(self.drawn, of_picture).map_err(failed)?;
                 &smooth
             }
-            _ => &answer,
         };
         self.write(answer::csv(&answer), || picture(drawn))?;
         drop(progress);

@@ -142,7 +142,11 @@ fn demand(check: &GapCheck, index: usize) -> String {
     if few {
         header.extend(check.records.iter().map(|r| format!("{} (mm)", r.name)));
     }
-    header.extend(["maximum (mm)", "records in contact"].map(str::to_owned));
+    let contact = match gap.records_collapsed {
+        0 => "records in contact",
+        _ => "records in contact or collapsed",
+    };
+    header.extend(["maximum (mm)", contact].map(str::to_owned));
     let header: Vec<&str> = header.iter().map(String::as_str).collect();
     let mut table = new_table(&header);
     for (l, level) in gap.levels.iter().enumerate().rev() {

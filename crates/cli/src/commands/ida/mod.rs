@@ -39,7 +39,7 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
             into: arguments.sharing.into.as_deref(),
             planning: &arguments.planning,
         };
-        return plan::print_plan(&study, &planned, scheduler, arguments.json);
+        return plan::print_plan(&study, &planned, (scheduler, arguments.json), &mut files);
     }
     let openquake = match &arguments.openquake {
         Some(path) => Some((path, measure_of_openquake(&settings.measure)?)),

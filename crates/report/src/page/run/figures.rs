@@ -2,12 +2,16 @@
 
 use std::collections::BTreeMap;
 
+use pounding_catalogue::numbers::shown_unit;
+
 use super::words;
 use crate::decimation::decimated;
 use crate::error::ReportError;
 use crate::figure::{Curve, Panel, figure_of_size};
 use crate::page::html::{beside, figure};
-use crate::result::{BuildingResult, GapResult, ImpactResult, RunResult, StoreyPeaks};
+use crate::result::{
+    BuildingResult, GapResult, ImpactResult, LinkResult, RunResult, StoreyPeaks, Table,
+};
 
 /// Size of a history, and of a profile beside another (pixels): on paper text of both is as large
 /// as in other figures.
@@ -170,6 +174,40 @@ pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
         "Distance across the gap {}, and its impacts, over time",
         gap.name
     );
+    wide(&panels, &words)
+}
+
+/// Deformation and force of the level of a link with the greatest force.
+pub(super) fn link(result: &RunResult, link: &LinkResult) -> Outcome {
+    let Some(level) = link.governing_level() else {
+        return Ok(String::new());
+    };
+    let [(length, length_unit), (force, force_unit)] =
+        [&link.units[0], &link.units[1]].map(|unit| shown_unit(unit));
+    let at = words::level(&link.levels[level]);
+    let of = |table: &Table, factor: f64| {
+        let values = (level < table.columns).then(|| table.column(level));
+        history(
+            result,
+            &at,
+            values.into_iter().flatten().map(|x| factor * x),
+        )
+    };
+    let (name, ways) = match link.turns() {
+        true => ("Moment", ""),
+        false => ("Force", "; positive in tension"),
+    };
+    let panels = [
+        over_time(
+            &format!("Deformation at {at} ({length_unit})"),
+            vec![of(&link.deformations, length)],
+        ),
+        over_time(
+            &format!("{name} at {at} ({force_unit}){ways}"),
+            vec![of(&link.forces, force)],
+        ),
+    ];
+    let words = format!("Deformation and force of link {} over time", link.name);
     wide(&panels, &words)
 }
 

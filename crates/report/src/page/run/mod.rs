@@ -47,8 +47,9 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
         body.push_str(&section_of(["Gap ", &gap.name, ""], &inside));
     }
     for link in &result.links {
-        let title = ["Link ", &link.name, ""];
-        body.push_str(&section_of(title, &tables::link(link)));
+        let mut inside = tables::link(link);
+        inside.push_str(&figures::link(result, link)?);
+        body.push_str(&section_of(["Link ", &link.name, ""], &inside));
     }
     let mut energy = words::energy(result);
     energy.push_str(&figures::energy(result)?);

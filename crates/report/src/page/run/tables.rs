@@ -363,7 +363,13 @@ pub(super) fn levels(gap: &GapResult, input: f64) -> String {
         }
         Row::new(l, row)
     });
-    table("Levels of the gap", &columns, rows)
+    let restitution = "Restitution: of all finished impacts of a level together, the square root of the sum of squares of separation \
+         velocities over that of approach velocities.";
+    let told = match gap.impacts.is_empty() {
+        true => String::new(),
+        false => note(restitution),
+    };
+    table("Levels of the gap", &columns, rows) + &told
 }
 
 /// The hardest impacts of a gap, by force, or by impulse where a model has no force.
@@ -420,12 +426,17 @@ pub(super) fn hardest(gap: &GapResult, count: usize, input: f64) -> String {
     format!("<h3>{heading}</h3>\n{}", table(&heading, &columns, rows))
 }
 
+/// Whether the greatest force of a level pulls or pushes; nothing of moments, and of no force.
+pub(super) fn direction(link: &LinkResult, level: usize) -> Option<&'static str> {
+    let tension = link.in_tension(level).filter(|_| !link.turns())?;
+    Some(["compression", "tension"][usize::from(tension)])
+}
+
 /// The levels of a link, the top first.
 pub(super) fn link(link: &LinkResult) -> String {
     let [(length, length_unit), (force, force_unit)] =
         [&link.units[0], &link.units[1]].map(|unit| shown_unit(unit));
-    let turns = link.units[0] == "rad";
-    let of = ["force", "moment"][usize::from(turns)];
+    let of = ["force", "moment"][usize::from(link.turns())];
     let path = format!("link/{}", link.name);
     let mut columns = vec![Column::new("level")];
     columns.extend(elevations(&path));
@@ -435,11 +446,14 @@ pub(super) fn link(link: &LinkResult) -> String {
             format!("{path}/peak/deformation[*]"),
             length,
         ),
+        Column::of("at (s)", format!("{path}/peak/deformation_time[*]"), 1.0),
         Column::of(
             format!("peak {of} ({force_unit})"),
             format!("{path}/peak/force[*]"),
             force,
         ),
+        Column::of("at (s)", format!("{path}/peak/force_time[*]"), 1.0),
+        Column::new("in"),
         Column::of(
             "dissipated (kJ)",
             format!("{path}/energy_dissipated[-1,*]"),
@@ -453,7 +467,10 @@ pub(super) fn link(link: &LinkResult) -> String {
             figures(link.levels[l].elevations[0]),
             figures(link.levels[l].elevations[1]),
             figures(length * at(&link.deformation)),
+            figures(at(&link.deformation_time)),
             figures(force * at(&link.force)),
+            figures(at(&link.force_time)),
+            direction(link, l).unwrap_or("-").to_owned(),
             figures(1.0e-3 * at(&link.energy_dissipated)),
         ];
         Row::new(l, cells)

@@ -1,9 +1,13 @@
 //! The answers in sentences.
 
 use super::figures::governing_level;
+use super::tables::direction;
 use crate::page::html::{named, number, sentences, warnings};
 use crate::page::numbers::{all_figures, figures, percent, ratio as times};
-use crate::result::{BuildingResult, GapResult, ImpactResult, LevelResult, RunResult, StoreyPeaks};
+use crate::result::{
+    BuildingResult, GapResult, ImpactResult, LevelResult, LinkResult, RunResult, StoreyPeaks,
+};
+use pounding_catalogue::numbers::shown_unit;
 use pounding_catalogue::wording::counted;
 use pounding_elevation::WALL;
 use pounding_time_history::VELOCITY_JUMPS;
@@ -20,11 +24,12 @@ pub(super) fn summary(result: &RunResult) -> String {
             counted(impacts, "impact"),
         ));
     }
+    points.extend(result.links.iter().take(MOST).filter_map(pulled));
     if points.is_empty() {
         points.push("There is no gap with a contact level.".to_owned());
     }
     points.extend(result.gaps.iter().filter_map(beyond_capacity));
-    if result.gaps.iter().any(|g| !g.impacts.is_empty()) {
+    if !result.links.is_empty() || result.gaps.iter().any(|g| !g.impacts.is_empty()) {
         points.extend(most_changed(result).into_iter().filter_map(changed));
         if let Some(more @ 1..) = result.buildings.len().checked_sub(MOST) {
             points.push(format!(
@@ -158,6 +163,30 @@ fn hit(gap: &GapResult) -> Option<String> {
     ))
 }
 
+/// What a link bears where it bears most.
+fn pulled(link: &LinkResult) -> Option<String> {
+    let l = link.governing_level()?;
+    let name = named(&link.name);
+    let path = format!("link/{}/peak", link.name);
+    let [(length, length_unit), (force, force_unit)] =
+        [&link.units[0], &link.units[1]].map(|unit| shown_unit(unit));
+    let of = |column: &str, factor: f64, values: &[f64]| {
+        let from = format!("{path}/{column}[{l}]");
+        number(&from, factor, &figures(factor * values[l]))
+    };
+    let kind = ["force", "moment"][usize::from(link.turns())];
+    let way = direction(link, l).map_or_else(String::new, |way| format!(" in {way}"));
+    Some(format!(
+        "<strong>Link {name} bears a {kind} of at most {} {force_unit}{way}</strong>, at {}, {} s into the motion, and \
+         deforms by at most {} {length_unit} ({}).",
+        of("force", force, &link.force),
+        named(&level(&link.levels[l])),
+        of("force_time", 1.0, &link.force_time),
+        of("deformation", length, &link.deformation),
+        named(&link.law),
+    ))
+}
+
 /// A level with the elevations of both sides.
 pub(super) fn level(level: &LevelResult) -> String {
     let [left, right] = level.elevations.map(|z| match z.is_finite() {
@@ -201,6 +230,26 @@ fn changed(building: &BuildingResult) -> Option<String> {
         let [ratio, with, without] = three("base_moment", "", 1.0e-3, both);
         format!("overturning moment at the base {ratio} times ({with} kN m, alone {without} kN m)")
     });
+    // Such as those of the edges of a plan that turns, which go further than the mass centre.
+    let named_responses = building.responses.iter();
+    let named_responses = named_responses.map(|r| (r, r.value / r.isolated));
+    let most = named_responses
+        .filter(|(_, ratio)| ratio.is_finite())
+        .max_by(|a, b| a.1.total_cmp(&b.1));
+    let response = most.map(|(response, _)| {
+        let (factor, unit) = shown_unit(&response.unit);
+        let isolated = format!("{path}/response/isolated_{}", response.name);
+        let here = format!("{path}/response/{}", response.name);
+        let quotient = format!("{here} / {isolated}");
+        format!(
+            "{} at most {} times ({} {unit}, alone {} {unit})",
+            // Names end in numbers, which would run into that of the ratio.
+            named(&response.name),
+            number(&quotient, 1.0, &times(response.value, response.isolated)),
+            number(&here, factor, &all_figures(factor * response.value)),
+            number(&isolated, factor, &all_figures(factor * response.isolated)),
+        )
+    });
     let parts = [
         rise(
             "displacement",
@@ -221,6 +270,7 @@ fn changed(building: &BuildingResult) -> Option<String> {
             (1.0, "m/s\u{b2}"),
         ),
         base,
+        response,
     ];
     let parts: Vec<String> = parts.into_iter().flatten().collect();
     (!parts.is_empty()).then(|| {

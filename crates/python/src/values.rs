@@ -115,7 +115,7 @@ fn of(value: &Bound<'_, PyAny>, path: &str, depth: usize) -> PyResult<Value> {
         if value.hasattr(method)? && !is_class {
             let made = value.call_method0(method)?;
             // A number of NumPy that Python has no type for comes back as it is.
-            if made.get_type().is(&value.get_type()) {
+            if made.get_type().is(value.get_type()) {
                 break;
             }
             return of(&made, path, depth + 1);

@@ -18,6 +18,7 @@ use super::lanes::{
     Lane, Modal, Track, WIDTH, add, is_low, modal_acceleration_overshoots, scale, spread,
 };
 use super::reach::{Bounds, OneLane, QUANTITIES, Reach};
+use super::rough_floors::RoughModes;
 use super::transform::{STRIP, rows_of_four, rows_of_two, transform_four, transform_two};
 use crate::bands::Bands;
 use crate::contact::Contacts;
@@ -59,11 +60,15 @@ pub(super) struct BlockEnds {
     bands: Option<ByBands>,
 }
 
-/// Absolute accelerations from the floors' own displacements and velocities, where stiffness and
-/// damping are tridiagonal: they then cost a product with the mode shapes less, and agree with the
-/// modes' to round-off. Peaks are taken from the modes alone.
+/// Floors of tall buildings in single precision ([`super::rough_floors`]), and their absolute
+/// accelerations from these displacements and velocities, where stiffness and damping are
+/// tridiagonal: a product with the mode shapes less. Peaks are taken from the modes alone.
 #[derive(Debug, Clone)]
 struct ByBands {
+    modes: RoughModes,
+    /// Bounds of what displacement (m), and a third of the block times velocity (m), err by at
+    /// either end.
+    errors: [[f64; 2]; 2],
     /// Of all floors, one after another, with a zero before and after them: displacement,
     /// velocity, and acceleration relative to the ground.
     displacement: Vec<f64>,
@@ -74,7 +79,8 @@ struct ByBands {
     rate: Vec<f64>,
     /// Maximum sums of magnitudes in a row of stiffness and of damping, by the masses.
     rows: [f64; 2],
-    /// Bound of what is lost in round-off at either end (m/s2).
+    /// Bound of what absolute accelerations, and thirds of the block times their rates, err by at
+    /// either end (m/s2).
     lost: [f64; 2],
 }
 
@@ -118,6 +124,8 @@ impl BlockEnds {
             buildings,
             suspects: Vec::with_capacity(3 * lanes),
             bands: constants.bands.as_ref().map(|bands| ByBands {
+                modes: RoughModes::new(lanes),
+                errors: [[0.0; 2]; 2],
                 displacement: vec![0.0; dofs + 2],
                 velocity: vec![0.0; dofs + 2],
                 acceleration: vec![0.0; dofs + 2],
@@ -145,16 +153,33 @@ impl BlockEnds {
         peak: &[Lane],
         block: &mut Block,
     ) -> bool {
+        if !self.holds[0] {
+            let (q, p) = (&now.displacement, &now.velocity);
+            if self.bands.is_some() {
+                self.approach_end(constants, [q, p]);
+                self.work_out_rough_end(constants);
+                self.go_on();
+                self.holds = [true, false];
+            }
+        }
         let low = match &constants.block_step {
             Some(step) => {
                 if load.is_none() {
                     step.load(samples, &mut self.load);
                 }
                 self.step_over((step, now), (samples, load), &mut block.end);
+                self.approach_end(constants, [&block.end.displacement, &block.end.velocity]);
                 bound_all((samples[0], samples[BLOCK]), load, peak, self)
             }
             None => advance_modes(constants, (now, samples), peak, block, self),
         };
+        if self.bands.is_some() {
+            self.work_out_rough_end(constants);
+            if !low {
+                self.accelerate_ends(constants, [samples[0], samples[BLOCK]]);
+            }
+            return low;
+        }
         let (q, p) = (&now.displacement, &now.velocity);
         if !(self.holds[0] && (low || self.holds[1])) {
             self.work_out_end(constants, (q, p, samples[0]), low);
@@ -163,6 +188,41 @@ impl BlockEnds {
         let (q, p) = (&block.end.displacement, &block.end.velocity);
         self.work_out_end(constants, (q, p, samples[BLOCK]), low);
         low
+    }
+
+    /// Takes displacements and velocities of the modes at the end over in single precision, where
+    /// floors are worked out by that.
+    fn approach_end(&mut self, constants: &ContactFree, modes: [&[Lane]; 2]) {
+        if let (Some(rough), Some(bands)) = (&constants.rough, &mut self.bands) {
+            bands.errors[1] = rough.take(modes, third(constants), &mut bands.modes);
+        }
+    }
+
+    /// Works out the floors at the end from the modes that were taken over.
+    fn work_out_rough_end(&mut self, constants: &ContactFree) {
+        if let (Some(rough), Some(bands)) = (&constants.rough, &self.bands) {
+            let [displacement, rate, _, _] = &mut self.end;
+            rough.floors(&bands.modes, [displacement, rate]);
+        }
+    }
+
+    /// Absolute accelerations with their rates at the end, and at the start unless they are known,
+    /// under these accelerations of the ground.
+    fn accelerate_ends(&mut self, constants: &ContactFree, ground: [f64; 2]) {
+        let (Some(bands), Some(work)) = (&constants.bands, &mut self.bands) else {
+            return;
+        };
+        let third = third(constants);
+        for (end, known) in [(0, self.holds[1]), (1, false)] {
+            if !known {
+                let floors = match end {
+                    0 => &mut self.start,
+                    _ => &mut self.end,
+                };
+                work.lost[end] =
+                    accelerate(bands, (work.errors[end], third), ground[end], work, floors);
+            }
+        }
     }
 
     /// Advances the modes by one step over the block, whose load is at hand or was worked out.
@@ -186,22 +246,16 @@ impl BlockEnds {
         (q, p, ground): (&[Lane], &[Lane], f64),
         low: bool,
     ) {
-        // Accelerations of tall buildings are those of the floors.
-        let speeds_alone = low || self.bands.is_some() && !self.small;
-        derive_end(constants, (q, p, ground), speeds_alone, &mut self.modes);
+        derive_end(constants, (q, p, ground), low, &mut self.modes);
         let [_, rate, absolute, absolute_rate] = &self.modes;
         let (shapes, rows) = (&constants.shapes, &constants.floor_rows);
-        match (&constants.bands, &mut self.bands) {
-            _ if self.small && low => rows_of_two(rows, [q, rate], &mut self.end),
-            _ if self.small => {
-                rows_of_four(rows, [q, rate, absolute, absolute_rate], &mut self.end)
+        match (self.small, low) {
+            (true, true) => rows_of_two(rows, [q, rate], &mut self.end),
+            (true, false) => rows_of_four(rows, [q, rate, absolute, absolute_rate], &mut self.end),
+            (false, true) => transform_two(shapes, [q, rate], &mut self.end),
+            (false, false) => {
+                transform_four(shapes, [q, rate, absolute, absolute_rate], &mut self.end)
             }
-            _ if low => transform_two(shapes, [q, rate], &mut self.end),
-            (Some(bands), Some(by_bands)) => {
-                transform_two(shapes, [q, rate], &mut self.end);
-                accelerate(bands, by_bands, (ground, third(constants)), &mut self.end);
-            }
-            _ => transform_four(shapes, [q, rate, absolute, absolute_rate], &mut self.end),
         }
     }
 
@@ -210,6 +264,7 @@ impl BlockEnds {
         std::mem::swap(&mut self.start, &mut self.end);
         if let Some(bands) = &mut self.bands {
             bands.lost.swap(0, 1);
+            bands.errors.swap(0, 1);
         }
     }
 
@@ -246,14 +301,23 @@ impl BlockEnds {
         ([a, a + out, b - back, b], self.beyond[0][c][l])
     }
 
-    /// Whether present accelerations, which are worked out, are those of the modes.
+    /// Whether the floors that are worked out are those of the modes in double precision.
     pub(super) fn is_exact(&self) -> bool {
         self.bands.is_none()
     }
 
+    /// What displacements of floors, and their rates, err by together (m).
+    fn error(&self) -> f64 {
+        let of = |bands: &ByBands| {
+            let [start, end] = bands.errors.map(|[value, rate]| value + rate);
+            start.max(end)
+        };
+        self.bands.as_ref().map_or(0.0, of)
+    }
+
     /// Takes the floors at the end, at this time (s), as present ones and as peaks, and finds
-    /// what could have higher peaks in the block: of accelerations that are not those of the
-    /// modes, what their peaks are sure to reach.
+    /// what could have higher peaks in the block: of floors that are not those of the modes, what
+    /// their peaks are sure to reach.
     pub(super) fn take_end(
         &mut self,
         constants: &ContactFree,
@@ -283,6 +347,8 @@ fn advance_modes(
     ends: &mut BlockEnds,
 ) -> bool {
     advance_all(constants, now, samples, block);
+    let end = &block.end;
+    ends.approach_end(constants, [&end.displacement, &end.velocity]);
     bound_overshoots(constants, block, [0], true);
     let low = is_low(constants, (&block.over[0], block.largest.0), peak);
     deviate(constants, (now, samples), block, low, ends);
@@ -337,6 +403,7 @@ fn bound_floors(ends: &mut BlockEnds, load: Option<BlockLoad<'_>>) {
         }
         return;
     }
+    let error = ends.error();
     let mut made = 0;
     for (index, building) in ends.buildings.iter().enumerate() {
         let mut sums = building.sums(&ends.bounds);
@@ -345,6 +412,9 @@ fn bound_floors(ends: &mut BlockEnds, load: Option<BlockLoad<'_>>) {
                 *sum += added;
             }
         }
+        sums[0] += error;
+        // A drift is a difference.
+        sums[1] += 2.0 * error;
         for (bound, beyond) in sums.into_iter().zip(&mut ends.beyond) {
             let lanes = beyond[building.lane..].iter_mut().zip(&building.own);
             for (c, (beyond, own)) in lanes.enumerate() {
@@ -496,14 +566,21 @@ fn derive_end(
     }
 }
 
-/// Absolute accelerations of all floors with their rates, from displacements and velocities.
+/// Absolute accelerations of all floors with their rates, from displacements and velocities that
+/// err by at most this. Returns what they err by at most.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), end: &mut End) {
+fn accelerate(
+    bands: &Bands,
+    ([error, third_error], third): ([f64; 2], f64),
+    ground: f64,
+    work: &mut ByBands,
+    end: &mut End,
+) -> f64 {
     let [displacements, rates, absolutes, absolute_rates] = end;
     let count = work.absolute.len();
     let slower = 1.0 / third;
@@ -518,7 +595,6 @@ fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), en
             fastest = fastest.max(v.abs());
         }
     }
-    work.lost[1] = ROUND_OFF * (work.rows[0] * farthest + work.rows[1] * fastest);
     bands.resist(&work.displacement, &work.velocity, &mut work.absolute);
     for (a, absolute) in work.acceleration[1..].iter_mut().zip(&work.absolute) {
         *a = absolute - ground;
@@ -529,6 +605,12 @@ fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), en
     }
     spread(&work.absolute, absolutes);
     spread(&work.rate, absolute_rates);
+    let [stiffness, damping] = work.rows;
+    let speed_error = slower * third_error;
+    let value = stiffness * error + damping * speed_error;
+    let rate = stiffness * speed_error + damping * value;
+    let lost = ROUND_OFF * (stiffness * farthest + damping * fastest);
+    value + third * rate + lost
 }
 
 /// Whether the displacements of all floors in the block are at most this one (m); those that are
@@ -565,6 +647,7 @@ fn compare(
     [displacement, drift, acceleration]: [&mut Track; 3],
     (time, low): (f64, bool),
 ) {
+    let error = ends.error();
     let (start, end, suspects) = (&ends.start, &ends.end, &mut ends.suspects);
     suspects.clear();
     let mut last = [0.0; CUBIC];
@@ -589,33 +672,29 @@ fn compare(
         };
         let [beyond, beyond_drift, beyond_acceleration, _] =
             ends.beyond.each_ref().map(|beyond| &beyond[c]);
-        suspect(
-            Quantity::Displacement,
-            take_end(&floors, beyond, (displacement, c), time),
-        );
-        suspect(
-            Quantity::Drift,
-            take_end(&drifts, beyond_drift, (drift, c), time),
-        );
+        let Some(bands) = &ends.bands else {
+            let displacement = take_end(&floors, beyond, (displacement, c), time);
+            suspect(Quantity::Displacement, displacement);
+            let drift = take_end(&drifts, beyond_drift, (drift, c), time);
+            suspect(Quantity::Drift, drift);
+            if !low {
+                let cubic = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
+                let upper = take_end(&cubic, beyond_acceleration, (acceleration, c), time);
+                suspect(Quantity::Acceleration, upper);
+            }
+            continue;
+        };
+        let upper = approach_peak((&floors, error), beyond, (displacement, c));
+        suspect(Quantity::Displacement, upper);
+        let upper = approach_peak((&drifts, 2.0 * error), beyond_drift, (drift, c));
+        suspect(Quantity::Drift, upper);
         if low {
             continue;
         }
         let cubic = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
-        let beyond = beyond_acceleration;
-        let upper = match &ends.bands {
-            None => take_end(&cubic, beyond, (acceleration, c), time),
-            Some(bands) => {
-                let lost = bands.lost[0].max(bands.lost[1]);
-                let upper = upper(&cubic, beyond);
-                let upper = upper.map(|upper| upper + lost);
-                let sure = &mut acceleration.sure[c];
-                for l in 0..WIDTH {
-                    let value = cubic[CUBIC - 1][l].abs() - lost;
-                    sure[l] = if value > sure[l] { value } else { sure[l] };
-                }
-                unless_below(upper, &acceleration.reach(c))
-            }
-        };
+        let lost = bands.lost[0].max(bands.lost[1]);
+        let beyond = beyond_acceleration.map(|beyond| beyond + lost);
+        let upper = approach_peak((&cubic, lost), &beyond, (acceleration, c));
         suspect(Quantity::Acceleration, upper);
     }
 }
@@ -649,6 +728,22 @@ fn take_end(
     }
     track.now[c] = cubic[CUBIC - 1];
     unless_below(upper(cubic, beyond), peak)
+}
+
+/// Takes the last coefficients, which err by at most so much, as what peaks are sure to reach.
+/// Returns bounds of the functions if one could still be above its peak.
+#[inline(always)]
+fn approach_peak(
+    (cubic, error): (&[Lane; CUBIC], f64),
+    beyond: &Lane,
+    (track, c): (&mut Track, usize),
+) -> Option<Lane> {
+    let sure = &mut track.sure[c];
+    for l in 0..WIDTH {
+        let value = cubic[CUBIC - 1][l].abs() - error;
+        sure[l] = if value > sure[l] { value } else { sure[l] };
+    }
+    unless_below(upper(cubic, beyond), &track.reach(c))
 }
 
 /// Bounds of functions in the block.

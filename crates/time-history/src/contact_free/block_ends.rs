@@ -15,7 +15,8 @@ use super::block_step::{BlockLoad, BlockStep, MadeLoad};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Lane, Modal, Track, WIDTH, add, is_low, modal_acceleration_overshoots, scale, spread,
+    Lane, Modal, Track, WIDTH, add, is_low, lane_by_lane, modal_acceleration_overshoots, scale,
+    spread,
 };
 use super::reach::{Bounds, OneLane, QUANTITIES, Reach};
 use super::rough_floors::RoughModes;
@@ -418,6 +419,7 @@ fn bound_floors(ends: &mut BlockEnds, load: Option<BlockLoad<'_>>) {
         for (bound, beyond) in sums.into_iter().zip(&mut ends.beyond) {
             let lanes = beyond[building.lane..].iter_mut().zip(&building.own);
             for (c, (beyond, own)) in lanes.enumerate() {
+                lane_by_lane();
                 let bound = scale(bound, *own);
                 // A lane of the building before ends with floors of this one.
                 let shared = building.lane + c < made;
@@ -431,6 +433,7 @@ fn bound_floors(ends: &mut BlockEnds, load: Option<BlockLoad<'_>>) {
 #[inline(always)]
 fn add_all(more: &[Lane], to: &mut [Lane]) {
     for (to, more) in to.iter_mut().zip(more) {
+        lane_by_lane();
         for l in 0..WIDTH {
             to[l] += more[l];
         }
@@ -546,6 +549,7 @@ fn derive_end(
     let (displacement, velocity) = (&displacement[..count], &velocity[..count]);
     if speeds_alone {
         for (rate, p) in rates.iter_mut().zip(velocity) {
+            lane_by_lane();
             for l in 0..WIDTH {
                 rate[l] = third * p[l];
             }
@@ -553,6 +557,7 @@ fn derive_end(
         return;
     }
     for (c, m) in constants.modes.iter().enumerate() {
+        lane_by_lane();
         let (q, p) = (&displacement[c], &velocity[c]);
         let mut out = [Lane::ZERO; 3];
         for l in 0..WIDTH {
@@ -625,6 +630,7 @@ fn are_within(limit: f64, ends: &BlockEnds) -> bool {
     let (start, end) = (&ends.start, &ends.end);
     let mut all = true;
     for (c, beyond) in ends.beyond[0].iter().enumerate() {
+        lane_by_lane();
         let floors = cubic([&start[0][c], &start[1][c], &end[0][c], &end[1][c]]);
         let upper = upper(&floors, beyond);
         for l in 0..WIDTH {
@@ -645,9 +651,26 @@ fn compare(
     constants: &ContactFree,
     ends: &mut BlockEnds,
     [displacement, drift, acceleration]: [&mut Track; 3],
+    at: (f64, bool),
+) {
+    if ends.bands.is_some() {
+        compare_each::<true>(constants, ends, [displacement, drift, acceleration], at);
+    } else {
+        compare_each::<false>(constants, ends, [displacement, drift, acceleration], at);
+    }
+}
+
+/// The same of floors that are known `ROUGH`ly, or exactly.
+#[inline(always)]
+fn compare_each<const ROUGH: bool>(
+    constants: &ContactFree,
+    ends: &mut BlockEnds,
+    [displacement, drift, acceleration]: [&mut Track; 3],
     (time, low): (f64, bool),
 ) {
-    let error = ends.error();
+    let error = if ROUGH { ends.error() } else { 0.0 };
+    let lost = ends.bands.as_ref().filter(|_| ROUGH);
+    let lost = lost.map_or(0.0, |bands| bands.lost[0].max(bands.lost[1]));
     let (start, end, suspects) = (&ends.start, &ends.end, &mut ends.suspects);
     suspects.clear();
     let mut last = [0.0; CUBIC];
@@ -672,30 +695,29 @@ fn compare(
         };
         let [beyond, beyond_drift, beyond_acceleration, _] =
             ends.beyond.each_ref().map(|beyond| &beyond[c]);
-        let Some(bands) = &ends.bands else {
-            let displacement = take_end(&floors, beyond, (displacement, c), time);
-            suspect(Quantity::Displacement, displacement);
-            let drift = take_end(&drifts, beyond_drift, (drift, c), time);
-            suspect(Quantity::Drift, drift);
-            if !low {
-                let cubic = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
-                let upper = take_end(&cubic, beyond_acceleration, (acceleration, c), time);
-                suspect(Quantity::Acceleration, upper);
+        let take = |cubic, error, beyond, track: &mut Track| {
+            if ROUGH {
+                approach_peak((cubic, error), beyond, (track, c))
+            } else {
+                take_end(cubic, beyond, (track, c), time)
             }
-            continue;
         };
-        let upper = approach_peak((&floors, error), beyond, (displacement, c));
+        let upper = take(&floors, error, beyond, displacement);
         suspect(Quantity::Displacement, upper);
-        let upper = approach_peak((&drifts, 2.0 * error), beyond_drift, (drift, c));
+        let upper = take(&drifts, 2.0 * error, beyond_drift, drift);
         suspect(Quantity::Drift, upper);
         if low {
             continue;
         }
         let cubic = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
-        let lost = bands.lost[0].max(bands.lost[1]);
-        let beyond = beyond_acceleration.map(|beyond| beyond + lost);
-        let upper = approach_peak((&cubic, lost), &beyond, (acceleration, c));
-        suspect(Quantity::Acceleration, upper);
+        let mut beyond = *beyond_acceleration;
+        if ROUGH {
+            beyond = beyond.map(|beyond| beyond + lost);
+        }
+        suspect(
+            Quantity::Acceleration,
+            take(&cubic, lost, &beyond, acceleration),
+        );
     }
 }
 

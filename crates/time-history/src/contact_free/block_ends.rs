@@ -1052,6 +1052,47 @@ mod tests {
         }
     }
 
+    /// Against double precision, and against accelerations of the modes.
+    #[test]
+    fn rough_floors_err_by_less_than_their_bounds() {
+        for (storeys, seed) in [([24, 3], 1.0), ([31, 50], 2.0), ([150, 70], 3.0)] {
+            let system = towers(storeys, seed, false, 1.0e3, (100, 0.01));
+            let constants = system.contact_free().unwrap();
+            let mut ends = BlockEnds::new(constants);
+            let lanes = constants.modes.len();
+            for decay in [0.0, 1.0, 2.0] {
+                let modal = [1.0, 7.0].map(|speed: f64| -> Vec<Lane> {
+                    let value = |j: usize| {
+                        300.0 * speed * libm::sin(seed + speed + 5.7 * j as f64)
+                            / (1.0 + decay * (j * j) as f64)
+                    };
+                    let lane = |c: usize| Lane::from_fn(|l| value(c * WIDTH + l));
+                    (0..lanes).map(lane).collect()
+                });
+                let [q, p] = modal.each_ref().map(Vec::as_slice);
+                ends.approach_end(constants, [q, p]);
+                ends.work_out_rough_end(constants);
+                ends.accelerate_ends(constants, [0.7; 2]);
+                let (mut modes, mut floors) = (ends.modes.clone(), ends.end.clone());
+                derive_end(constants, (q, p, 0.7), false, &mut modes);
+                let [_, rate, absolute, absolute_rate] = &modes;
+                let all = [q, rate, absolute, absolute_rate];
+                transform_four(&constants.shapes, all, &mut floors);
+                let bands = ends.bands.as_ref().unwrap();
+                let farthest = [0, 1, 2, 3].map(|k: usize| {
+                    let lanes = ends.end[k].iter().zip(&floors[k]);
+                    let each = lanes.flat_map(|(a, b)| (0..WIDTH).map(|l| (a[l] - b[l]).abs()));
+                    each.fold(0.0, f64::max)
+                });
+                let [value, rate] = bands.errors[1];
+                assert!(farthest[0] <= value && farthest[1] <= rate, "{farthest:?}");
+                let lost = bands.lost[1];
+                assert!(farthest[2] + farthest[3] <= lost, "{farthest:?} {lost:e}");
+                assert!(farthest.iter().all(|error| *error > 0.0));
+            }
+        }
+    }
+
     /// A ground that goes up and down from sample to sample moves the floors little: its work is a
     /// small part of the products that it is the sum of.
     #[test]

@@ -8,7 +8,7 @@ use multiversion::multiversion;
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Ground, Lane, Modal, ModalState, ModeLanes, Shapes, WIDTH, at, is_low,
+    Ground, Lane, Modal, ModalState, ModeLanes, Shapes, WIDTH, at, is_low, lane_by_lane,
     modal_acceleration_overshoots, modal_overshoots, step_modes,
 };
 use super::transform::to_floors;
@@ -407,6 +407,7 @@ pub(super) fn bound_displacements(
     // Accelerations are bounded by `sqrt(q'^2 + omega^2 q^2)`, which is no larger than this sum
     // now, and later by no more than what the ground can add until then.
     for (c, m) in constants.modes.iter().enumerate() {
+        lane_by_lane();
         size[c] = Lane::from_fn(|l| {
             start.velocity[c][l].abs()
                 + m.circular_frequency[l] * start.displacement[c][l].abs()

@@ -15,9 +15,11 @@ use super::block_step::{BlockLoad, BlockStep, MadeLoad};
 use super::candidates::Quantity;
 use super::constants::ContactFree;
 use super::lanes::{
-    Lane, Modal, Track, WIDTH, add, is_low, modal_acceleration_overshoots, scale, spread,
+    Lane, Modal, Track, WIDTH, add, is_low, lane_by_lane, modal_acceleration_overshoots, scale,
+    spread,
 };
 use super::reach::{Bounds, OneLane, QUANTITIES, Reach};
+use super::rough_floors::RoughModes;
 use super::transform::{STRIP, rows_of_four, rows_of_two, transform_four, transform_two};
 use crate::bands::Bands;
 use crate::contact::Contacts;
@@ -59,11 +61,15 @@ pub(super) struct BlockEnds {
     bands: Option<ByBands>,
 }
 
-/// Absolute accelerations from the floors' own displacements and velocities, where stiffness and
-/// damping are tridiagonal: they then cost a product with the mode shapes less, and agree with the
-/// modes' to round-off. Peaks are taken from the modes alone.
+/// Floors of tall buildings in single precision ([`super::rough_floors`]), and their absolute
+/// accelerations from these displacements and velocities, where stiffness and damping are
+/// tridiagonal: a product with the mode shapes less. Peaks are taken from the modes alone.
 #[derive(Debug, Clone)]
 struct ByBands {
+    modes: RoughModes,
+    /// Bounds of what displacement (m), and a third of the block times velocity (m), err by at
+    /// either end.
+    errors: [[f64; 2]; 2],
     /// Of all floors, one after another, with a zero before and after them: displacement,
     /// velocity, and acceleration relative to the ground.
     displacement: Vec<f64>,
@@ -74,7 +80,8 @@ struct ByBands {
     rate: Vec<f64>,
     /// Maximum sums of magnitudes in a row of stiffness and of damping, by the masses.
     rows: [f64; 2],
-    /// Bound of what is lost in round-off at either end (m/s2).
+    /// Bound of what absolute accelerations, and thirds of the block times their rates, err by at
+    /// either end (m/s2).
     lost: [f64; 2],
 }
 
@@ -118,6 +125,8 @@ impl BlockEnds {
             buildings,
             suspects: Vec::with_capacity(3 * lanes),
             bands: constants.bands.as_ref().map(|bands| ByBands {
+                modes: RoughModes::new(lanes),
+                errors: [[0.0; 2]; 2],
                 displacement: vec![0.0; dofs + 2],
                 velocity: vec![0.0; dofs + 2],
                 acceleration: vec![0.0; dofs + 2],
@@ -145,16 +154,33 @@ impl BlockEnds {
         peak: &[Lane],
         block: &mut Block,
     ) -> bool {
+        if !self.holds[0] {
+            let (q, p) = (&now.displacement, &now.velocity);
+            if self.bands.is_some() {
+                self.approach_end(constants, [q, p]);
+                self.work_out_rough_end(constants);
+                self.go_on();
+                self.holds = [true, false];
+            }
+        }
         let low = match &constants.block_step {
             Some(step) => {
                 if load.is_none() {
                     step.load(samples, &mut self.load);
                 }
                 self.step_over((step, now), (samples, load), &mut block.end);
+                self.approach_end(constants, [&block.end.displacement, &block.end.velocity]);
                 bound_all((samples[0], samples[BLOCK]), load, peak, self)
             }
             None => advance_modes(constants, (now, samples), peak, block, self),
         };
+        if self.bands.is_some() {
+            self.work_out_rough_end(constants);
+            if !low {
+                self.accelerate_ends(constants, [samples[0], samples[BLOCK]]);
+            }
+            return low;
+        }
         let (q, p) = (&now.displacement, &now.velocity);
         if !(self.holds[0] && (low || self.holds[1])) {
             self.work_out_end(constants, (q, p, samples[0]), low);
@@ -163,6 +189,41 @@ impl BlockEnds {
         let (q, p) = (&block.end.displacement, &block.end.velocity);
         self.work_out_end(constants, (q, p, samples[BLOCK]), low);
         low
+    }
+
+    /// Takes displacements and velocities of the modes at the end over in single precision, where
+    /// floors are worked out by that.
+    fn approach_end(&mut self, constants: &ContactFree, modes: [&[Lane]; 2]) {
+        if let (Some(rough), Some(bands)) = (&constants.rough, &mut self.bands) {
+            bands.errors[1] = rough.take(modes, third(constants), &mut bands.modes);
+        }
+    }
+
+    /// Works out the floors at the end from the modes that were taken over.
+    fn work_out_rough_end(&mut self, constants: &ContactFree) {
+        if let (Some(rough), Some(bands)) = (&constants.rough, &self.bands) {
+            let [displacement, rate, _, _] = &mut self.end;
+            rough.floors(&bands.modes, [displacement, rate]);
+        }
+    }
+
+    /// Absolute accelerations with their rates at the end, and at the start unless they are known,
+    /// under these accelerations of the ground.
+    fn accelerate_ends(&mut self, constants: &ContactFree, ground: [f64; 2]) {
+        let (Some(bands), Some(work)) = (&constants.bands, &mut self.bands) else {
+            return;
+        };
+        let third = third(constants);
+        for (end, known) in [(0, self.holds[1]), (1, false)] {
+            if !known {
+                let floors = match end {
+                    0 => &mut self.start,
+                    _ => &mut self.end,
+                };
+                work.lost[end] =
+                    accelerate(bands, (work.errors[end], third), ground[end], work, floors);
+            }
+        }
     }
 
     /// Advances the modes by one step over the block, whose load is at hand or was worked out.
@@ -186,22 +247,16 @@ impl BlockEnds {
         (q, p, ground): (&[Lane], &[Lane], f64),
         low: bool,
     ) {
-        // Accelerations of tall buildings are those of the floors.
-        let speeds_alone = low || self.bands.is_some() && !self.small;
-        derive_end(constants, (q, p, ground), speeds_alone, &mut self.modes);
+        derive_end(constants, (q, p, ground), low, &mut self.modes);
         let [_, rate, absolute, absolute_rate] = &self.modes;
         let (shapes, rows) = (&constants.shapes, &constants.floor_rows);
-        match (&constants.bands, &mut self.bands) {
-            _ if self.small && low => rows_of_two(rows, [q, rate], &mut self.end),
-            _ if self.small => {
-                rows_of_four(rows, [q, rate, absolute, absolute_rate], &mut self.end)
+        match (self.small, low) {
+            (true, true) => rows_of_two(rows, [q, rate], &mut self.end),
+            (true, false) => rows_of_four(rows, [q, rate, absolute, absolute_rate], &mut self.end),
+            (false, true) => transform_two(shapes, [q, rate], &mut self.end),
+            (false, false) => {
+                transform_four(shapes, [q, rate, absolute, absolute_rate], &mut self.end)
             }
-            _ if low => transform_two(shapes, [q, rate], &mut self.end),
-            (Some(bands), Some(by_bands)) => {
-                transform_two(shapes, [q, rate], &mut self.end);
-                accelerate(bands, by_bands, (ground, third(constants)), &mut self.end);
-            }
-            _ => transform_four(shapes, [q, rate, absolute, absolute_rate], &mut self.end),
         }
     }
 
@@ -210,6 +265,7 @@ impl BlockEnds {
         std::mem::swap(&mut self.start, &mut self.end);
         if let Some(bands) = &mut self.bands {
             bands.lost.swap(0, 1);
+            bands.errors.swap(0, 1);
         }
     }
 
@@ -246,14 +302,23 @@ impl BlockEnds {
         ([a, a + out, b - back, b], self.beyond[0][c][l])
     }
 
-    /// Whether present accelerations, which are worked out, are those of the modes.
+    /// Whether the floors that are worked out are those of the modes in double precision.
     pub(super) fn is_exact(&self) -> bool {
         self.bands.is_none()
     }
 
+    /// What displacements of floors, and their rates, err by together (m).
+    fn error(&self) -> f64 {
+        let of = |bands: &ByBands| {
+            let [start, end] = bands.errors.map(|[value, rate]| value + rate);
+            start.max(end)
+        };
+        self.bands.as_ref().map_or(0.0, of)
+    }
+
     /// Takes the floors at the end, at this time (s), as present ones and as peaks, and finds
-    /// what could have higher peaks in the block: of accelerations that are not those of the
-    /// modes, what their peaks are sure to reach.
+    /// what could have higher peaks in the block: of floors that are not those of the modes, what
+    /// their peaks are sure to reach.
     pub(super) fn take_end(
         &mut self,
         constants: &ContactFree,
@@ -283,6 +348,8 @@ fn advance_modes(
     ends: &mut BlockEnds,
 ) -> bool {
     advance_all(constants, now, samples, block);
+    let end = &block.end;
+    ends.approach_end(constants, [&end.displacement, &end.velocity]);
     bound_overshoots(constants, block, [0], true);
     let low = is_low(constants, (&block.over[0], block.largest.0), peak);
     deviate(constants, (now, samples), block, low, ends);
@@ -337,6 +404,7 @@ fn bound_floors(ends: &mut BlockEnds, load: Option<BlockLoad<'_>>) {
         }
         return;
     }
+    let error = ends.error();
     let mut made = 0;
     for (index, building) in ends.buildings.iter().enumerate() {
         let mut sums = building.sums(&ends.bounds);
@@ -345,9 +413,13 @@ fn bound_floors(ends: &mut BlockEnds, load: Option<BlockLoad<'_>>) {
                 *sum += added;
             }
         }
+        sums[0] += error;
+        // A drift is a difference.
+        sums[1] += 2.0 * error;
         for (bound, beyond) in sums.into_iter().zip(&mut ends.beyond) {
             let lanes = beyond[building.lane..].iter_mut().zip(&building.own);
             for (c, (beyond, own)) in lanes.enumerate() {
+                lane_by_lane();
                 let bound = scale(bound, *own);
                 // A lane of the building before ends with floors of this one.
                 let shared = building.lane + c < made;
@@ -361,6 +433,7 @@ fn bound_floors(ends: &mut BlockEnds, load: Option<BlockLoad<'_>>) {
 #[inline(always)]
 fn add_all(more: &[Lane], to: &mut [Lane]) {
     for (to, more) in to.iter_mut().zip(more) {
+        lane_by_lane();
         for l in 0..WIDTH {
             to[l] += more[l];
         }
@@ -476,6 +549,7 @@ fn derive_end(
     let (displacement, velocity) = (&displacement[..count], &velocity[..count]);
     if speeds_alone {
         for (rate, p) in rates.iter_mut().zip(velocity) {
+            lane_by_lane();
             for l in 0..WIDTH {
                 rate[l] = third * p[l];
             }
@@ -483,6 +557,7 @@ fn derive_end(
         return;
     }
     for (c, m) in constants.modes.iter().enumerate() {
+        lane_by_lane();
         let (q, p) = (&displacement[c], &velocity[c]);
         let mut out = [Lane::ZERO; 3];
         for l in 0..WIDTH {
@@ -496,14 +571,21 @@ fn derive_end(
     }
 }
 
-/// Absolute accelerations of all floors with their rates, from displacements and velocities.
+/// Absolute accelerations of all floors with their rates, from displacements and velocities that
+/// err by at most this. Returns what they err by at most.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), end: &mut End) {
+fn accelerate(
+    bands: &Bands,
+    ([error, third_error], third): ([f64; 2], f64),
+    ground: f64,
+    work: &mut ByBands,
+    end: &mut End,
+) -> f64 {
     let [displacements, rates, absolutes, absolute_rates] = end;
     let count = work.absolute.len();
     let slower = 1.0 / third;
@@ -518,7 +600,6 @@ fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), en
             fastest = fastest.max(v.abs());
         }
     }
-    work.lost[1] = ROUND_OFF * (work.rows[0] * farthest + work.rows[1] * fastest);
     bands.resist(&work.displacement, &work.velocity, &mut work.absolute);
     for (a, absolute) in work.acceleration[1..].iter_mut().zip(&work.absolute) {
         *a = absolute - ground;
@@ -529,6 +610,12 @@ fn accelerate(bands: &Bands, work: &mut ByBands, (ground, third): (f64, f64), en
     }
     spread(&work.absolute, absolutes);
     spread(&work.rate, absolute_rates);
+    let [stiffness, damping] = work.rows;
+    let speed_error = slower * third_error;
+    let value = stiffness * error + damping * speed_error;
+    let rate = stiffness * speed_error + damping * value;
+    let lost = ROUND_OFF * (stiffness * farthest + damping * fastest);
+    value + third * rate + lost
 }
 
 /// Whether the displacements of all floors in the block are at most this one (m); those that are
@@ -543,6 +630,7 @@ fn are_within(limit: f64, ends: &BlockEnds) -> bool {
     let (start, end) = (&ends.start, &ends.end);
     let mut all = true;
     for (c, beyond) in ends.beyond[0].iter().enumerate() {
+        lane_by_lane();
         let floors = cubic([&start[0][c], &start[1][c], &end[0][c], &end[1][c]]);
         let upper = upper(&floors, beyond);
         for l in 0..WIDTH {
@@ -563,8 +651,26 @@ fn compare(
     constants: &ContactFree,
     ends: &mut BlockEnds,
     [displacement, drift, acceleration]: [&mut Track; 3],
+    at: (f64, bool),
+) {
+    if ends.bands.is_some() {
+        compare_each::<true>(constants, ends, [displacement, drift, acceleration], at);
+    } else {
+        compare_each::<false>(constants, ends, [displacement, drift, acceleration], at);
+    }
+}
+
+/// The same of floors that are known `ROUGH`ly, or exactly.
+#[inline(always)]
+fn compare_each<const ROUGH: bool>(
+    constants: &ContactFree,
+    ends: &mut BlockEnds,
+    [displacement, drift, acceleration]: [&mut Track; 3],
     (time, low): (f64, bool),
 ) {
+    let error = if ROUGH { ends.error() } else { 0.0 };
+    let lost = ends.bands.as_ref().filter(|_| ROUGH);
+    let lost = lost.map_or(0.0, |bands| bands.lost[0].max(bands.lost[1]));
     let (start, end, suspects) = (&ends.start, &ends.end, &mut ends.suspects);
     suspects.clear();
     let mut last = [0.0; CUBIC];
@@ -589,34 +695,29 @@ fn compare(
         };
         let [beyond, beyond_drift, beyond_acceleration, _] =
             ends.beyond.each_ref().map(|beyond| &beyond[c]);
-        suspect(
-            Quantity::Displacement,
-            take_end(&floors, beyond, (displacement, c), time),
-        );
-        suspect(
-            Quantity::Drift,
-            take_end(&drifts, beyond_drift, (drift, c), time),
-        );
+        let take = |cubic, error, beyond, track: &mut Track| {
+            if ROUGH {
+                approach_peak((cubic, error), beyond, (track, c))
+            } else {
+                take_end(cubic, beyond, (track, c), time)
+            }
+        };
+        let upper = take(&floors, error, beyond, displacement);
+        suspect(Quantity::Displacement, upper);
+        let upper = take(&drifts, 2.0 * error, beyond_drift, drift);
+        suspect(Quantity::Drift, upper);
         if low {
             continue;
         }
         let cubic = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
-        let beyond = beyond_acceleration;
-        let upper = match &ends.bands {
-            None => take_end(&cubic, beyond, (acceleration, c), time),
-            Some(bands) => {
-                let lost = bands.lost[0].max(bands.lost[1]);
-                let upper = upper(&cubic, beyond);
-                let upper = upper.map(|upper| upper + lost);
-                let sure = &mut acceleration.sure[c];
-                for l in 0..WIDTH {
-                    let value = cubic[CUBIC - 1][l].abs() - lost;
-                    sure[l] = if value > sure[l] { value } else { sure[l] };
-                }
-                unless_below(upper, &acceleration.reach(c))
-            }
-        };
-        suspect(Quantity::Acceleration, upper);
+        let mut beyond = *beyond_acceleration;
+        if ROUGH {
+            beyond = beyond.map(|beyond| beyond + lost);
+        }
+        suspect(
+            Quantity::Acceleration,
+            take(&cubic, lost, &beyond, acceleration),
+        );
     }
 }
 
@@ -649,6 +750,22 @@ fn take_end(
     }
     track.now[c] = cubic[CUBIC - 1];
     unless_below(upper(cubic, beyond), peak)
+}
+
+/// Takes the last coefficients, which err by at most so much, as what peaks are sure to reach.
+/// Returns bounds of the functions if one could still be above its peak.
+#[inline(always)]
+fn approach_peak(
+    (cubic, error): (&[Lane; CUBIC], f64),
+    beyond: &Lane,
+    (track, c): (&mut Track, usize),
+) -> Option<Lane> {
+    let sure = &mut track.sure[c];
+    for l in 0..WIDTH {
+        let value = cubic[CUBIC - 1][l].abs() - error;
+        sure[l] = if value > sure[l] { value } else { sure[l] };
+    }
+    unless_below(upper(cubic, beyond), &track.reach(c))
 }
 
 /// Bounds of functions in the block.
@@ -931,6 +1048,47 @@ mod tests {
                     let late = (seen.1 - expected.1).abs();
                     prop_assert!(late <= 1.0e-6, "{seen:?} {expected:?}");
                 }
+            }
+        }
+    }
+
+    /// Against double precision, and against accelerations of the modes.
+    #[test]
+    fn rough_floors_err_by_less_than_their_bounds() {
+        for (storeys, seed) in [([24, 3], 1.0), ([31, 50], 2.0), ([150, 70], 3.0)] {
+            let system = towers(storeys, seed, false, 1.0e3, (100, 0.01));
+            let constants = system.contact_free().unwrap();
+            let mut ends = BlockEnds::new(constants);
+            let lanes = constants.modes.len();
+            for decay in [0.0, 1.0, 2.0] {
+                let modal = [1.0, 7.0].map(|speed: f64| -> Vec<Lane> {
+                    let value = |j: usize| {
+                        300.0 * speed * libm::sin(seed + speed + 5.7 * j as f64)
+                            / (1.0 + decay * (j * j) as f64)
+                    };
+                    let lane = |c: usize| Lane::from_fn(|l| value(c * WIDTH + l));
+                    (0..lanes).map(lane).collect()
+                });
+                let [q, p] = modal.each_ref().map(Vec::as_slice);
+                ends.approach_end(constants, [q, p]);
+                ends.work_out_rough_end(constants);
+                ends.accelerate_ends(constants, [0.7; 2]);
+                let (mut modes, mut floors) = (ends.modes.clone(), ends.end.clone());
+                derive_end(constants, (q, p, 0.7), false, &mut modes);
+                let [_, rate, absolute, absolute_rate] = &modes;
+                let all = [q, rate, absolute, absolute_rate];
+                transform_four(&constants.shapes, all, &mut floors);
+                let bands = ends.bands.as_ref().unwrap();
+                let farthest = [0, 1, 2, 3].map(|k: usize| {
+                    let lanes = ends.end[k].iter().zip(&floors[k]);
+                    let each = lanes.flat_map(|(a, b)| (0..WIDTH).map(|l| (a[l] - b[l]).abs()));
+                    each.fold(0.0, f64::max)
+                });
+                let [value, rate] = bands.errors[1];
+                assert!(farthest[0] <= value && farthest[1] <= rate, "{farthest:?}");
+                let lost = bands.lost[1];
+                assert!(farthest[2] + farthest[3] <= lost, "{farthest:?} {lost:e}");
+                assert!(farthest.iter().all(|error| *error > 0.0));
             }
         }
     }

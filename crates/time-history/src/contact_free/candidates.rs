@@ -36,6 +36,8 @@ struct Candidate {
     sample: usize,
     /// Bound of the function in it.
     upper: f64,
+    /// Whether the bound is that of its polynomial between samples.
+    by_hull: bool,
     /// Index of the state it is reached from.
     snapshot: usize,
 }
@@ -49,8 +51,10 @@ pub(super) struct Candidates {
     /// velocities, one after another.
     samples: Vec<usize>,
     states: Vec<Lane>,
-    /// States in use: the first ones.
+    /// States in use: the first ones; and how many there may be before those that nothing is
+    /// reached from any more are dropped. Most soon are, and what is small stays in the cache.
     used: usize,
+    due: usize,
     scratch: Modal,
     /// State that the scratch was reached from, and the sample that it has come to, with the part
     /// of the modes that is there.
@@ -107,8 +111,9 @@ impl Candidates {
             list: Vec::with_capacity(capacity),
             capacity,
             samples: vec![0; snapshots],
-            states: vec![Lane::ZERO; snapshots * 2 * lanes],
+            states: Vec::with_capacity(snapshots * 2 * lanes),
             used: 0,
+            due: SNAPSHOTS,
             scratch: Modal::new(lanes),
             reached: None,
             bound: SampleBound::new(lanes),
@@ -126,6 +131,7 @@ impl Candidates {
             samples: Vec::new(),
             states: Vec::new(),
             used: 0,
+            due: 0,
             scratch: Modal::new(0),
             reached: None,
             bound: SampleBound::new(0),
@@ -147,7 +153,7 @@ impl Candidates {
             this.list.len() + wanted > this.capacity
                 || blocks.is_some_and(|of| of.list.len() + of.most > of.capacity)
         };
-        if !full(self) && self.used < self.samples.len() {
+        if !full(self) && self.used < self.due {
             return;
         }
         let many = |this: &Self| full(this) || this.used > this.samples.len() / 2;
@@ -158,6 +164,7 @@ impl Candidates {
         if many(self) {
             self.settle((constants, system), tracks);
         }
+        self.due = (2 * self.used).clamp(SNAPSHOTS, self.samples.len());
     }
 
     /// Number of the state at the start of the block from this sample on.
@@ -166,11 +173,9 @@ impl Candidates {
         if let Some(snapshot) = last.filter(|s| self.samples[*s] == first) {
             return snapshot;
         }
-        let lanes = now.displacement.len();
         self.samples[self.used] = first;
-        let state = &mut self.states[self.used * 2 * lanes..][..2 * lanes];
-        state[..lanes].copy_from_slice(&now.displacement);
-        state[lanes..].copy_from_slice(&now.velocity);
+        self.states.extend_from_slice(&now.displacement);
+        self.states.extend_from_slice(&now.velocity);
         self.used += 1;
         self.used - 1
     }
@@ -188,6 +193,7 @@ impl Candidates {
             floor,
             sample,
             upper,
+            by_hull: false,
             snapshot,
         });
     }
@@ -221,7 +227,7 @@ impl Candidates {
         for snapshot in self.list.iter().map(|c| c.snapshot).chain(of_lanes) {
             wanted[snapshot] = true;
         }
-        let both = self.states.len() / self.samples.len().max(1);
+        let both = self.states.len() / self.used.max(1);
         let (mut places, mut kept) = ([0; TALL_SNAPSHOTS], 0);
         for snapshot in (0..self.used).filter(|s| wanted[*s]) {
             self.samples[kept] = self.samples[snapshot];
@@ -239,6 +245,7 @@ impl Candidates {
             }
         }
         self.used = kept;
+        self.states.truncate(kept * both);
     }
 
     /// Looks at all that are left, and forgets them.
@@ -246,6 +253,7 @@ impl Candidates {
         self.settle_lanes(place, tracks);
         self.settle_samples(place, tracks);
         self.used = 0;
+        self.states.clear();
     }
 
     /// Looks at the lanes of floors that are left, those blocks first that could exceed the
@@ -297,6 +305,7 @@ impl Candidates {
                     floor: i.floor,
                     sample: first + i.number,
                     upper: i.upper,
+                    by_hull: true,
                     snapshot,
                 }));
             }
@@ -380,8 +389,9 @@ impl Candidates {
             end,
             slope: (end - start) / constants.step,
         };
-        // Of tall buildings the look at a sample that is not cut begins with such a bound.
-        if self.ends.is_empty() || constants.fine.parts > 1 {
+        // Of tall buildings a sample that is not cut has the bound of its polynomial already.
+        let bounded = !self.ends.is_empty() && constants.fine.parts == 1;
+        if !bounded || group.iter().any(|c| !c.by_hull) {
             let now = (lanes.clone(), &self.scratch);
             self.bound.take(constants, now, whole);
             for candidate in group.iter_mut().filter(|c| is_above(c, tracks)) {
@@ -415,7 +425,9 @@ impl Candidates {
                 let (quantity, floor) = (candidate.quantity, candidate.floor);
                 let track = &mut tracks[quantity as usize];
                 let (c, l) = (floor / WIDTH, floor % WIDTH);
-                if let Some(last) = self.ends.get_mut(number) {
+                // In one part the bound would be that which a look at the block has found.
+                let last = self.ends.get_mut(number).filter(|_| fine.parts > 1);
+                if let Some(last) = last {
                     let (of, peak) = ((quantity, floor), track.peak[c][l]);
                     if !self.look.could_exceed(constants, of, last, peak) {
                         continue;

@@ -7,7 +7,7 @@ use multiversion::multiversion;
 
 use super::candidates::Quantity;
 use super::constants::{ContactFree, Fine};
-use super::lanes::{Ground, Lane, Modal, ModeLanes, WIDTH, restoring};
+use super::lanes::{Ground, Lane, Modal, ModeLanes, WIDTH, lane_by_lane, restoring};
 use super::transform::{Four, floor_of_eight, transform_fours};
 use crate::polynomial::{Polynomial, difference, septic};
 
@@ -147,18 +147,9 @@ fn derive(
     let [displacement, velocity, seconds, thirds, fourths] =
         point.each_mut().map(|x| &mut x[lanes.clone()]);
     for (c, m) in constants.modes[lanes.clone()].iter().enumerate() {
+        lane_by_lane();
         let (q, p) = (&displacement[c], &velocity[c]);
-        let (seconds, thirds) = (&mut seconds[c], &mut thirds[c]);
-        let fourths = &mut fourths[c];
-        for l in 0..WIDTH {
-            let (damping, gamma) = (m.damping[l], m.participation[l]);
-            let stiffness = m.circular_frequency[l] * m.circular_frequency[l];
-            let second = -damping * p[l] - stiffness * q[l] - gamma * ground;
-            let third = -damping * second - stiffness * p[l] - gamma * slope;
-            seconds[l] = second;
-            thirds[l] = third;
-            fourths[l] = -damping * third - stiffness * second;
-        }
+        [_, _, seconds[c], thirds[c], fourths[c]] = derivatives(m, (q, p), (ground, slope));
     }
 }
 
@@ -207,7 +198,8 @@ impl CloserLook {
     /// Goes on by one fine step.
     pub(super) fn advance(&mut self, constants: &ContactFree, fine: &Fine, ground: Ground) {
         let fresh = std::mem::take(&mut self.fresh);
-        if fresh {
+        let by_eights = self.tall.is_some() && fine.parts == 1;
+        if fresh && !by_eights {
             let of = (constants, &self.lanes);
             self.end.derive(of, (ground.start, ground.slope));
         }
@@ -216,7 +208,18 @@ impl CloserLook {
         let of = (constants, lanes);
         let [from, from_rate, ..] = self.start.modes.each_ref().map(|x| &x[lanes.clone()]);
         let [to, to_rate, ..] = self.end.modes.each_mut().map(|x| &mut x[lanes.clone()]);
-        let modes = &fine.modes[lanes.clone()];
+        // What is not cut has the constants of the sample, which are in the cache.
+        let modes = match fine.parts {
+            1 => &constants.modes[lanes.clone()],
+            _ => &fine.modes[lanes.clone()],
+        };
+        if let Some(tall) = self.tall.as_deref_mut().filter(|_| by_eights) {
+            self.step = fine.step;
+            let wanted = self.wanted.each_ref().map(|lanes| lanes.contains(&true));
+            step_in_eights(modes, ground, [from, from_rate], (tall, lanes, wanted));
+            tall.gathered = wanted;
+            return;
+        }
         step(modes, ground, [from, from_rate], [to, to_rate]);
         self.end.derive(of, (ground.end, ground.slope));
         self.step = fine.step;
@@ -247,9 +250,10 @@ impl CloserLook {
         }
     }
 
-    /// Whether a floor's function could exceed this value over the fine step, by its values and
-    /// rates at both ends: those at the end are left in `last`, which has those at the start from
-    /// the second step on. Where all floors are worked out together there is nothing to be spared.
+    /// Whether a floor's function could exceed this value over one of several fine steps, by its
+    /// values and rates at both ends: those at the end are left in `last`, which has those at the
+    /// start from the second step on. Where all floors are worked out together there is nothing to
+    /// be spared.
     pub(super) fn could_exceed(
         &mut self,
         constants: &ContactFree,
@@ -407,17 +411,89 @@ impl CloserLook {
     }
 }
 
-/// Eight values for every mode, one after another. (Not by wide registers, whose gathering
-/// loads take ten times as long.)
+/// Eight values for every mode, one after another.
 fn gather_eights(lanes: &Range<usize>, values: [&Vec<Lane>; WIDTH], eights: &mut [Lane]) {
     let values = values.map(|values| &values[lanes.clone()]);
     let eights = &mut eights[lanes.start * WIDTH..lanes.end * WIDTH];
-    for (c, eights) in eights.chunks_exact_mut(WIDTH).enumerate() {
-        let values = values.map(|values| values[c]);
-        for (l, eight) in eights.iter_mut().enumerate() {
-            *eight = Lane(values.map(|value| value[l]));
+    for (c, eights) in eights.as_chunks_mut::<WIDTH>().0.iter_mut().enumerate() {
+        gather_eight(&values.map(|values| values[c]), eights);
+    }
+}
+
+/// The same of eight modes. (Not by wide registers, whose gathering loads take ten times as long.)
+#[inline(never)]
+fn gather_eight(values: &[Lane; WIDTH], eights: &mut [Lane; WIDTH]) {
+    for (l, eight) in eights.iter_mut().enumerate() {
+        *eight = Lane(values.each_ref().map(|value| value[l]));
+    }
+}
+
+/// Derivatives of displacement (0), and of absolute acceleration (1), where they are wanted, at
+/// both ends of a step from these displacements and velocities of some lanes of the modes. They go
+/// from register to register, and have the bits of one function after another.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn step_in_eights(
+    modes: &[ModeLanes],
+    ground: Ground,
+    [displacement, velocity]: [&[Lane]; 2],
+    (tall, lanes, wanted): (&mut Tall, &Range<usize>, [bool; 2]),
+) {
+    let eights = lanes.start * WIDTH..lanes.end * WIDTH;
+    let [moving, absolute] = tall.eights.each_mut().map(|of| &mut of[eights.clone()]);
+    let out = moving.as_chunks_mut::<WIDTH>().0.iter_mut();
+    let out = out.zip(absolute.as_chunks_mut::<WIDTH>().0);
+    let modes = modes.iter().zip(displacement).zip(velocity);
+    for (((m, q), p), (moving, absolute)) in modes.zip(out) {
+        let after = |k: &[Lane; 4]| {
+            Lane::from_fn(|l| {
+                k[0][l] * q[l] + k[1][l] * p[l] + (k[2][l] * ground.start + k[3][l] * ground.end)
+            })
+        };
+        let ends = [
+            (*q, *p, ground.start),
+            (after(&m.displacement), after(&m.velocity), ground.end),
+        ];
+        let [mut motion, mut forces] = [[Lane::ZERO; WIDTH]; 2];
+        for (end, (q, p, acceleration)) in ends.into_iter().enumerate() {
+            let derivatives = derivatives(m, (&q, &p), (acceleration, ground.slope));
+            let first = end * WIDTH / 2;
+            motion[first..first + WIDTH / 2].copy_from_slice(&derivatives[..WIDTH / 2]);
+            for k in 0..WIDTH / 2 {
+                let (x, v) = (&derivatives[k], &derivatives[k + 1]);
+                for l in 0..WIDTH {
+                    forces[first + k][l] = -(m.damping[l] * v[l] + m.stiffness[l] * x[l]);
+                }
+            }
+        }
+        if wanted[0] {
+            gather_eight(&motion, moving);
+        }
+        if wanted[1] {
+            gather_eight(&forces, absolute);
         }
     }
+}
+
+/// Displacement and velocity of eight modes with three more derivatives, by the equation of motion
+/// and its derivatives.
+#[inline(always)]
+fn derivatives(m: &ModeLanes, (q, p): (&Lane, &Lane), (ground, slope): (f64, f64)) -> [Lane; 5] {
+    let mut out = [*q, *p, Lane::ZERO, Lane::ZERO, Lane::ZERO];
+    for l in 0..WIDTH {
+        let (damping, gamma) = (m.damping[l], m.participation[l]);
+        let stiffness = m.circular_frequency[l] * m.circular_frequency[l];
+        let second = -damping * p[l] - stiffness * q[l] - gamma * ground;
+        let third = -damping * second - stiffness * p[l] - gamma * slope;
+        out[2][l] = second;
+        out[3][l] = third;
+        out[4][l] = -damping * third - stiffness * second;
+    }
+    out
 }
 
 /// What floors' functions depart from their cubics by over a step of this length (s) from these
@@ -465,6 +541,7 @@ fn departures(
 fn step(modes: &[ModeLanes], ground: Ground, from: [&[Lane]; 2], to: [&mut [Lane]; 2]) {
     let [displacement, velocity] = to;
     for (c, m) in modes.iter().enumerate() {
+        lane_by_lane();
         let (q, p) = (&from[0][c], &from[1][c]);
         let after = |k: &[Lane; 4]| {
             Lane::from_fn(|l| {

@@ -9,6 +9,7 @@ use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
 use super::overdamped::Decay;
 use super::reach::Reach;
+use super::rough_floors::RoughShapes;
 use crate::bands::Bands;
 use crate::contact_episode::{FloorRows, ModalRow};
 use crate::rates::fastest_rate;
@@ -47,6 +48,8 @@ pub(crate) struct ContactFree {
     /// Stiffness and damping of tall buildings by the masses of the floors, where both are
     /// tridiagonal.
     pub bands: Option<Bands>,
+    /// Their floors from modes in single precision.
+    pub rough: Option<RoughShapes>,
     /// The step over a block of samples: not for many modes, nor for blocks that are long beside
     /// the periods, nor for walls and frames with full matrices.
     pub block_step: Option<BlockStep>,
@@ -91,6 +94,7 @@ impl ContactFree {
         this.bands = system.bands().filter(|_| is_tall(system)).cloned();
         if let Some(bands) = &mut this.bands {
             bands.divide(system.mass());
+            this.rough = Some(RoughShapes::new(&this.shapes, &this.rows.size));
         }
         let few = this.modes.len() <= BlockStep::LANES;
         let by_modes = few && !this.swings && system.sections().is_empty();
@@ -152,6 +156,7 @@ impl ContactFree {
             section_rows: Vec::new(),
             above: vec![Lane::ZERO; dofs.div_ceil(WIDTH)],
             bands: None,
+            rough: None,
             block_step: None,
             fine: Fine::default(),
         }

@@ -3,6 +3,8 @@
 //! The functions are compiled for several instruction sets and chosen at run time
 //! (`multiversion`); without fused operations their bits are the same on all.
 
+use std::hint::black_box;
+
 use multiversion::multiversion;
 use std::ops::{Index, IndexMut, Range};
 
@@ -65,6 +67,13 @@ pub(crate) fn gather(lanes: &[Lane], values: &mut [f64]) {
 
 /// Number of values in a lane.
 pub(crate) const WIDTH: usize = 8;
+
+/// Keeps the lanes of a loop one after another. Each is a register already: what the compiler makes
+/// of eight at once, by loads that gather, takes several times as long.
+#[inline(always)]
+pub(crate) fn lane_by_lane() {
+    black_box(());
+}
 
 /// Sum of all values.
 #[inline(always)]
@@ -276,6 +285,7 @@ pub(crate) fn modal_overshoots(
 ) {
     let eighth = constants.eighth();
     for (c, m) in constants.modes.iter().enumerate() {
+        lane_by_lane();
         let (size, [by_size, by_ground]) = (size[c], m.acceleration_bound);
         let mut sum = Lane::ZERO;
         for l in 0..WIDTH {
@@ -295,6 +305,7 @@ pub(crate) fn modal_acceleration_overshoots(
 ) {
     let eighth = constants.eighth();
     for (c, m) in constants.modes.iter().enumerate() {
+        lane_by_lane();
         let (size, [by_size, by_ground, by_slope]) = (size[c], m.snap_bound);
         let mut sum = Lane::ZERO;
         for l in 0..WIDTH {
@@ -491,6 +502,7 @@ pub(crate) fn restore(modes: &[ModeLanes], q: &[Lane], p: &[Lane], out: &mut [La
     let count = modes.len().min(out.len());
     let (q, p, out) = (&q[..count], &p[..count], &mut out[..count]);
     for (c, m) in modes[..count].iter().enumerate() {
+        lane_by_lane();
         for l in 0..WIDTH {
             let omega = m.circular_frequency[l];
             out[c][l] = -(m.damping[l] * p[c][l] + omega * omega * q[c][l]);

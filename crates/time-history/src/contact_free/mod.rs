@@ -23,6 +23,7 @@ mod overdamped;
 mod part;
 mod phase;
 mod reach;
+mod rough_floors;
 mod sample_bound;
 mod transform;
 

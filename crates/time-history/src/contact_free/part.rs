@@ -63,6 +63,7 @@ impl ContactFree {
             section_rows: Vec::new(),
             above: Vec::new(),
             bands: None,
+            rough: None,
             block_step: None,
             fine: Fine::default(),
         }

@@ -7,7 +7,8 @@ use super::block_ends::{BlockEnds, is_tall};
 use super::candidates::{Candidates, Quantity};
 use super::constants::ContactFree;
 use super::lanes::{
-    Lane, Modal, ModalState, Track, WIDTH, at, balance, drifts, gather, restoring, spread,
+    Lane, Modal, ModalState, Track, WIDTH, at, balance, drifts, gather, raise_now, restoring,
+    spread,
 };
 use super::transform::transform;
 use crate::contact::Contacts;
@@ -129,6 +130,9 @@ pub(crate) struct ContactFreePhase {
     /// blocks by their ends do without them.
     acceleration_left_out: bool,
     penetration_left_out: bool,
+    /// The same of the floors' displacements and drifts, where blocks by their ends know them but
+    /// roughly.
+    floors_left_out: bool,
     /// Present penetrations.
     pub penetration: Vec<f64>,
     /// Least and greatest displacements of all floors in the present sample, where they are
@@ -167,6 +171,7 @@ impl ContactFreePhase {
             acceleration_known: false,
             acceleration_left_out: false,
             penetration_left_out: false,
+            floors_left_out: false,
             penetration: vec![0.0; system.levels().len()],
             extent: None,
             holds_state: false,
@@ -194,6 +199,7 @@ impl ContactFreePhase {
             acceleration_known: false,
             acceleration_left_out: false,
             penetration_left_out: false,
+            floors_left_out: false,
             penetration: vec![0.0; levels],
             extent: Some([zeros(), zeros()]),
             holds_state: true,
@@ -353,6 +359,7 @@ impl ContactFreePhase {
             self.work_out_acceleration(constants);
             self.acceleration_known = true;
         }
+        self.work_out_floors(constants, sample);
         self.measure_penetrations(range);
         let layout = Layout::of(range.system);
         let sum = |lanes: &[Lane]| lanes.iter().flat_map(|l| l.0).sum::<f64>();
@@ -470,7 +477,6 @@ impl ContactFreePhase {
         );
         if !ends.is_open(range.system, range.contacts) {
             ends.forget();
-            self.measure_penetrations(range);
             return false;
         }
         let tracks = &mut [
@@ -493,6 +499,7 @@ impl ContactFreePhase {
         self.acceleration_known = !low && exact;
         self.acceleration_left_out = !low && !exact;
         self.penetration_left_out = true;
+        self.floors_left_out = !exact;
         std::mem::swap(&mut self.now, &mut self.block.end);
         true
     }
@@ -505,6 +512,8 @@ impl ContactFreePhase {
         range: &SampleRange<'_>,
         (sample, count): (usize, usize),
     ) -> usize {
+        self.work_out_floors(constants, sample);
+        self.measure_penetrations(range);
         let ground = &range.system.ground().samples[sample..=sample + count];
         let mut samples = [ground[count]; BLOCK + 1];
         samples[..=count].copy_from_slice(ground);
@@ -551,6 +560,21 @@ impl ContactFreePhase {
             *penetration = block.levels.after(clear, l) - range.contacts.width(l);
         }
         clear
+    }
+
+    /// Works out displacements and drifts of the floors now, at this sample, if they were left
+    /// out, and takes their peaks.
+    fn work_out_floors(&mut self, constants: &ContactFree, sample: usize) {
+        if !std::mem::take(&mut self.floors_left_out) {
+            return;
+        }
+        let (shapes, u) = (&constants.shapes, &mut self.displacement.now);
+        transform(shapes, &self.now.displacement, u);
+        drifts(shapes, u, &mut self.drift.now);
+        let time = sample as f64 * constants.step;
+        for track in [&mut self.displacement, &mut self.drift] {
+            raise_now(track, time);
+        }
     }
 
     /// Works out present penetrations, if they were left out.

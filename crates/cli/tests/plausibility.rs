@@ -930,6 +930,7 @@ fn links_that_take_no_force() {
         "model = \"linear\"\nstiffness = 24",
         "model = \"viscous_damper\"\ndamping = 120",
         "model = \"bouc_wen\"\nstiffness = 2\nyield_force = \"1 N\"\nhardening_ratio = 0.1",
+        "model = \"bouc_wen\"\nstiffness = \"24 MN/m\"\nyield_force = 100\nhardening_ratio = 0",
         "model = \"elastoplastic_gap\"\ngap = \"20 m\"\nstiffness = \"24 MN/m\"\nyield_force = \"100 kN\"",
     ];
     for law in weak {
@@ -940,6 +941,9 @@ fn links_that_take_no_force() {
         "model = \"viscous_damper\"\ndamping = \"12 kN s/m\"",
         "model = \"viscous_damper\"\ndamping = \"120 kN s^0.4/m^0.4\"\nexponent = 0.4",
         "model = \"elastic_perfectly_plastic\"\nstiffness = \"24 MN/m\"\nyield_force = \"10 kN\"",
+        "model = \"bouc_wen\"\nstiffness = \"24 MN/m\"\nyield_force = \"10 kN\"\nhardening_ratio = 0",
+        // It has lost its strength before it is deformed by a millimetre.
+        "model = \"ibarra_medina_krawinkler_2005_bilinear\"\nstiffness = \"50 MN/m\"\nyield_force = \"20 kN\"\ncapping_deformation = \"0.5 mm\"\nsoftening_ratio = 1",
     ];
     for law in sound {
         let check = linked(law).check;

@@ -212,13 +212,24 @@ impl Drop for PartFile {
     }
 }
 
-/// Gives a new file the permissions of the one that it replaces. A file system that has none, or somebody else's, keeps
-/// those of a new file.
+/// Gives a new file the permissions of the one that it replaces, where both belong to the same user and group: to others
+/// the same permissions are other ones. A file system that has none keeps those of a new file.
+#[cfg(unix)]
 fn keep_permissions(part: &Path, target: &Path) {
-    if let Ok(before) = target.metadata() {
-        let _ = std::fs::set_permissions(part, before.permissions());
+    use std::os::unix::fs::{MetadataExt, PermissionsExt};
+    let (Ok(new), Ok(before)) = (part.metadata(), target.metadata()) else {
+        return;
+    };
+    let of_one = (new.uid(), new.gid()) == (before.uid(), before.gid());
+    let mode = before.permissions().mode() & 0o777;
+    // What its owner cannot read and write is meant for nobody.
+    if of_one && mode & 0o600 == 0o600 {
+        let _ = std::fs::set_permissions(part, std::fs::Permissions::from_mode(mode));
     }
 }
+
+#[cfg(not(unix))]
+fn keep_permissions(_: &Path, _: &Path) {}
 
 /// Puts a whole file in its place, or beside it where it may not be there.
 fn place(

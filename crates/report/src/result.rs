@@ -255,6 +255,9 @@ pub struct LinkResult {
     pub energy_dissipated: Vec<f64>,
 }
 
+/// Part of a peak that an output beside it has to have to tell its direction.
+const MOST_OF_PEAK: f64 = 0.7;
+
 impl LinkResult {
     /// Whether it joins rotations of foundations, so that moments take the place of forces.
     #[must_use]
@@ -269,12 +272,25 @@ impl LinkResult {
         levels.max_by(|a, b| self.force[*a].total_cmp(&self.force[*b]))
     }
 
-    /// Whether the greatest force of a level is one in tension, by the output times; `None` without a force.
+    /// Whether the greatest force of a level is one in tension: as the output times beside it tell, where one of them has
+    /// most of that force and the other one is not of the opposite sign. `None` where they do not tell, and without a force.
     #[must_use]
-    pub fn in_tension(&self, level: usize) -> Option<bool> {
-        let all = (level < self.forces.columns).then(|| self.forces.column(level))?;
-        let greatest = all.fold(0.0_f64, |m, f| if f.abs() > m.abs() { f } else { m });
-        (greatest != 0.0).then_some(greatest > 0.0)
+    pub fn in_tension(&self, times: &[f64], level: usize) -> Option<bool> {
+        let (peak, at) = (*self.force.get(level)?, *self.force_time.get(level)?);
+        let last = times.len().checked_sub(1)?;
+        let after = times.partition_point(|t| *t < at).min(last);
+        let near = |row: usize| {
+            let values = &self.forces.values;
+            values.get(row * self.forces.columns + level).copied()
+        };
+        let [before, after] = [near(after.saturating_sub(1))?, near(after)?];
+        let greater = if before.abs() > after.abs() {
+            before
+        } else {
+            after
+        };
+        let tells = peak > 0.0 && greater.abs() >= MOST_OF_PEAK * peak && before * after >= 0.0;
+        tells.then_some(greater > 0.0)
     }
 }
 

@@ -1,4 +1,4 @@
-//! Whether a file is one that a result was made of: by what it holds, wherever it lies by now.
+//! Whether a file is one that a result was made of: by what it holds, wherever it lies by now, or by its name.
 
 use std::fs::File;
 use std::io::{Read, copy};
@@ -17,8 +17,9 @@ pub struct Inputs<'r> {
 }
 
 impl Inputs<'_> {
-    /// What the file at this path is, if it is one of them: `record`, or `case or study`. What is not there, is empty or
-    /// cannot be read is none.
+    /// What the file at this path is, if it is one of them: `record`, or `case or study`, or, of one that has the name of
+    /// a file in the texts, `file`: a record of one building, a history of forces, a matrix, whose content is not
+    /// known. What is not there, is empty or cannot be read is none.
     #[must_use]
     pub fn holds(&self, path: &Path) -> Option<&'static str> {
         let file = || File::open(path).ok();
@@ -39,8 +40,29 @@ impl Inputs<'_> {
         copy(&mut file()?, &mut hash).ok()?;
         let digits = hexadecimal(&hash.finalize());
         let mut words = self.records.split_whitespace();
-        words.any(|word| word == digits).then_some("record")
+        if words.any(|word| word == digits) {
+            return Some("record");
+        }
+        let name = path.file_name()?.to_str()?;
+        self.texts
+            .iter()
+            .any(|text| names(text, name))
+            .then_some("file")
     }
+}
+
+/// Whether a text holds the name of a file as a quoted word, or as the end of one behind its folders.
+fn names(text: &str, name: &str) -> bool {
+    text.match_indices(name).any(|(at, _)| {
+        let (before, after) = (
+            text[..at].chars().next_back(),
+            text[at + name.len()..].chars().next(),
+        );
+        let quote = |c: Option<char>| matches!(c, Some('"' | '\''));
+        // In JSON a quote may follow a backslash.
+        (quote(after) || after == Some('\\'))
+            && (quote(before) || matches!(before, Some('/' | '\\')))
+    })
 }
 
 #[cfg(test)]
@@ -65,6 +87,20 @@ mod tests {
         };
         assert_eq!(inputs.holds(&at("a", "abc")), Some("record"));
         assert_eq!(inputs.holds(&at("b", "title = 1")), Some("case or study"));
+        // A history of forces is known by its name alone, wherever the case looks for it.
+        let inputs = Inputs {
+            texts: &["file = \"histories/push.csv\"", "file = 'own.csv'"],
+            ..inputs
+        };
+        for (name, what) in [
+            ("push.csv", Some("file")),
+            ("own.csv", Some("file")),
+            ("push.cs", None),
+            ("ush.csv", None),
+            ("histories", None),
+        ] {
+            assert_eq!(inputs.holds(&at(name, "1")), what, "{name}");
+        }
         for other in ["title = 2", "abcd", ""] {
             assert_eq!(inputs.holds(&at("c", other)), None, "{other}");
         }

@@ -135,7 +135,7 @@ pub enum StudyError {
         reason: String,
     },
     /// An output in the place of a file that the result was made of.
-    #[error("{path} is not replaced: it is a {what} of this study")]
+    #[error("{path} is not replaced: it is a {what} that this study was made of")]
     Input {
         /// The file.
         path: PathBuf,

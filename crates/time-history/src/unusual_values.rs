@@ -2,9 +2,10 @@
 
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_hysteresis::laboratory::{self, Step};
-use pounding_hysteresis::{HysteresisLaw, Motion};
+use pounding_hysteresis::{MAXIMUM_INTERNAL_VARIABLES, Motion};
 use pounding_shear_building::ShearBuilding;
 
+use crate::elements::Element;
 use crate::estimate::short;
 use crate::system::{LinkedMotion, System};
 use crate::warnings::{SMALL_MASS, Warning};
@@ -28,8 +29,8 @@ const YIELD_DISPLACEMENT: f64 = 0.5;
 const SEAT: f64 = 30.0;
 
 /// Deformations (m) to which a link is drawn and pushed, at a metre a second: beyond the last no floors move.
-const DEFORMATIONS: [f64; 7] = [0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0];
-/// Force of a link over the weight of the lighter building (-) below which nobody needs the link.
+const DEFORMATIONS: [f64; 9] = [1.0e-5, 1.0e-4, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0];
+/// Force of a link over the weight of the lightest floor of its buildings (-) below which nobody needs the link.
 const LINK_FORCE: f64 = 1.0e-3;
 
 /// Warnings of all buildings, joints and links.
@@ -59,15 +60,14 @@ fn weak_link(system: &System, index: usize) -> Option<Warning> {
     }
     let buildings = system.buildings().iter();
     let joined = buildings.filter(|b| link.between.iter().any(|name| name == b.name()));
-    let weights = joined.map(|b| STANDARD_GRAVITY * b.mass().iter().sum::<f64>());
+    let weights = joined.flat_map(|b| b.mass().iter().map(|mass| STANDARD_GRAVITY * mass));
     let weight = weights.min_by(f64::total_cmp)?;
     let levels = &system.elements()[link.first_element..link.first_element + link.levels];
-    let forces = levels.iter().map(|level| greatest_force(&*level.law));
-    let most = forces.fold(0.0, f64::max);
+    let most = levels.iter().map(greatest_force).fold(0.0, f64::max);
     (most < LINK_FORCE * weight).then(|| {
         let takes = match most > 0.0 {
             true => format!(
-                "takes at most {} N within a metre either way at 1 m/s, {} times the weight of the lighter building",
+                "takes at most {} N within a metre either way at 1 m/s, {} times the weight of the lightest floor",
                 short(most),
                 short(most / weight)
             ),
@@ -82,12 +82,29 @@ fn weak_link(system: &System, index: usize) -> Option<Warning> {
     })
 }
 
-/// Greatest force (N) of a new element over [`DEFORMATIONS`] either way, or more.
-fn greatest_force(law: &dyn HysteresisLaw) -> f64 {
-    // Such a variable would be integrated along the path, which every run of a study would pay for.
-    if law.variable_bound().is_finite() {
+/// Greatest force (N) of a new element: where it yields, and over [`DEFORMATIONS`] either way.
+fn greatest_force(element: &Element) -> f64 {
+    let law = &*element.law;
+    let at_yield = element
+        .yield_deformation
+        .map(|x| x * law.initial_stiffness());
+    let at_yield = at_yield.filter(|force| force.is_finite()).unwrap_or(0.0);
+    let bound = law.variable_bound();
+    if bound.is_finite() {
+        // Such a variable would be integrated along the path, which every run of a study would pay for. It is at its
+        // bound on a long way in one direction.
+        let history = law.virgin();
         let [.., furthest] = DEFORMATIONS;
-        return law.initial_stiffness() * furthest;
+        let motion = Motion {
+            deformation: furthest,
+            velocity: 1.0,
+        };
+        let mut variables = [0.0; MAXIMUM_INTERNAL_VARIABLES];
+        for (variable, virgin) in variables.iter_mut().zip(history.variables()) {
+            *variable = *virgin;
+        }
+        variables[0] = bound;
+        return law.force(&history, motion, &variables).force.abs();
     }
     let forces = [1.0, -1.0].into_iter().flat_map(|side| {
         let mut from = 0.0;
@@ -102,7 +119,7 @@ fn greatest_force(law: &dyn HysteresisLaw) -> f64 {
         });
         laboratory::drive_steps(law, steps)
     });
-    forces.fold(0.0, |most, point| most.max(point.force.abs()))
+    forces.fold(at_yield, |most, point| most.max(point.force.abs()))
 }
 
 /// What a length in metres would be if millimetres were meant.

@@ -765,8 +765,8 @@ impl Warning {
         })
     }
 
-    /// The warning of the first building whose displacement is greatest at the end of the run, unless it is `told` already
-    /// that more is to come.
+    /// The warning of the first building whose displacement is greatest at the end of a run under moving ground alone,
+    /// unless it is `told` already that more is to come: what is pushed or was released may come to rest there.
     fn ends_at_peak(
         system: &System,
         options: &RunOptions,
@@ -779,7 +779,13 @@ impl Warning {
                 Self::EndsBeforePeak { .. } | Self::EndsBeforeForce { .. } | Self::NothingMoves
             )
         };
-        if told.iter().any(is_short) {
+        let motions = system.motions_in_use();
+        let shakes = motions
+            .iter()
+            .any(|(_, motion, _)| motion.samples.iter().any(|a| *a != 0.0));
+        let pushed = system.forces().iter().any(|f| f.history.peak().value > 0.0);
+        let released = system.initial_state().iter().any(|x| *x != 0.0);
+        if !shakes || pushed || released || told.iter().any(is_short) {
             return None;
         }
         let duration = options.duration.unwrap_or_else(|| system.record_duration());

@@ -108,7 +108,7 @@ fn spare_inputs(output: &Path, (texts, records): (&[&str], &str)) -> Result<(), 
         None => Ok(()),
         Some(what) => Err(Failure::input(
             format!(
-                "{} is not replaced: it is a {what} of this result",
+                "{} is not replaced: it is a {what} that this result was made of",
                 output.display()
             ),
             Some("give the page another name with -o".to_owned()),
@@ -120,6 +120,9 @@ fn spare_inputs(output: &Path, (texts, records): (&[&str], &str)) -> Result<(), 
 fn of_answer(asked: &Asked<'_>, output: &Path) -> Result<(), Failure> {
     let answered = Answered::read(asked.result).map_err(|e| page::failed(e.into()))?;
     no_study(asked, "the answer of another command")?;
+    // What an answer tells of files is their names.
+    let text = read_regular_text(asked.result, "answer").map_err(|e| Failure::case(e, ""))?;
+    spare_inputs(output, (&[&text], ""))?;
     plot::write(output, &answered.page())?;
     let command = answered.command.name();
     print(&format!(

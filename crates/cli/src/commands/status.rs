@@ -66,7 +66,8 @@ pub fn status(arguments: &StatusArguments) -> Result<(), Failure> {
             print(&told.join("\n"))?;
         }
         // What running shards write, perhaps on other machines, is not left over.
-        if studies.iter().all(|study| study.running.is_empty()) {
+        let are_ended = studies.iter().all(|study| study.running.is_empty());
+        if are_ended && (done || !arguments.watch) {
             name_left_over_in(&arguments.folder);
         }
         match (done, arguments.watch) {

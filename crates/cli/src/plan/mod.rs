@@ -135,10 +135,12 @@ fn outputs_have_a_place(
         table_has_a_place(csv)?;
     }
     match planned.into {
-        Some(into) if into.exists() && !into.is_dir() => Err(Failure::input(
-            format!("--into {} is no folder", into.display()),
-            Some("name a folder for the results of the shards".to_owned()),
-        )),
+        Some(into) if into.ancestors().any(|at| at.exists() && !at.is_dir()) => {
+            Err(Failure::input(
+                format!("--into {} is no folder", into.display()),
+                Some("name a folder for the results of the shards".to_owned()),
+            ))
+        }
         _ => Ok(()),
     }
 }

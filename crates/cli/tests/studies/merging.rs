@@ -495,7 +495,7 @@ fn inputs_stay_wherever_shards_are_merged() {
         let told = String::from_utf8_lossy(&output.stderr);
         assert_eq!(output.status.code(), Some(2), "{call}: {told}");
         assert!(
-            told.contains("is not replaced: it is a record of"),
+            told.contains("is not replaced: it is a record that"),
             "{call}: {told}"
         );
         for (name, content) in &records {

@@ -376,6 +376,8 @@ fn a_plan_whose_result_has_no_place_is_refused() {
         ("-o none/x.h5", 4, "none"),
         ("-o x.h5 --csv none/x.csv", 4, "none"),
         ("-o x.h5 --into file", 2, "--into file is no folder"),
+        ("-o x.h5 --into file/deeper", 2, "is no folder"),
+        ("-o x.h5 --report none/x.html", 4, "none"),
     ] {
         for planned in ["", "=shell", "=slurm"] {
             let told =

@@ -190,7 +190,6 @@ impl ResponseSpectrum {
         }
     }
 
-    /// Adds the peaks of an oscillator of this period (s), above zero.
     /// Adds the periods of another spectrum, of the same motion and damping.
     pub fn append(&mut self, other: Self) {
         self.periods.extend(other.periods);
@@ -201,6 +200,7 @@ impl ResponseSpectrum {
         self.pseudo_acceleration.extend(other.pseudo_acceleration);
     }
 
+    /// Adds the peaks of an oscillator of this period (s), above zero.
     pub(super) fn push_peaks(&mut self, period: f64, peaks: &OscillatorPeaks) {
         let frequency = TAU / period;
         let displacement = peaks.displacement.value;

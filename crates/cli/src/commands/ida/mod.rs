@@ -31,7 +31,18 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
     let Some(settings) = &study.ida else {
         return Err(no_analysis(&study));
     };
+    let openquake = match &arguments.openquake {
+        Some(path) => Some((path, measure_of_openquake(&settings.measure)?)),
+        None => None,
+    };
+    let outputs = [
+        arguments.plot.as_deref(),
+        arguments.table.as_deref(),
+        arguments.openquake.as_deref(),
+        arguments.running.report.as_deref(),
+    ];
     if let Some(scheduler) = arguments.planning.plan {
+        have_a_place(outputs)?;
         let planned = Planned {
             command: "ida",
             at_the_end: at_the_end(arguments),
@@ -41,22 +52,13 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
         };
         return plan::print_plan(&study, &planned, (scheduler, arguments.json), &mut files);
     }
-    let openquake = match &arguments.openquake {
-        Some(path) => Some((path, measure_of_openquake(&settings.measure)?)),
-        None => None,
-    };
     let shard = shard(&arguments.sharing, &arguments.running)?;
     let into = arguments.sharing.into.as_deref();
     let options = options(&study, &arguments.running, (shard, into), &mut files)?;
     if stands_complete(&options, &arguments.running, &files)? {
         return Ok(());
     }
-    have_a_place([
-        arguments.plot.as_deref(),
-        arguments.table.as_deref(),
-        arguments.openquake.as_deref(),
-        arguments.running.report.as_deref(),
-    ])?;
+    have_a_place(outputs)?;
     let sweep = run(&study, &options, into)?;
     if let Err(failed) = all_failed(&sweep, shard) {
         tell(arguments, (&study, &sweep, &options), None)?;

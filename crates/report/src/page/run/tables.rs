@@ -426,14 +426,15 @@ pub(super) fn hardest(gap: &GapResult, count: usize, input: f64) -> String {
     format!("<h3>{heading}</h3>\n{}", table(&heading, &columns, rows))
 }
 
-/// Whether the greatest force of a level pulls or pushes; nothing of moments, and of no force.
-pub(super) fn direction(link: &LinkResult, level: usize) -> Option<&'static str> {
-    let tension = link.in_tension(level).filter(|_| !link.turns())?;
+/// Whether the greatest force of a level pulls or pushes; nothing of moments, of no force, and where output times do not
+/// tell.
+pub(super) fn direction(link: &LinkResult, times: &[f64], level: usize) -> Option<&'static str> {
+    let tension = link.in_tension(times, level).filter(|_| !link.turns())?;
     Some(["compression", "tension"][usize::from(tension)])
 }
 
 /// The levels of a link, the top first.
-pub(super) fn link(link: &LinkResult) -> String {
+pub(super) fn link(link: &LinkResult, times: &[f64]) -> String {
     let [(length, length_unit), (force, force_unit)] =
         [&link.units[0], &link.units[1]].map(|unit| shown_unit(unit));
     let of = ["force", "moment"][usize::from(link.turns())];
@@ -470,7 +471,7 @@ pub(super) fn link(link: &LinkResult) -> String {
             figures(at(&link.deformation_time)),
             figures(force * at(&link.force)),
             figures(at(&link.force_time)),
-            direction(link, l).unwrap_or("-").to_owned(),
+            direction(link, times, l).unwrap_or("-").to_owned(),
             figures(1.0e-3 * at(&link.energy_dissipated)),
         ];
         Row::new(l, cells)

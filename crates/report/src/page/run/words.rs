@@ -24,7 +24,15 @@ pub(super) fn summary(result: &RunResult) -> String {
             counted(impacts, "impact"),
         ));
     }
-    points.extend(result.links.iter().take(MOST).filter_map(pulled));
+    let (links, fewer) = strongest(result);
+    let told = links.into_iter();
+    points.extend(told.filter_map(|link| pulled(link, &result.time)));
+    if fewer > 0 {
+        points.push(format!(
+            "{} more below, which bear less.",
+            counted(fewer, "link")
+        ));
+    }
     if points.is_empty() {
         points.push("There is no gap with a contact level.".to_owned());
     }
@@ -45,7 +53,9 @@ pub(super) fn summary(result: &RunResult) -> String {
     sentences(&points) + &warnings(&result.warnings)
 }
 
-/// Gaps and buildings that have a sentence of their own in the summary.
+/// Ratio to the response of the isolated building beyond which that is round-off.
+const OF_NOTHING: f64 = 1.0e6;
+/// Gaps, links and buildings that have a sentence of their own in the summary.
 const MOST: usize = 6;
 
 /// The buildings whose accelerations pounding raises most, in the order of the case.
@@ -163,10 +173,30 @@ fn hit(gap: &GapResult) -> Option<String> {
     ))
 }
 
+/// The links with the greatest forces, in the order of the case, and how many others there are.
+fn strongest(result: &RunResult) -> (Vec<&LinkResult>, usize) {
+    let most = |link: &LinkResult| link.force.iter().copied().fold(0.0, f64::max);
+    let mut places: Vec<usize> = (0..result.links.len()).collect();
+    places.sort_by(|a, b| most(&result.links[*b]).total_cmp(&most(&result.links[*a])));
+    let fewer = places.len().saturating_sub(MOST);
+    places.truncate(MOST);
+    places.sort_unstable();
+    (
+        places.into_iter().map(|at| &result.links[at]).collect(),
+        fewer,
+    )
+}
+
 /// What a link bears where it bears most.
-fn pulled(link: &LinkResult) -> Option<String> {
+fn pulled(link: &LinkResult, times: &[f64]) -> Option<String> {
     let l = link.governing_level()?;
     let name = named(&link.name);
+    if link.force[l] == 0.0 {
+        return Some(format!(
+            "<strong>Link {name} never bears a force</strong> ({}).",
+            named(&link.law)
+        ));
+    }
     let path = format!("link/{}/peak", link.name);
     let [(length, length_unit), (force, force_unit)] =
         [&link.units[0], &link.units[1]].map(|unit| shown_unit(unit));
@@ -175,7 +205,7 @@ fn pulled(link: &LinkResult) -> Option<String> {
         number(&from, factor, &figures(factor * values[l]))
     };
     let kind = ["force", "moment"][usize::from(link.turns())];
-    let way = direction(link, l).map_or_else(String::new, |way| format!(" in {way}"));
+    let way = direction(link, times, l).map_or_else(String::new, |way| format!(" in {way}"));
     Some(format!(
         "<strong>Link {name} bears a {kind} of at most {} {force_unit}{way}</strong>, at {}, {} s into the motion, and \
          deforms by at most {} {length_unit} ({}).",
@@ -234,19 +264,24 @@ fn changed(building: &BuildingResult) -> Option<String> {
     let named_responses = building.responses.iter();
     let named_responses = named_responses.map(|r| (r, r.value / r.isolated));
     let most = named_responses
-        .filter(|(_, ratio)| ratio.is_finite())
+        .filter(|(_, ratio)| !ratio.is_nan())
         .max_by(|a, b| a.1.total_cmp(&b.1));
-    let response = most.map(|(response, _)| {
-        let (factor, unit) = shown_unit(&response.unit);
+    let response = most.map(|(response, most)| {
+        let (factor, unit) = match shown_unit(&response.unit) {
+            (factor, "-" | "1") => (factor, String::new()),
+            (factor, unit) => (factor, format!(" {}", unit.replace("s2", "s\u{b2}"))),
+        };
+        let name = named(&response.name.replace('_', " "));
+        let from = format!("{path}/response/{}", response.name);
+        let value = number(&from, factor, &all_figures(factor * response.value));
+        if most > OF_NOTHING {
+            return format!("{name} {value}{unit}, of which there is none alone");
+        }
         let isolated = format!("{path}/response/isolated_{}", response.name);
-        let here = format!("{path}/response/{}", response.name);
-        let quotient = format!("{here} / {isolated}");
+        let quotient = format!("{from} / {isolated}");
         format!(
-            "{} at most {} times ({} {unit}, alone {} {unit})",
-            // Names end in numbers, which would run into that of the ratio.
-            named(&response.name),
+            "{name} at most {} times ({value}{unit}, alone {}{unit})",
             number(&quotient, 1.0, &times(response.value, response.isolated)),
-            number(&here, factor, &all_figures(factor * response.value)),
             number(&isolated, factor, &all_figures(factor * response.isolated)),
         )
     });

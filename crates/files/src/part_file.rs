@@ -138,8 +138,10 @@ impl PartFile {
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt;
-            // What any new file gets, less what the user's mask takes away.
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
+            // What any new file gets, less what the user's mask takes away; of one's own file that is replaced, no more
+            // than it has, so that nobody else reads the new one before it is whole.
+            let mode = own_mode(&target).map_or(0o666, |mode| mode & 0o666);
+            builder.permissions(std::fs::Permissions::from_mode(mode));
         }
         let mut all = standing();
         let part = builder
@@ -220,12 +222,19 @@ fn keep_permissions(part: &Path, target: &Path) {
     let (Ok(new), Ok(before)) = (part.metadata(), target.metadata()) else {
         return;
     };
-    let of_one = (new.uid(), new.gid()) == (before.uid(), before.gid());
-    let mode = before.permissions().mode() & 0o777;
-    // What its owner cannot read and write is meant for nobody.
-    if of_one && mode & 0o600 == 0o600 {
+    if let Some(mode) = own_mode(target).filter(|_| new.gid() == before.gid()) {
         let _ = std::fs::set_permissions(part, std::fs::Permissions::from_mode(mode));
     }
+}
+
+/// The permissions of a file of this process's user. What its owner cannot read and write is meant for nobody.
+#[cfg(unix)]
+fn own_mode(path: &Path) -> Option<u32> {
+    use std::os::unix::fs::MetadataExt;
+    let found = path.metadata().ok()?;
+    let mode = found.mode() & 0o777;
+    let is_own = found.uid() == rustix::process::geteuid().as_raw();
+    (is_own && mode & 0o600 == 0o600).then_some(mode)
 }
 
 #[cfg(not(unix))]
@@ -667,7 +676,11 @@ mod tests {
         let new = mode();
         for own in [0o600, 0o640, 0o666] {
             std::fs::set_permissions(&target, std::fs::Permissions::from_mode(own)).unwrap();
-            write(&target, b"after").unwrap();
+            let part = PartFile::beside(&target).unwrap();
+            let before = part.path().metadata().unwrap().permissions().mode() & 0o777;
+            assert_eq!(before & !own, 0, "{before:o} while it is written");
+            std::fs::write(part.path(), "after").unwrap();
+            part.finish().unwrap();
             assert_eq!(mode(), own);
         }
         std::fs::remove_file(&target).unwrap();

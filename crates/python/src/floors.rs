@@ -5,7 +5,7 @@ use pounding_case::Dimension;
 use pounding_cli::Failure;
 use pounding_cli::answers::of_check;
 use pounding_study::floor_spectra::{
-    FloorMotions, FloorPlace, FloorSpectraError, FloorSpectraWanted, floor_above,
+    FloorPlace, FloorSpectraError, FloorSpectraWanted, floor_above, floor_spectra,
     floor_spectra_under, roofs,
 };
 use pounding_time_history::System;
@@ -19,9 +19,6 @@ use crate::watch::watched;
 
 /// Progress is told in parts of this.
 const WHOLE: usize = 1000;
-
-/// Part of the time that runs take, about; spectra take the rest.
-const RUNS: f64 = 0.1;
 
 /// Floors as Python names them, or the roofs.
 type Floors = Option<Vec<(String, usize)>>;
@@ -75,12 +72,11 @@ fn floor_spectra_json<'py>(
             periods: &periods,
             dampings: &dampings,
         };
-        let tell = |part: f64| watch.ask((part * WHOLE as f64) as usize, WHOLE);
-        let motions = FloorMotions::new(&assembly, wanted, &mut |part| tell(RUNS * part));
-        let spectra = motions.and_then(|motions| {
-            motions.spectra(&periods, &mut |part| tell(RUNS + (1.0 - RUNS) * part))
+        let work = floor_spectra(&assembly, wanted, &[&periods], &mut |part| {
+            watch.ask((part * WHOLE as f64) as usize, WHOLE)
         });
-        json(&spectra.map_err(failed)?)
+        let (mut spectra, _) = work.map_err(failed)?;
+        json(&spectra.remove(0))
     })?;
     Ok(made?)
 }

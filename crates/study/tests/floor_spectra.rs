@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use pounding_study::floor_spectra::{
-    FloorMotions, FloorSpectraError, FloorSpectraWanted, floor_above, roofs,
+    FloorSpectraError, FloorSpectraWanted, floor_above, floor_spectra, roofs,
 };
 
 /// What is stiff feels the impacts; what swings with the building feels less than without them. Who does not want a run any
@@ -27,22 +27,21 @@ fn roofs_of_the_three_storey_pair() {
         periods: &periods,
         dampings: &[0.05],
     };
-    let motions = FloorMotions::new(&assembly, wanted, &mut |_| ControlFlow::Continue(())).unwrap();
     let mut parts = Vec::new();
-    let found = motions.spectra(&periods, &mut |part| {
+    // Each period by itself, however many are asked for at once.
+    let many: Vec<f64> = (1..40).map(|i| 0.05 * f64::from(i)).collect();
+    let lists: [&[f64]; 3] = [&periods, &many, &many[37..38]];
+    let made = floor_spectra(&assembly, wanted, &lists, &mut |part| {
         parts.push(part);
         ControlFlow::Continue(())
     });
-    let found = found.unwrap();
-    assert!(parts.is_sorted() && parts.last() == Some(&1.0), "{parts:?}");
-    let stopped = motions.spectra(&periods, &mut |_| ControlFlow::Break(()));
-    assert!(matches!(stopped, Err(FloorSpectraError::Stopped)));
-    // Each period by itself, however many are asked for at once.
-    let many: Vec<f64> = (1..40).map(|i| 0.05 * f64::from(i)).collect();
-    let goes_on = &mut |_| ControlFlow::Continue(());
-    let all = motions.spectra(&many, goes_on).unwrap();
-    let one = motions.spectra(&many[37..38], goes_on).unwrap();
-    let [all, one] = [&all, &one].map(|s| &s.floors[0].spectra[0].pounding);
+    let (found, none) = made.unwrap();
+    assert_eq!(none, None);
+    assert!(parts.is_sorted() && (parts[parts.len() - 1] - 1.0).abs() < 1e-12);
+    let [found, all, one] = &found[..] else {
+        panic!("{} lists", found.len());
+    };
+    let [all, one] = [all, one].map(|s| &s.floors[0].spectra[0].pounding);
     assert_eq!(
         (all.periods.len(), all.acceleration[37]),
         (39, one.acceleration[0])
@@ -51,6 +50,12 @@ fn roofs_of_the_three_storey_pair() {
     let alone = light.alone.as_ref().unwrap();
     assert!(light.pounding.acceleration[0] > 20.0 * alone.acceleration[0]);
     assert!(light.pounding.acceleration[1] < 0.5 * alone.acceleration[1]);
-    let stopped = FloorMotions::new(&assembly, wanted, &mut |_| ControlFlow::Break(()));
-    assert!(matches!(stopped, Err(FloorSpectraError::Stopped)));
+    // In the runs, and in the spectra.
+    for end in [0.0, 0.5] {
+        let stopped = floor_spectra(&assembly, wanted, &[&many], &mut |part| match part < end {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        });
+        assert!(matches!(stopped, Err(FloorSpectraError::Stopped)));
+    }
 }

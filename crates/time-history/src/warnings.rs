@@ -738,9 +738,7 @@ impl Warning {
     fn of_rest(system: &System, options: &RunOptions) -> Option<Self> {
         let mut in_use = system.motions_in_use();
         in_use.retain(|(_, motion, _)| motion.samples.iter().any(|a| *a != 0.0));
-        let pushed = system.forces().iter().any(|f| f.history.peak().value > 0.0);
-        let released = system.initial_state().iter().any(|x| *x != 0.0);
-        if in_use.is_empty() && !pushed && !released {
+        if in_use.is_empty() && !is_pushed_or_released(system) {
             return Some(Self::NothingMoves);
         }
         let duration = options.duration?;
@@ -779,13 +777,7 @@ impl Warning {
                 Self::EndsBeforePeak { .. } | Self::EndsBeforeForce { .. } | Self::NothingMoves
             )
         };
-        let motions = system.motions_in_use();
-        let shakes = motions
-            .iter()
-            .any(|(_, motion, _)| motion.samples.iter().any(|a| *a != 0.0));
-        let pushed = system.forces().iter().any(|f| f.history.peak().value > 0.0);
-        let released = system.initial_state().iter().any(|x| *x != 0.0);
-        if !shakes || pushed || released || told.iter().any(is_short) {
+        if is_pushed_or_released(system) || told.iter().any(is_short) {
             return None;
         }
         let duration = options.duration.unwrap_or_else(|| system.record_duration());
@@ -869,6 +861,12 @@ impl Warning {
         }
         warnings
     }
+}
+
+/// Whether forces act, or buildings do not start at rest in place.
+fn is_pushed_or_released(system: &System) -> bool {
+    let pushed = system.forces().iter().any(|f| f.history.peak().value > 0.0);
+    pushed || system.initial_state().iter().any(|x| *x != 0.0)
 }
 
 /// What does not depend on the response.

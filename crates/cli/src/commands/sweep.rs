@@ -18,10 +18,10 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
         return print_as_it_is(&case_of_run(&study, run)?);
     }
     if let Some(scheduler) = arguments.planning.plan {
-        have_a_place([arguments.running.report.as_deref()])?;
         let planned = Planned {
             command: "sweep",
             at_the_end: Vec::new(),
+            written_at_the_end: &[arguments.running.report.as_deref()],
             running: &arguments.running,
             into: arguments.sharing.into.as_deref(),
             planning: &arguments.planning,

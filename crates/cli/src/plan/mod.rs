@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use crate::arguments::{PlanArguments, RunningArguments, Scheduler, time_limit};
 use crate::failure::Failure;
-use crate::files::reads_too;
+use crate::files::{have_a_place, reads_too};
 use crate::interruption::{quoted, shell_line};
 use crate::output::{note, pretty, print, print_as_it_is};
 use crate::study::{name, table_has_a_place};
@@ -25,6 +25,8 @@ pub struct Planned<'p> {
     pub command: &'static str,
     /// Options that belong to the whole study, for a last call of the command.
     pub at_the_end: Vec<String>,
+    /// Tables, pages and figures that this call writes.
+    pub written_at_the_end: &'p [Option<&'p Path>],
     /// How it is run.
     pub running: &'p RunningArguments,
     /// Folder of the shards, if one is named.
@@ -134,6 +136,7 @@ fn outputs_have_a_place(
     if let Some(csv) = &running.csv {
         table_has_a_place(csv)?;
     }
+    have_a_place(planned.written_at_the_end.iter().copied())?;
     match planned.into {
         Some(into) if into.ancestors().any(|at| at.exists() && !at.is_dir()) => {
             Err(Failure::input(

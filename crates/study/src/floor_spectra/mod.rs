@@ -214,9 +214,36 @@ pub fn floor_above(
     }
 }
 
+/// Part of the time that runs take, about; spectra take the rest.
+const RUNS: f64 = 0.1;
+
+/// Runs a case with its gaps and links and without them, and gives the spectra of its floors for each list of periods (s), of
+/// which none should be shorter than the shortest that is wanted; `progress` is told how far all of it is, from 0 to 1, and
+/// says whether to go on. Beside them stands why there is no run of the buildings alone, if so.
+///
+/// # Errors
+/// Periods and damping ratios that no spectrum has, those of the run with pounding, and [`FloorSpectraError::Stopped`].
+pub fn floor_spectra(
+    assembly: &Assembly,
+    wanted: FloorSpectraWanted<'_>,
+    lists: &[&[f64]],
+    progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
+) -> Result<(Vec<FloorSpectra>, Option<String>), FloorSpectraError> {
+    let motions = FloorMotions::new(assembly, wanted, &mut |part| progress(RUNS * part))?;
+    let all: usize = lists.iter().map(|periods| periods.len()).sum();
+    let share = |periods: usize| (1.0 - RUNS) * periods as f64 / all.max(1) as f64;
+    let (mut from, mut answers) = (RUNS, Vec::new());
+    for periods in lists {
+        let own = share(periods.len());
+        answers.push(motions.spectra(periods, &mut |part| progress(from + own * part))?);
+        from += own;
+    }
+    Ok((answers, motions.alone_fails))
+}
+
 /// Runs of a case with its gaps and links and without them, with the motions of some floors.
 #[derive(Debug)]
-pub struct FloorMotions<'a> {
+struct FloorMotions<'a> {
     assembly: &'a Assembly,
     floors: &'a [FloorPlace],
     dampings: &'a [f64],
@@ -233,7 +260,7 @@ impl<'a> FloorMotions<'a> {
     ///
     /// # Errors
     /// Periods and damping ratios that no spectrum has, and those of the run with pounding.
-    pub fn new(
+    fn new(
         assembly: &'a Assembly,
         wanted: FloorSpectraWanted<'a>,
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,
@@ -295,7 +322,7 @@ impl<'a> FloorMotions<'a> {
     ///
     /// # Errors
     /// Periods that no spectrum has, and [`FloorSpectraError::Stopped`].
-    pub fn spectra(
+    fn spectra(
         &self,
         periods: &[f64],
         progress: &mut dyn FnMut(f64) -> ControlFlow<()>,

@@ -8,7 +8,7 @@ use pounding_time_history::TimeHistoryError;
 use serde::Serialize;
 
 use super::{
-    FloorMotions, FloorSpectra, FloorSpectraError, FloorSpectraWanted, FloorWithSpectra, RIGID,
+    FloorSpectra, FloorSpectraError, FloorSpectraWanted, FloorWithSpectra, RIGID, floor_spectra,
 };
 use crate::fractiles::fractiles;
 use crate::gap_check::{
@@ -109,12 +109,7 @@ pub fn floor_spectra_under(
             true => ControlFlow::Continue(()),
             false => ControlFlow::Break(()),
         };
-        let motions = FloorMotions::new(&record.assembly, wanted, goes_on)?;
-        let mut answers = Vec::new();
-        for periods in lists {
-            answers.push(motions.spectra(periods, goes_on)?);
-        }
-        Ok((answers, motions.alone_fails))
+        floor_spectra(&record.assembly, wanted, lists, goes_on)
     };
     let made = runs_in_parallel(records.len(), threads, progress, one);
     let made: Vec<Result<_, FloorSpectraError>> = made.map_err(|error| match error {

@@ -19,7 +19,7 @@ use super::lanes::{
     spread,
 };
 use super::reach::{Bounds, OneLane, QUANTITIES, Reach};
-use super::rough_floors::RoughModes;
+use super::single_precision::SinglePrecisionModes;
 use super::transform::{STRIP, rows_of_four, rows_of_two, transform_four, transform_two};
 use crate::bands::Bands;
 use crate::contact::Contacts;
@@ -61,12 +61,12 @@ pub(super) struct BlockEnds {
     bands: Option<ByBands>,
 }
 
-/// Floors of tall buildings in single precision ([`super::rough_floors`]), and their absolute
+/// Floors of tall buildings in single precision ([`super::single_precision`]), and their absolute
 /// accelerations from these displacements and velocities, where stiffness and damping are
 /// tridiagonal: a product with the mode shapes less. Peaks are taken from the modes alone.
 #[derive(Debug, Clone)]
 struct ByBands {
-    modes: RoughModes,
+    modes: SinglePrecisionModes,
     /// Bounds of what displacement (m), and a third of the block times velocity (m), err by at
     /// either end.
     errors: [[f64; 2]; 2],
@@ -125,7 +125,7 @@ impl BlockEnds {
             buildings,
             suspects: Vec::with_capacity(3 * lanes),
             bands: constants.bands.as_ref().map(|bands| ByBands {
-                modes: RoughModes::new(lanes),
+                modes: SinglePrecisionModes::new(lanes),
                 errors: [[0.0; 2]; 2],
                 displacement: vec![0.0; dofs + 2],
                 velocity: vec![0.0; dofs + 2],
@@ -154,14 +154,11 @@ impl BlockEnds {
         peak: &[Lane],
         block: &mut Block,
     ) -> bool {
-        if !self.holds[0] {
-            let (q, p) = (&now.displacement, &now.velocity);
-            if self.bands.is_some() {
-                self.approach_end(constants, [q, p]);
-                self.work_out_rough_end(constants);
-                self.go_on();
-                self.holds = [true, false];
-            }
+        if self.bands.is_some() && !self.holds[0] {
+            self.approach_end(constants, [&now.displacement, &now.velocity]);
+            self.work_out_approximate_end(constants);
+            self.go_on();
+            self.holds = [true, false];
         }
         let low = match &constants.block_step {
             Some(step) => {
@@ -175,7 +172,7 @@ impl BlockEnds {
             None => advance_modes(constants, (now, samples), peak, block, self),
         };
         if self.bands.is_some() {
-            self.work_out_rough_end(constants);
+            self.work_out_approximate_end(constants);
             if !low {
                 self.accelerate_ends(constants, [samples[0], samples[BLOCK]]);
             }
@@ -194,16 +191,16 @@ impl BlockEnds {
     /// Takes displacements and velocities of the modes at the end over in single precision, where
     /// floors are worked out by that.
     fn approach_end(&mut self, constants: &ContactFree, modes: [&[Lane]; 2]) {
-        if let (Some(rough), Some(bands)) = (&constants.rough, &mut self.bands) {
-            bands.errors[1] = rough.take(modes, third(constants), &mut bands.modes);
+        if let (Some(shapes), Some(bands)) = (&constants.single_precision, &mut self.bands) {
+            bands.errors[1] = shapes.take(modes, third(constants), &mut bands.modes);
         }
     }
 
     /// Works out the floors at the end from the modes that were taken over.
-    fn work_out_rough_end(&mut self, constants: &ContactFree) {
-        if let (Some(rough), Some(bands)) = (&constants.rough, &self.bands) {
+    fn work_out_approximate_end(&mut self, constants: &ContactFree) {
+        if let (Some(shapes), Some(bands)) = (&constants.single_precision, &self.bands) {
             let [displacement, rate, _, _] = &mut self.end;
-            rough.floors(&bands.modes, [displacement, rate]);
+            shapes.floors(&bands.modes, [displacement, rate]);
         }
     }
 
@@ -660,16 +657,16 @@ fn compare(
     }
 }
 
-/// The same of floors that are known `ROUGH`ly, or exactly.
+/// The same of floors that are known approximately, or exactly.
 #[inline(always)]
-fn compare_each<const ROUGH: bool>(
+fn compare_each<const APPROXIMATE: bool>(
     constants: &ContactFree,
     ends: &mut BlockEnds,
     [displacement, drift, acceleration]: [&mut Track; 3],
     (time, low): (f64, bool),
 ) {
-    let error = if ROUGH { ends.error() } else { 0.0 };
-    let lost = ends.bands.as_ref().filter(|_| ROUGH);
+    let error = if APPROXIMATE { ends.error() } else { 0.0 };
+    let lost = ends.bands.as_ref().filter(|_| APPROXIMATE);
     let lost = lost.map_or(0.0, |bands| bands.lost[0].max(bands.lost[1]));
     let (start, end, suspects) = (&ends.start, &ends.end, &mut ends.suspects);
     suspects.clear();
@@ -696,7 +693,7 @@ fn compare_each<const ROUGH: bool>(
         let [beyond, beyond_drift, beyond_acceleration, _] =
             ends.beyond.each_ref().map(|beyond| &beyond[c]);
         let take = |cubic, error, beyond, track: &mut Track| {
-            if ROUGH {
+            if APPROXIMATE {
                 approach_peak((cubic, error), beyond, (track, c))
             } else {
                 take_end(cubic, beyond, (track, c), time)
@@ -711,7 +708,7 @@ fn compare_each<const ROUGH: bool>(
         }
         let cubic = cubic([&start[2][c], &start[3][c], &end[2][c], &end[3][c]]);
         let mut beyond = *beyond_acceleration;
-        if ROUGH {
+        if APPROXIMATE {
             beyond = beyond.map(|beyond| beyond + lost);
         }
         suspect(
@@ -1054,7 +1051,7 @@ mod tests {
 
     /// Against double precision, and against accelerations of the modes.
     #[test]
-    fn rough_floors_err_by_less_than_their_bounds() {
+    fn floors_in_single_precision_err_by_less_than_their_bounds() {
         for (storeys, seed) in [([24, 3], 1.0), ([31, 50], 2.0), ([150, 70], 3.0)] {
             let system = towers(storeys, seed, false, 1.0e3, (100, 0.01));
             let constants = system.contact_free().unwrap();
@@ -1071,7 +1068,7 @@ mod tests {
                 });
                 let [q, p] = modal.each_ref().map(Vec::as_slice);
                 ends.approach_end(constants, [q, p]);
-                ends.work_out_rough_end(constants);
+                ends.work_out_approximate_end(constants);
                 ends.accelerate_ends(constants, [0.7; 2]);
                 let (mut modes, mut floors) = (ends.modes.clone(), ends.end.clone());
                 derive_end(constants, (q, p, 0.7), false, &mut modes);

@@ -9,7 +9,7 @@ use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
 use super::overdamped::Decay;
 use super::reach::Reach;
-use super::rough_floors::RoughShapes;
+use super::single_precision::SinglePrecisionShapes;
 use crate::bands::Bands;
 use crate::contact_episode::{FloorRows, ModalRow};
 use crate::rates::fastest_rate;
@@ -49,7 +49,7 @@ pub(crate) struct ContactFree {
     /// tridiagonal.
     pub bands: Option<Bands>,
     /// Their floors from modes in single precision.
-    pub rough: Option<RoughShapes>,
+    pub single_precision: Option<SinglePrecisionShapes>,
     /// The step over a block of samples: not for many modes, nor for blocks that are long beside
     /// the periods, nor for walls and frames with full matrices.
     pub block_step: Option<BlockStep>,
@@ -94,7 +94,7 @@ impl ContactFree {
         this.bands = system.bands().filter(|_| is_tall(system)).cloned();
         if let Some(bands) = &mut this.bands {
             bands.divide(system.mass());
-            this.rough = Some(RoughShapes::new(&this.shapes, &this.rows.size));
+            this.single_precision = Some(SinglePrecisionShapes::new(&this.shapes, &this.rows.size));
         }
         let few = this.modes.len() <= BlockStep::LANES;
         let by_modes = few && !this.swings && system.sections().is_empty();
@@ -156,7 +156,7 @@ impl ContactFree {
             section_rows: Vec::new(),
             above: vec![Lane::ZERO; dofs.div_ceil(WIDTH)],
             bands: None,
-            rough: None,
+            single_precision: None,
             block_step: None,
             fine: Fine::default(),
         }
@@ -296,7 +296,11 @@ impl ContactFree {
 }
 
 /// A square matrix over the lanes that hold rows `first..first + count`.
-pub(super) fn spread(first: usize, count: usize, entry: impl Fn(usize, usize) -> f64) -> Shapes {
+pub(super) fn spread(
+    first: usize,
+    count: usize,
+    mut entry: impl FnMut(usize, usize) -> f64,
+) -> Shapes {
     let first_lane = first / WIDTH;
     let lanes = (first + count).div_ceil(WIDTH) - first_lane;
     let mut columns: Vec<Lane> = vec![Lane::ZERO; lanes * count];

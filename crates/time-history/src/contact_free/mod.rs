@@ -23,8 +23,8 @@ mod overdamped;
 mod part;
 mod phase;
 mod reach;
-mod rough_floors;
 mod sample_bound;
+mod single_precision;
 mod transform;
 
 pub(crate) use block::step_over;

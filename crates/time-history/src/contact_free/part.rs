@@ -63,7 +63,7 @@ impl ContactFree {
             section_rows: Vec::new(),
             above: Vec::new(),
             bands: None,
-            rough: None,
+            single_precision: None,
             block_step: None,
             fine: Fine::default(),
         }

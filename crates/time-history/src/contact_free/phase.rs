@@ -131,7 +131,7 @@ pub(crate) struct ContactFreePhase {
     acceleration_left_out: bool,
     penetration_left_out: bool,
     /// The same of the floors' displacements and drifts, where blocks by their ends know them but
-    /// roughly.
+    /// approximately.
     floors_left_out: bool,
     /// Present penetrations.
     pub penetration: Vec<f64>,

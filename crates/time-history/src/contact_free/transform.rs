@@ -369,30 +369,17 @@ fn add_strip(columns: &[Lane], packed: &Packed, place: usize, lane: usize, four:
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact_free::constants::spread;
 
     /// Two buildings that share a lane, taller than a strip.
     fn shapes(counts: [usize; 2]) -> Vec<Shapes> {
         let mut first = 0;
         let building = |modes: usize| {
-            let (first_mode, first_lane) = (first, first / WIDTH);
-            let lanes = (first + modes).div_ceil(WIDTH) - first_lane;
-            let within = first..first + modes;
-            let columns = (0..lanes * modes).map(|c| {
-                Lane::from_fn(|l| {
-                    let floor = (first_lane + c / modes) * WIDTH + l;
-                    let entry = libm::sin((floor * 7 + c % modes * 13) as f64);
-                    if within.contains(&floor) { entry } else { 0.0 }
-                })
-            });
-            let columns = columns.collect();
+            let own = first;
             first += modes;
-            Shapes {
-                first_lane,
-                lanes,
-                first_mode,
-                modes,
-                columns,
-            }
+            spread(own, modes, |floor, mode| {
+                libm::sin(((own + floor) * 7 + mode * 13) as f64)
+            })
         };
         counts.map(building).into()
     }

@@ -11,8 +11,8 @@ use pounding_ground_motion::spectra::logarithmic_periods;
 use pounding_report::Chart;
 use pounding_report::pictures::floor_spectrum::{Floor, spectra as drawn};
 use pounding_study::floor_spectra::{
-    FloorMotions, FloorPlace, FloorSpectra, FloorSpectraError, FloorSpectraOverRecords,
-    FloorSpectraWanted, SHORTEST_PERIOD, floor_above, floor_spectra_under, roofs,
+    FloorPlace, FloorSpectra, FloorSpectraError, FloorSpectraOverRecords, FloorSpectraWanted,
+    SHORTEST_PERIOD, floor_above, floor_spectra, floor_spectra_under, roofs,
 };
 use pounding_time_history::System;
 
@@ -57,9 +57,6 @@ pub fn floor_spectrum(arguments: &FloorSpectrumArguments, files: FileUse) -> Res
     }
 }
 
-/// Part of the time that runs take, about; spectra take the rest.
-const RUNS: f64 = 0.1;
-
 /// What is asked for.
 struct Asked<'a> {
     arguments: &'a FloorSpectrumArguments,
@@ -87,40 +84,23 @@ impl<'a> Asked<'a> {
         let assembly = assembled(case)?;
         let floors = floors(&assembly.system, &arguments.floors)?;
         self.have_a_place()?;
-        let failed = |error| self.failed(error);
         let progress = Progress::begin(Unit::Part)?;
-        // Runs first, which take less time; spectra by their periods; then those of the picture.
-        let more = match &arguments.plot {
-            Some(_) if self.drawn != self.periods => self.drawn.len(),
-            _ => 0,
-        };
-        let parts = [RUNS, 1.0 - RUNS].map(|part| 1000.0 * part);
-        let asked = parts[1] * self.periods.len() as f64 / (self.periods.len() + more) as f64;
-        let show = |done: f64| {
-            progress.show(done as usize, 1000, "");
-            ControlFlow::Continue(())
-        };
-        let motions = FloorMotions::new(&assembly, self.wanted(&floors), &mut |part| {
-            show(parts[0] * part)
-        });
-        let motions = motions.map_err(failed)?;
-        let of_answer = &mut |part: f64| show(parts[0] + asked * part);
-        let answer = motions.spectra(self.periods, of_answer).map_err(failed)?;
-        let smooth;
-        let drawn = match more {
-            0 => &answer,
-            _ => {
-                let of_picture =
-                    &mut |part: f64| show(parts[0] + asked + (parts[1] - asked) * part);
-                smooth = motions.spectra(self.drawn, of_picture).map_err(failed)?;
-                &smooth
-            }
-        };
-        self.write(answer::csv(&answer), || picture(drawn))?;
+        let work = floor_spectra(
+            &assembly,
+            self.wanted(&floors),
+            &self.lists(),
+            &mut |part| {
+                progress.show((1000.0 * part) as usize, 1000, "");
+                ControlFlow::Continue(())
+            },
+        );
+        let (answers, _) = work.map_err(|error| self.failed(error))?;
+        let (answer, drawn) = (&answers[0], &answers[answers.len() - 1]);
+        self.write(answer::csv(answer), || picture(drawn))?;
         drop(progress);
         print(&match arguments.json {
-            true => pretty(&answer)?,
-            false => answer::text(&answer, &case.title),
+            true => pretty(answer)?,
+            false => answer::text(answer, &case.title),
         })
     }
 
@@ -134,17 +114,14 @@ impl<'a> Asked<'a> {
             None => Vec::new(),
         };
         self.have_a_place()?;
-        let mut lists = vec![self.periods];
-        if arguments.plot.is_some() && self.drawn != self.periods {
-            lists.push(self.drawn);
-        }
         let progress = Progress::begin(Unit::Runs)?;
         let tell = |done: usize, total: usize| {
             progress.show(done, total, "");
             ControlFlow::Continue(())
         };
         let work = (threads(arguments.threads), &tell as &_);
-        let answers = floor_spectra_under((case, &records), self.wanted(&floors), &lists, work);
+        let answers =
+            floor_spectra_under((case, &records), self.wanted(&floors), &self.lists(), work);
         let answers = answers.map_err(|error| self.failed(error))?;
         let (answer, drawn) = (&answers[0], &answers[answers.len() - 1]);
         self.write(over_records::csv(answer), || picture_over_records(drawn))?;
@@ -153,6 +130,15 @@ impl<'a> Asked<'a> {
             true => pretty(answer)?,
             false => over_records::text(answer, &case.title),
         })
+    }
+
+    /// The periods of the answer, and those of the picture if they are others.
+    fn lists(&self) -> Vec<&'a [f64]> {
+        let mut lists = vec![self.periods];
+        if self.arguments.plot.is_some() && self.drawn != self.periods {
+            lists.push(self.drawn);
+        }
+        lists
     }
 
     fn have_a_place(&self) -> Result<(), Failure> {

@@ -42,10 +42,10 @@ pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.running.report.as_deref(),
     ];
     if let Some(scheduler) = arguments.planning.plan {
-        have_a_place(outputs)?;
         let planned = Planned {
             command: "ida",
             at_the_end: at_the_end(arguments),
+            written_at_the_end: &outputs,
             running: &arguments.running,
             into: arguments.sharing.into.as_deref(),
             planning: &arguments.planning,

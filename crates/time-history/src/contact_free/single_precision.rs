@@ -43,7 +43,7 @@ const LEFT_OUT: f64 = 1.0e-24;
 
 /// The mode shapes of all buildings.
 #[derive(Debug, Clone)]
-pub(crate) struct RoughShapes {
+pub(crate) struct SinglePrecisionShapes {
     buildings: Vec<Building>,
     /// Maximum magnitude of every mode at the floors of its building.
     size: Vec<Lane>,
@@ -64,15 +64,15 @@ struct Building {
 
 /// Work space: the modes in single precision.
 #[derive(Debug, Clone)]
-pub(super) struct RoughModes([Vec<f32>; FUNCTIONS]);
+pub(super) struct SinglePrecisionModes([Vec<f32>; FUNCTIONS]);
 
-impl RoughModes {
+impl SinglePrecisionModes {
     pub(super) fn new(lanes: usize) -> Self {
         Self(std::array::from_fn(|_| vec![0.0; lanes * WIDTH]))
     }
 }
 
-impl RoughShapes {
+impl SinglePrecisionShapes {
     /// Of these shapes, whose modes have these maximum magnitudes.
     pub(super) fn new(shapes: &[Shapes], size: &[Lane]) -> Self {
         let mut error = vec![Lane::ZERO; size.len()];
@@ -97,13 +97,13 @@ impl RoughShapes {
         &self,
         [displacement, velocity]: [&[Lane]; FUNCTIONS],
         third: f64,
-        modes: &mut RoughModes,
+        modes: &mut SinglePrecisionModes,
     ) -> [f64; FUNCTIONS] {
         take(self, [displacement, velocity], third, modes)
     }
 
     /// Works the floors out.
-    pub(super) fn floors(&self, modes: &RoughModes, out: [&mut [Lane]; FUNCTIONS]) {
+    pub(super) fn floors(&self, modes: &SinglePrecisionModes, out: [&mut [Lane]; FUNCTIONS]) {
         floors(self, modes, out);
     }
 }
@@ -146,10 +146,10 @@ impl Building {
     "aarch64+neon"
 ))]
 fn take(
-    shapes: &RoughShapes,
+    shapes: &SinglePrecisionShapes,
     of: [&[Lane]; FUNCTIONS],
     third: f64,
-    modes: &mut RoughModes,
+    modes: &mut SinglePrecisionModes,
 ) -> [f64; FUNCTIONS] {
     let mut bounds = [0.0; FUNCTIONS];
     for (k, (of, modes)) in of.into_iter().zip(&mut modes.0).enumerate() {
@@ -181,7 +181,11 @@ fn take(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-fn floors(shapes: &RoughShapes, modes: &RoughModes, mut out: [&mut [Lane]; FUNCTIONS]) {
+fn floors(
+    shapes: &SinglePrecisionShapes,
+    modes: &SinglePrecisionModes,
+    mut out: [&mut [Lane]; FUNCTIONS],
+) {
     let mut made = 0;
     for building in &shapes.buildings {
         let wides = building.lanes.div_ceil(2);
@@ -202,7 +206,7 @@ fn floors(shapes: &RoughShapes, modes: &RoughModes, mut out: [&mut [Lane]; FUNCT
 fn add_tile<const COUNT: usize>(
     building: &Building,
     (first, made): (usize, usize),
-    modes: &RoughModes,
+    modes: &SinglePrecisionModes,
     out: &mut [&mut [Lane]; FUNCTIONS],
 ) {
     let count = building.modes;
@@ -245,6 +249,7 @@ fn add_tile<const COUNT: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::contact_free::constants::spread;
     use crate::contact_free::transform::transform;
 
     /// Two buildings that share a lane, with shapes of all sizes.
@@ -253,30 +258,15 @@ mod tests {
         let mut size = vec![Lane::ZERO; total.div_ceil(WIDTH)];
         let mut first = 0;
         let shapes = counts.map(|modes| {
-            let entry = |floor: usize, mode: usize| {
-                let wave = libm::sin((floor * (2 * mode + 1)) as f64 * 0.37 + mode as f64);
-                wave * libm::exp(-(mode as f64) / 9.0)
-            };
-            let (first_lane, first_mode) = (first / WIDTH, first);
-            let lanes = (first + modes).div_ceil(WIDTH) - first_lane;
-            let mut columns = vec![Lane::ZERO; lanes * modes];
-            for floor in 0..modes {
-                let place = first + floor;
-                for mode in 0..modes {
-                    let entry = entry(floor, mode);
-                    columns[(place / WIDTH - first_lane) * modes + mode][place % WIDTH] = entry;
-                    let largest = &mut size[(first + mode) / WIDTH][(first + mode) % WIDTH];
-                    *largest = largest.max(entry.abs());
-                }
-            }
+            let own = first;
             first += modes;
-            Shapes {
-                first_lane,
-                lanes,
-                first_mode,
-                modes,
-                columns,
-            }
+            spread(own, modes, |floor, mode| {
+                let wave = libm::sin((floor * (2 * mode + 1)) as f64 * 0.37 + mode as f64);
+                let entry = wave * libm::exp(-(mode as f64) / 9.0);
+                let largest = &mut size[(own + mode) / WIDTH][(own + mode) % WIDTH];
+                *largest = largest.max(entry.abs());
+                entry
+            })
         });
         (shapes.into(), size)
     }
@@ -285,7 +275,7 @@ mod tests {
     fn errors(counts: [usize; 2], magnitude: impl Fn(usize) -> f64) -> [(f64, f64); FUNCTIONS] {
         let (shapes, size) = shapes(counts);
         let lanes = size.len();
-        let rough = RoughShapes::new(&shapes, &size);
+        let approximate = SinglePrecisionShapes::new(&shapes, &size);
         let modal = [0, 1].map(|k| -> Vec<Lane> {
             let value = |j: usize| magnitude(j) * libm::sin((7 * j + 3 * k + 1) as f64);
             (0..lanes)
@@ -293,12 +283,12 @@ mod tests {
                 .collect()
         });
         let third = 0.013;
-        let mut modes = RoughModes::new(lanes);
+        let mut modes = SinglePrecisionModes::new(lanes);
         let [q, p] = modal.each_ref().map(Vec::as_slice);
-        let bounds = rough.take([q, p], third, &mut modes);
+        let bounds = approximate.take([q, p], third, &mut modes);
         let mut seen = [0, 1].map(|_| vec![Lane::from_fn(|_| 7.0); lanes]);
         let [u, v] = &mut seen;
-        rough.floors(&modes, [u, v]);
+        approximate.floors(&modes, [u, v]);
         std::array::from_fn(|k| {
             let mut expected = vec![Lane::ZERO; lanes];
             transform(&shapes, &modal[k], &mut expected);

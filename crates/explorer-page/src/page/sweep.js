@@ -226,7 +226,7 @@ const sweepOf = (state, background, dashes, actions) => {
     };
     done = [0, 0];
     waiting = "what the record demands, and codes with it, is worked out …";
-    part("progress").textContent = waiting;
+    draw();
     const answer = await background.ask({ do: "widths", changes: state.changes() });
     if (stopped()) return;
     waiting = "";

@@ -465,6 +465,17 @@ fn storeys_that_answer_otherwise_are_reported() {
     // What the page says of both.
     let of_maxima = &first["own_law"]["ratio_of_maxima"][0];
     let of_maxima = of_maxima.as_f64().unwrap();
+    // How far apart the two models are: the case's own law is the first of them.
+    let ratios = |judgement: &Value| {
+        let of_record = judgement["ratios"][0].as_array().unwrap();
+        [0, 1].map(|end| of_record[end].as_f64().unwrap())
+    };
+    let [least, most] = ratios(raised);
+    assert!(least < most && most < 1.0, "{least} {most}");
+    assert!([least, most].contains(&of_maxima), "{of_maxima}");
+    let [least, most] = ratios(&raised["by_storey"]);
+    assert!(1.0 < least && least < most, "{least} {most}");
+    assert!([least, most].contains(&own), "{own}");
     let page = std::fs::read_to_string(root().join("docs/reference/model-comparison.md")).unwrap();
     let page = page.split_whitespace().collect::<Vec<_>>().join(" ");
     let said = format!(

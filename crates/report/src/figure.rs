@@ -48,12 +48,17 @@ pub fn figure_with_references(panels: &[Panel], references: &[Reference]) -> Cha
 
 /// Draws panels of a width and a height (pixels) below one another as SVG.
 pub(crate) fn figure_of_size(panels: &[Panel], size: (u32, u32)) -> String {
+    plots_of_size(plots(panels, &[]), size)
+}
+
+/// Draws plots of a width and a height (pixels) below one another as SVG.
+pub(crate) fn plots_of_size(plots: Vec<Plot>, size: (u32, u32)) -> String {
     let [width, height] = [size.0, size.1].map(f64::from);
     let chart = Chart {
-        plots: plots(panels, &[]),
         width: POINTS_PER_PIXEL * width,
         stated_width: format!("{width}"),
-        height: Some(POINTS_PER_PIXEL * height * panels.len() as f64),
+        height: Some(POINTS_PER_PIXEL * height * plots.len() as f64),
+        plots,
     };
     chart.svg()
 }

@@ -193,6 +193,10 @@ fn conclusions(answer: Answer<'_>) -> String {
         Column::words_of("storey by storey", "/conclusions/*/by_storey/holds"),
         Column::of("true", "sum /conclusions/*/counts/+/0", 1.0).below("models and records"),
         Column::of("of", "sum /conclusions/*/counts/+/1", 1.0).below("models and records"),
+        Column::of("from", "minimum /conclusions/*/ratios/+/+", 1.0)
+            .below("with pounding over without"),
+        Column::of("to", "maximum /conclusions/*/ratios/+/+", 1.0)
+            .below("with pounding over without"),
         Column::words_of(
             "in the minority (under how many records)",
             "tally /conclusions/*/minority/+/+",

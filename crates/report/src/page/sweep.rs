@@ -13,8 +13,9 @@ use super::numbers::{self, figures};
 use super::sentence::Sentence;
 use super::sweep_answer::{DRAWN, SweepAnswer, columns, drawn_columns, of_column};
 use super::table::{Column, Row, facts, table};
+use crate::chart;
 use crate::error::ReportError;
-use crate::figure::{Curve, Panel, figure_of_size};
+use crate::figure::{Curve, Panel, plots, plots_of_size};
 
 /// Rows that are read at once.
 const BLOCK: usize = 4096;
@@ -24,6 +25,8 @@ const LISTED: usize = 20;
 const PARTS: usize = 24;
 /// Size of a panel (pixels), as wide as a page.
 const SIZE: (u32, u32) = (718, 230);
+/// Greatest over least value of a variable from which on its axis may be logarithmic.
+const LOGARITHMIC_FROM: f64 = 5.0;
 /// Part of a variance from which on it is worth a sentence.
 const WORTH_SAYING: f64 = 0.1;
 /// All rows, column by column.
@@ -453,7 +456,13 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
             continue;
         }
         let words = format!("Peaks of the runs over {}", coordinate.long_name);
-        out.push_str(&figure(&figure_of_size(&panels, SIZE), &words));
+        let mut drawn = plots(&panels, &[]);
+        if is_spaced_logarithmically(&runs.coordinates[c]) {
+            for plot in &mut drawn {
+                plot.horizontal = chart::Axis::logarithmic(&plot.horizontal.label);
+            }
+        }
+        out.push_str(&figure(&plots_of_size(drawn, SIZE), &words));
     }
     if !out.is_empty() && !runs.collapsed.is_empty() {
         out.push_str(&note(
@@ -461,6 +470,25 @@ fn figures_of(result: &ResultReader, runs: &Runs) -> Result<String, ReportError>
         ));
     }
     Ok(out)
+}
+
+/// Whether values lie evenly rather in their logarithms than by themselves, over a factor that shows it: on a linear axis
+/// most of them would stand at its beginning.
+fn is_spaced_logarithmically(values: &[f64]) -> bool {
+    let mut known: Vec<f64> = values.iter().copied().filter(|x| x.is_finite()).collect();
+    known.sort_by(f64::total_cmp);
+    known.dedup();
+    let (Some(&least), Some(&most)) = (known.first(), known.last()) else {
+        return false;
+    };
+    if least <= 0.0 || most < LOGARITHMIC_FROM * least {
+        return false;
+    }
+    // How far the middle value stands from the middle of the axis, as a part of it.
+    let middle = fractile(&known, 0.5);
+    let linear = (middle - least) / (most - least) - 0.5;
+    let logarithmic = (middle / least).ln() / (most / least).ln() - 0.5;
+    logarithmic.abs() < linear.abs()
 }
 
 /// Rows with the same value of a variable, or in the same part of its range: their mean and
@@ -498,5 +526,24 @@ fn listed(list: &[(usize, String)]) -> String {
             html + &note(&format!("{more} more in the group failures of the result."))
         }
         _ => html,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::is_spaced_logarithmically;
+
+    #[test]
+    fn axes_follow_the_spacing_of_values() {
+        let of = |count: i32, value: fn(f64) -> f64| -> Vec<f64> {
+            (0..count).map(|i| value(f64::from(i))).collect()
+        };
+        assert!(is_spaced_logarithmically(&of(7, f64::exp2)));
+        assert!(is_spaced_logarithmically(&[5.0, 10.0, 20.0, 50.0, 100.0]));
+        // Over less than a factor of five both look alike; zero has no logarithm.
+        assert!(!is_spaced_logarithmically(&of(3, f64::exp2)));
+        assert!(!is_spaced_logarithmically(&[0.0, 1.0, 10.0, 100.0]));
+        assert!(!is_spaced_logarithmically(&of(12, |i| 5.0 + 5.0 * i)));
+        assert!(!is_spaced_logarithmically(&[f64::NAN]));
     }
 }

@@ -60,6 +60,10 @@ pub struct Judgement {
     pub counts: Vec<(usize, usize)>,
     /// For each record: numbers of the models in the minority.
     pub dissenters: Vec<Vec<usize>>,
+    /// For each record: the least and the greatest ratio of a peak with pounding to that
+    /// without, over the models that can say: how far those are apart that do not agree.
+    /// `None` where none can, and for statements that are not about one such ratio.
+    pub ratios: Vec<Option<(f64, f64)>>,
 }
 
 /// All statements about a comparison, over its complete models.
@@ -85,12 +89,12 @@ pub(super) fn draw(comparison: &Comparison) -> Vec<Conclusion> {
             conclusions.push(Conclusion {
                 statement: format!("pounding raises the peak {words} of {}", quantity.of),
                 statistic: quantity.statistic(),
-                judgement: judged(comparison, |model, record| {
-                    truth(comparison.ratio_of_maxima(model, record, q), raised)
+                judgement: raises(comparison, |model, record| {
+                    comparison.ratio_of_maxima(model, record, q)
                 }),
                 by_storey: amplification.map(|of| {
-                    judged(comparison, |model, record| {
-                        truth(most(comparison, model, record, quantity.index, of), raised)
+                    raises(comparison, |model, record| {
+                        most(comparison, model, record, quantity.index, of)
                     })
                 }),
             });
@@ -166,6 +170,27 @@ fn most(
     })
 }
 
+/// Holds against all models and records that pounding raises a peak, by its ratio to that
+/// without.
+fn raises(comparison: &Comparison, ratio: impl Fn(usize, usize) -> f64) -> Judgement {
+    let models = comparison.complete();
+    let range = |record: usize| {
+        let ratios = models.iter().map(|model| ratio(*model, record));
+        let mut known = ratios.filter(|ratio| !ratio.is_nan());
+        let first = known.next()?;
+        Some(known.fold((first, first), |(least, most), ratio| {
+            (least.min(ratio), most.max(ratio))
+        }))
+    };
+    let judgement = judged(comparison, |model, record| {
+        truth(ratio(model, record), raised)
+    });
+    Judgement {
+        ratios: (0..comparison.records.len()).map(range).collect(),
+        ..judgement
+    }
+}
+
 /// Holds a statement about a model and a record against all of them; `None` says nothing.
 fn judged(comparison: &Comparison, holds_for: impl Fn(usize, usize) -> Option<bool>) -> Judgement {
     let models = comparison.complete();
@@ -184,6 +209,7 @@ fn judged(comparison: &Comparison, holds_for: impl Fn(usize, usize) -> Option<bo
     }
     Judgement {
         holds: holds(&counts),
+        ratios: vec![None; counts.len()],
         counts,
         dissenters,
     }

@@ -346,6 +346,7 @@ struct Judgement<'c> {
     holds: &'static str,
     counts: &'c [(usize, usize)],
     minority: Vec<Vec<&'static str>>,
+    ratios: &'c [Option<(f64, f64)>],
 }
 
 impl<'c> Judgement<'c> {
@@ -354,6 +355,7 @@ impl<'c> Judgement<'c> {
             holds: j.holds.name(),
             counts: &j.counts,
             minority: names_by_record(c, &j.dissenters),
+            ratios: &j.ratios,
         }
     }
 }

@@ -381,6 +381,18 @@ fn judgement(c: &Comparison, start: &str, j: &Judgement) -> String {
         return text;
     }
     let indent = &start[..start.len() - start.trim_start().len()];
+    let known = c.records.iter().zip(&j.ratios);
+    let known = known.filter_map(|(record, range)| {
+        let range = ratios((*range)?);
+        Some(format!("{record} {range}"))
+    });
+    let known: Vec<_> = known.collect();
+    if !known.is_empty() {
+        text.push_str(&format!(
+            "{indent}  with pounding over without: {}\n",
+            known.join(", ")
+        ));
+    }
     for (record, dissenters) in c.records.iter().zip(&j.dissenters) {
         let names = dissenters.iter().map(|m| c.models[*m].descriptor.name);
         let names: Vec<_> = names.collect();

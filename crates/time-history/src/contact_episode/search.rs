@@ -29,6 +29,13 @@ fn near(p: &Polynomial) -> Option<f64> {
     first_rise_near(p, NEAR)
 }
 
+/// A root of the fit is that of the function if it is so soon (in theta) after where one could be.
+const AT_ONCE: f64 = 1.0e-3;
+
+/// Multiples of displacement and velocity in these two.
+const DISPLACEMENT: [f64; 2] = [1.0, 0.0];
+const VELOCITY: [f64; 2] = [0.0, 1.0];
+
 /// Transitions of a closed level in its phase.
 fn transitions<'a>(system: &'a System, touch: &Touch) -> &'a [Transition] {
     system.levels()[touch.level]
@@ -106,7 +113,7 @@ pub(crate) fn in_series(
         if let Some((touch, motion)) = closed.next_if(|(t, _)| t.level == l) {
             let row = &rows.levels[l];
             if !series.stays_positive(&motion.delta) {
-                let zeros = series.leading_zeros((row, false), &motion.delta, touch.width);
+                let zeros = series.leading_zeros((row, DISPLACEMENT), &motion.delta, touch.width);
                 let open = fall(series, &motion.delta, zeros);
                 keep(&mut first, open, (l, EventKind::Open), &muted);
             }
@@ -121,7 +128,7 @@ pub(crate) fn in_series(
                 let mut terms = series.row(&rows.levels[l]);
                 terms[0] -= contacts.width(l);
                 let offset = contacts.width(l);
-                let zeros = series.leading_zeros((&rows.levels[l], false), &terms, offset);
+                let zeros = series.leading_zeros((&rows.levels[l], DISPLACEMENT), &terms, offset);
                 let closes = rise(series, &terms, zeros);
                 keep(&mut first, closes, (l, EventKind::Close), &muted);
             }
@@ -155,20 +162,23 @@ fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
     } else {
         let mut fitted = fit(&series.at_nodes(&rest));
         fitted[0] = rest[0];
-        let theta = near(&fitted)?;
-        if theta <= 0.0 {
-            return Some(theta);
+        // The function is nowhere above this.
+        let mut above = fitted;
+        above[0] += error_of_fit(&rest[..count]);
+        let soonest = near(&above)?;
+        match near(&fitted) {
+            Some(theta) if theta <= 0.0 => return Some(theta),
+            Some(theta) if theta - soonest <= AT_ONCE => theta,
+            // It comes so close to zero that the fit does not tell whether it passes it.
+            _ => return certain_rise(series, &rest, count),
         }
-        theta
     };
-    // Floors that were let be may have closed by a trifle: they meet again where they set
-    // out.
-    let target = rest[0].max(0.0);
+    let target = target_of(&rest);
     let root = polish(theta, |x| {
         let (value, slope) = series.at(&rest, x);
         (value - target) / slope
     });
-    let noise = ROUND_OFF * rest.iter().map(|c| c.abs()).sum::<f64>();
+    let noise = noise_of(&rest);
     let (value, slope) = series.at(&rest, root);
     // Beyond a root it rises at least this far.
     let clear = slope * slope > 16.0 * bend * noise;
@@ -176,8 +186,47 @@ fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
         return Some(root);
     }
     // The fit has a root where the function itself may only come close to one.
-    rest[0] -= noise + target;
-    first_rise_of_series(&rest[..count])
+    certain_rise(series, &rest, count)
+}
+
+/// First rise of a series of so many terms by more than its noise, wherever a fit has roots.
+fn certain_rise(series: &Series, terms: &Terms, count: usize) -> Option<f64> {
+    let (target, noise) = (target_of(terms), noise_of(terms));
+    let mut lower = *terms;
+    lower[0] -= noise + target;
+    let theta = first_rise_of_series(&lower[..count])?;
+    // That is where it has risen so far; the event is where it begins to.
+    let root = polish(theta, |x| {
+        let (value, slope) = series.at(terms, x);
+        (value - target) / slope
+    });
+    let (value, slope) = series.at(terms, root);
+    let is_root = (value - target).abs() <= noise && slope > 0.0;
+    Some(if is_root { root } else { theta })
+}
+
+/// Value of a series at its event: floors that were let be may have closed by a trifle, and meet
+/// again where they set out.
+fn target_of(terms: &Terms) -> f64 {
+    terms[0].max(0.0)
+}
+
+fn noise_of(terms: &Terms) -> f64 {
+    ROUND_OFF * terms.iter().map(|c| c.abs()).sum::<f64>()
+}
+
+/// What the polynomial of degree 7 through a series at the nodes of a fit errs by at most: the
+/// product of the distances from the nodes is at most `2^-14`, and the eighth derivative over `8!`
+/// at most the sum of the magnitudes of terms with their binomial coefficients.
+fn error_of_fit(terms: &[f64]) -> f64 {
+    const FROM: usize = 8;
+    let mut coefficient = 1.0;
+    let mut sum = 0.0;
+    for (k, term) in terms.iter().enumerate().skip(FROM) {
+        sum += coefficient * term.abs();
+        coefficient *= (k + 1) as f64 / (k + 1 - FROM) as f64;
+    }
+    sum / f64::from(1 << 14)
 }
 
 /// First passage to negative values.
@@ -218,15 +267,11 @@ fn passage(
     (touch, motion): (&Touch, &TouchSeries),
     transition: Transition,
 ) -> Option<f64> {
-    let zeros = || series.leading_zeros((row, true), &motion.rate, 0.0);
+    let zeros = || series.leading_zeros((row, VELOCITY), &motion.rate, 0.0);
     match (transition.guard, transition.direction) {
         (Guard::Velocity, Direction::Rising) => rise(series, &motion.rate, zeros()),
         (Guard::Velocity, Direction::Falling) => fall(series, &motion.rate, zeros()),
         _ => {
-            let at = |x: f64| {
-                let (delta, rate) = (series.at(&motion.delta, x).0, series.at(&motion.rate, x).0);
-                guard(system, touch, transition, delta, rate)
-            };
             let Contact {
                 phase, collision, ..
             } = &touch.contact;
@@ -235,22 +280,43 @@ fn passage(
             // the law's: affine if that needs no power.
             let affine = model.is_affine(collision, *phase)
                 && (*phase != Phase::Released || model.smooth_at_closure());
-            let theta = if affine {
-                // As smooth as the motion.
-                let delta = series.at_nodes(&motion.delta);
-                let rate = series.at_nodes(&motion.rate);
-                let samples =
-                    std::array::from_fn(|i| guard(system, touch, transition, delta[i], rate[i]));
-                near(&fit(&samples))?
-            } else {
-                first_rise_of(at, NEAR)?
+            if affine {
+                return passage_of_affine((system, row), series, (touch, motion), transition);
+            }
+            let at = |x: f64| {
+                let (delta, rate) = (series.at(&motion.delta, x).0, series.at(&motion.rate, x).0);
+                guard(system, touch, transition, delta, rate)
             };
+            let theta = first_rise_of(at, NEAR)?;
             if theta <= 0.0 {
                 return Some(theta);
             }
             Some(secant(theta, at))
         }
     }
+}
+
+/// The same of a function that is affine in penetration and rate, and so a series as they are: where
+/// it begins at its root, as after the transition that led here, its first terms tell whether it leaves
+/// to the other side. A fit would not: what it errs by is more than the slope of floors that begin to
+/// move like a high power of time.
+fn passage_of_affine(
+    (system, row): (&System, &ModalRow),
+    series: &Series,
+    (touch, motion): (&Touch, &TouchSeries),
+    transition: Transition,
+) -> Option<f64> {
+    let function = |delta: f64, rate: f64| guard(system, touch, transition, delta, rate);
+    let constant = function(0.0, 0.0);
+    let factors = [function(1.0, 0.0) - constant, function(0.0, 1.0) - constant];
+    let mut terms = [0.0; TERMS];
+    for (term, (delta, rate)) in terms.iter_mut().zip(motion.delta.iter().zip(&motion.rate)) {
+        *term = factors[0] * delta + factors[1] * rate;
+    }
+    terms[0] = function(motion.delta[0], motion.rate[0]);
+    let offset = constant.abs() + (factors[0] * touch.width).abs();
+    let zeros = series.leading_zeros((row, factors), &terms, offset);
+    rise(series, &terms, zeros)
 }
 
 /// The secant method from a root that is nearly right.
@@ -417,5 +483,45 @@ mod tests {
             by_chord > 200 && others > 200 && never > 200,
             "{by_chord} {others} {never}"
         );
+    }
+
+    /// `cos(w (theta - 1/2)) - cos(w / 2) - c`, which passes zero by a little or comes as close to it,
+    /// less than a fit of it errs by.
+    #[test]
+    fn close_passages_are_told_apart() {
+        let mut by_less_than_the_fit_errs = 0;
+        for product in [0.3, 0.8, 1.0, 1.3] {
+            for height in [1e-12_f64, 1e-11, 1e-10, 1e-9, 1e-8] {
+                let mut series = Series::new(1, 0);
+                series.last = TERMS - 1;
+                let mut terms = [0.0; TERMS];
+                let (sine, cosine) = (libm::sin(0.5 * product), libm::cos(0.5 * product));
+                let mut factor = 1.0;
+                for (k, term) in terms.iter_mut().enumerate() {
+                    let sign = if k % 4 < 2 { 1.0 } else { -1.0 };
+                    *term = factor * sign * if k % 2 == 0 { cosine } else { sine };
+                    factor *= product / (k + 1) as f64;
+                }
+                by_less_than_the_fit_errs += usize::from(height < error_of_fit(&terms));
+                for above in [height, -height] {
+                    let mut terms = terms;
+                    terms[0] -= 1.0 - above;
+                    let found = rise(&series, &terms, 0);
+                    assert_eq!(
+                        found.is_some(),
+                        above > 0.0,
+                        "{product} {above:e}: {found:?}"
+                    );
+                    if let Some(theta) = found {
+                        let expected = 0.5 - (2.0 * height).sqrt() / product;
+                        let error = (theta - expected).abs();
+                        // Beside the round-off that is taken off, the noise of the series.
+                        let allowed = 1e-12 / (height.sqrt() * product) + height;
+                        assert!(error <= allowed, "{product} {height:e}: {error:e}");
+                    }
+                }
+            }
+        }
+        assert!(by_less_than_the_fit_errs > 5);
     }
 }

@@ -364,11 +364,12 @@ impl Series {
         out
     }
 
-    /// Number of the first terms of a row that are round-off: of sums that cancel, beside an
-    /// `offset` of the term of order zero.
+    /// Number of the first terms that are round-off of a sum of these multiples of a row's
+    /// displacement and velocity: of sums that cancel, beside an `offset` of the term of order
+    /// zero.
     pub(crate) fn leading_zeros(
         &self,
-        (row, rate): (&ModalRow, bool),
+        (row, [by_displacement, by_velocity]): (&ModalRow, [f64; 2]),
         terms: &Terms,
         offset: f64,
     ) -> usize {
@@ -378,27 +379,27 @@ impl Series {
             !(term > noise && term > NEGLIGIBLE_START * maximum(&terms[k..=self.last]))
         };
         // Most start clear of zero.
-        if !is_noise(0, CLEAR_OF_ZERO) {
+        let clear = CLEAR_OF_ZERO * (by_displacement.abs() + by_velocity.abs());
+        if !is_noise(0, clear) {
             return 0;
         }
-        let lanes = if rate {
-            &self.velocity
-        } else {
-            &self.displacement
+        let magnitude = |k: usize, factor: f64, terms: &[Lane]| match factor {
+            0.0 => 0.0,
+            _ => factor.abs() * row.dot_magnitudes(&terms[k * self.lanes..][..self.lanes]),
         };
         let leading = LEADING.min(self.last + 1);
-        let mut zeros = 0;
-        for (k, lanes) in lanes.chunks(self.lanes).enumerate().take(leading) {
-            if k > 0 && !is_noise(k, CLEAR_OF_ZERO) {
-                break;
+        for k in 0..leading {
+            if k > 0 && !is_noise(k, clear) {
+                return k;
             }
             let offset = if k == 0 { offset } else { 0.0 };
-            if !is_noise(k, ROUND_OFF * (row.dot_magnitudes(lanes) + offset)) {
-                break;
+            let sum = magnitude(k, by_displacement, &self.displacement)
+                + magnitude(k, by_velocity, &self.velocity);
+            if !is_noise(k, ROUND_OFF * (sum + offset)) {
+                return k;
             }
-            zeros = k + 1;
         }
-        zeros
+        leading
     }
 
     /// Whether a series stays clear of zero and positive, so that its start is no root either.

@@ -41,6 +41,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         ),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::SecondarySources(
         "the density; its closed forms are checked against discrete sliders",
     ),

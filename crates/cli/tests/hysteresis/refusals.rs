@@ -280,6 +280,14 @@ fn output_that_cannot_be_written_is_told_apart() {
 /// refuse what overflows, instead of a dash for a number.
 #[test]
 fn deformations_that_cannot_be_followed_are_refused() {
+    let path = file(
+        folder.path(),
+        "d_mm,f_kN\n1,4\n2,3\n3,2\n4,1\n5,0.5\n6,0.1\n",
+    );
+    refused(
+        &format!("iwan_six_parameter --fit backbone {path}"),
+        &["force falls with the deformation", "first loading alone"],
+    );
     // The descriptors' examples yield at 10 mm.
     for law in ["bouc_wen", "baber_noori_1985"] {
         refused(

@@ -113,7 +113,16 @@ fn laws_of_storeys() {
         "",
         &["1 value where there are 2 places", "without brackets"],
     );
-    refused(&with("{ ", "{ storeys = [3], "), "", &["storey 3"]);
+    refused(
+        &with("{ ", "{ storeys = [3], "),
+        "",
+        &["storey 3 is not one of 2", "to 2 at the roof"],
+    );
+    refused(
+        &with("{ ", "{ storeys = [1, 1], "),
+        "",
+        &["storey 1 stands here twice", "each storey of this law once"],
+    );
     refused(
         &with("{ ", "{ stiffness = 1e6, "),
         "",
@@ -186,6 +195,14 @@ fn laws_of_links() {
     );
     refused("", &format!("{LINK}{LINK}"), &["two links"]);
     refused("", &with("phi_2 = \"5 mm\"", ""), &["phi_2"]);
+    refused(
+        "",
+        "[[link]]\nbetween = [\"a\", \"b\"]\nmodel = \"viscous_damper\"\ndamping = \"1e5 N s/m\"\nexponent = 0.5\n",
+        &[
+            "a dashpot coefficient (N s^0.5/m^0.5)",
+            "exponent of the law is in the unit",
+        ],
+    );
 }
 
 #[test]

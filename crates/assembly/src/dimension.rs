@@ -116,6 +116,10 @@ pub(crate) fn parameter_value_as<D: Descriptor>(
                     "correct the unit; the exponent of the law is in the unit of its stiffness"
                         .to_owned()
                 }
+                ParameterUnit::NewtonSecondPerMetreToExponent => {
+                    "correct the unit; the exponent of the law is in the unit of its damping"
+                        .to_owned()
+                }
                 _ => "correct the unit; plain numbers are SI".to_owned(),
             }),
         ));

@@ -135,6 +135,11 @@ impl fmt::Display for Dimension {
         if self.length < 0.0 && *self == Self::stiffness_with_exponent(1.0 - self.length) {
             return write!(f, "a contact stiffness (N/m^{})", shown(1.0 - self.length));
         }
+        let exponent = self.time + 2.0;
+        if exponent > 0.0 && *self == Self::dashpot_with_exponent(exponent) {
+            let power = shown(exponent);
+            return write!(f, "a dashpot coefficient (N s^{power}/m^{power})");
+        }
         f.write_str("a quantity in")?;
         for (symbol, power) in [("kg", self.mass), ("m", self.length), ("s", self.time)] {
             match shown(power) {

@@ -113,7 +113,16 @@ fn laws_of_storeys() {
         "",
         &["1 value where there are 2 places", "without brackets"],
     );
-    refused(&with("{ ", "{ storeys = [3], "), "", &["storey 3"]);
+    refused(
+        &with("{ ", "{ storeys = [3], "),
+        "",
+        &["storey 3 is not one of 2", "to 2 at the roof"],
+    );
+    refused(
+        &with("{ ", "{ storeys = [1, 1], "),
+        "",
+        &["storey 1 stands here twice", "each storey of this law once"],
+    );
     refused(
         &with("{ ", "{ stiffness = 1e6, "),
         "",
@@ -125,16 +134,38 @@ fn laws_of_storeys() {
         "",
         &["storey 2", "two laws"],
     );
-    refused(
-        "law = { model = \"viscous_damper\", damping = 1e5 }",
-        "",
-        &["[[link]]"],
-    );
-    refused(
-        "law = { model = \"maxwell\", damping = 1e5 }",
-        "",
-        &["carries no lasting load", "link"],
-    );
+}
+
+/// What acts on one side alone, or without a stiffness, lets a storey walk off: at a gap of zero too, where
+/// laws of one side start with the stiffness of the storey.
+#[test]
+fn laws_of_links_are_no_laws_of_storeys() {
+    for (law, reason) in [
+        ("model = \"viscous_damper\", damping = 1e5", "no stiffness"),
+        ("model = \"maxwell\", damping = 1e5", "lasting load"),
+        (
+            "model = \"elastoplastic_gap\", yield_force = 5e4",
+            "shortening alone",
+        ),
+        (
+            "model = \"hyperbolic_gap\", initial_stiffness = 3.46e6, ultimate_force = 1e5, failure_ratio = 0.7",
+            "shortening alone",
+        ),
+        (
+            "model = \"gap_hook\", compression_stiffness = 3.46e6",
+            "no stiffness between",
+        ),
+        (
+            "storeys = [2], model = \"yielding_bumper\", yield_force = 5e4, gap = 0.01",
+            "law elastoplastic_gap cannot carry a storey",
+        ),
+    ] {
+        refused(
+            &format!("law = {{ {law} }}"),
+            "",
+            &["cannot carry a storey", reason, "make it a [[link]]"],
+        );
+    }
 }
 
 #[test]
@@ -164,6 +195,14 @@ fn laws_of_links() {
     );
     refused("", &format!("{LINK}{LINK}"), &["two links"]);
     refused("", &with("phi_2 = \"5 mm\"", ""), &["phi_2"]);
+    refused(
+        "",
+        "[[link]]\nbetween = [\"a\", \"b\"]\nmodel = \"viscous_damper\"\ndamping = \"1e5 N s/m\"\nexponent = 0.5\n",
+        &[
+            "a dashpot coefficient (N s^0.5/m^0.5)",
+            "exponent of the law is in the unit",
+        ],
+    );
 }
 
 #[test]

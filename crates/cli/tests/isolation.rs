@@ -298,10 +298,14 @@ fn isolators_that_cannot_be_are_refused() {
                 "lead_rubber",
             ],
         ),
-        // A law that holds no load stays refused in a storey.
+        // A law of links stays refused in a storey.
         (
             ("[building.isolator]", maxwell),
-            ["case.toml:11:", "carries no lasting load", "make it a link"],
+            [
+                "case.toml:11:",
+                "law maxwell cannot carry a storey",
+                "make it a [[link]]",
+            ],
         ),
     ] {
         let (_folder, case) = changed(&[changes]);

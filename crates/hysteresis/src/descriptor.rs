@@ -24,6 +24,9 @@ pub struct LawDescriptor {
     pub parameters: &'static [ParameterDescriptor],
     /// Whether the force depends on the speed of the deformation.
     pub rate_dependent: bool,
+    /// Why it serves as a link alone and no storey can have it, whatever its parameters: what carries a
+    /// building resists lasting deformations in both directions. `None` for laws of storeys and links.
+    pub link_alone: Option<&'static str>,
     /// How far it has been checked.
     pub verification: Verification,
     /// Plausible values (SI) of the required parameters: a storey or a link of a

@@ -19,8 +19,16 @@ pub enum HysteresisError {
         /// What to do.
         remedy: &'static str,
     },
+    /// A measured curve that is none of this law, whatever its parameters.
+    #[error("{reason}")]
+    Measured {
+        /// Why.
+        reason: String,
+        /// What to do.
+        remedy: &'static str,
+    },
     /// A measured curve that no parameters can be fitted to.
-    #[error("the measured dissipation cannot be fitted: {reason}")]
+    #[error("the measured curve cannot be fitted: {reason}")]
     Fit {
         /// Why.
         reason: String,
@@ -35,7 +43,9 @@ impl HysteresisError {
     pub fn help(&self) -> Option<String> {
         Some(match self {
             Self::Definition(error) => error.help(),
-            Self::Inconsistent { remedy, .. } | Self::Fit { remedy, .. } => (*remedy).to_owned(),
+            Self::Inconsistent { remedy, .. }
+            | Self::Measured { remedy, .. }
+            | Self::Fit { remedy, .. } => (*remedy).to_owned(),
         })
     }
 }

@@ -13,8 +13,8 @@ use crate::parameters::LawParameters;
 use crate::power_integral::{power, power_moment};
 
 pub use crate::iwan_fit::{
-    DensityFit, FitOptions, MeasuredCurve, density_of_backbone, fit_backbone, fit_dissipation,
-    fit_from_many, unknowns_of_fit,
+    DensityFit, FitDoubt, FitOptions, MeasuredCurve, density_of_backbone, fit_backbone,
+    fit_dissipation, fit_from_many, unknowns_of_fit,
 };
 
 /// The density of sliders.
@@ -57,13 +57,37 @@ impl IwanDensity {
     /// [`HysteresisError::Inconsistent`] with the reason: a negative or infinite
     /// number, an exponent of -1 or less, `phi_1` not below `phi_2`, or no stiffness.
     pub fn checked(self) -> Result<Self, HysteresisError> {
-        let fail = |reason: String, remedy: &'static str| {
+        self.fault().map_or(Ok(self), |(reason, remedy)| {
             Err(HysteresisError::Inconsistent {
                 law: LAW,
                 reason,
                 remedy,
             })
-        };
+        })
+    }
+
+    /// The same of a law that states its density by parameters of its own: `stated` says which.
+    pub(crate) fn checked_as(
+        self,
+        law: &'static str,
+        stated: impl FnOnce() -> String,
+    ) -> Result<Self, HysteresisError> {
+        match self.fault() {
+            None => Ok(self),
+            Some(_) => Err(HysteresisError::Inconsistent {
+                law,
+                reason: format!(
+                    "{} are beyond what a density of sliders can be computed from",
+                    stated()
+                ),
+                remedy: "check their sizes and units; plain numbers are SI",
+            }),
+        }
+    }
+
+    /// Why the parameters make no density, and what to do.
+    fn fault(&self) -> Option<(String, &'static str)> {
+        let fail = |reason: String, remedy: &'static str| Some((reason, remedy));
         let (low, high) = (self.phi_1, self.phi_2);
         if !(self.exponent > -1.0) || !self.exponent.is_finite() {
             return fail(
@@ -94,7 +118,7 @@ impl IwanDensity {
                 "give a positive density or a positive stiffness, in SI units",
             );
         }
-        Ok(self)
+        None
     }
 
     /// The four-parameter density (Segalman, Journal of Applied Mechanics 72 (2005)
@@ -110,13 +134,17 @@ impl IwanDensity {
         chi: f64,
         beta: f64,
     ) -> Result<Self, HysteresisError> {
+        const LAW: &str = "segalman_2005";
+        let stated = || {
+            format!(
+                "slip_force = {slip_force:?} N, stiffness = {initial_stiffness:?} N/m, chi = {chi:?} and beta = {beta:?}"
+            )
+        };
         if !(slip_force > 0.0 && initial_stiffness > 0.0 && beta >= 0.0 && chi > -1.0 && chi <= 0.0)
         {
             return Err(HysteresisError::Inconsistent {
-                law: "segalman_2005",
-                reason: format!(
-                    "F_S = {slip_force} N, K_T = {initial_stiffness} N/m, chi = {chi}, beta = {beta}"
-                ),
+                law: LAW,
+                reason: stated(),
                 remedy: "force and stiffness are positive, chi lies in (-1, 0], beta is zero or more",
             });
         }
@@ -131,7 +159,7 @@ impl IwanDensity {
             slider_stiffness: slip_force / phi_2 * beta / share,
             residual_stiffness: 0.0,
         }
-        .checked()
+        .checked_as(LAW, stated)
     }
 
     /// Slope of the backbone at rest (N/m).

@@ -3,13 +3,34 @@
 use nalgebra::{DMatrix, DVector};
 
 use crate::error::HysteresisError;
-use crate::iwan::IwanDensity;
+use pounding_catalogue::numbers::significant;
+
+use crate::iwan::{IwanDensity, LAW};
 use crate::parameters::LawParameters;
 
 /// Exponents from which a fit sets out where none is given.
 const EXPONENTS: [f64; 3] = [-0.7, -0.3, 0.2];
 /// Shares of the maximum amplitude from which `phi_2` sets out where none is given.
 const SHARES: [f64; 3] = [0.1, 0.5, 2.0];
+/// Places of `phi_2` from the smallest amplitude to twice the largest, and shares of it for `phi_1`, among
+/// which more starts are looked for.
+const PLACES: u32 = 8;
+const SHARES_OF_END: [f64; 3] = [0.05, 0.2, 0.5];
+/// The best of these are starts as well.
+const MORE_STARTS: usize = 6;
+/// Least exponent of a fit above -1, where the density becomes infinite.
+const LEAST_ABOVE: f64 = 1.0e-3;
+/// Part of the stiffness that slips within data that are no straight line, at least.
+const NOTHING_SLIPS: f64 = 1.0e-6;
+/// Relative error below which a fit is exact.
+const EXACT: f64 = 1.0e-9;
+/// Distances between neighbouring data by which `phi_2` of the best fit is moved either way: a lump of sliders
+/// has its kink there, and fits stop where a kink would pass one of the data.
+const MOVES: [f64; 4] = [-1.5, -0.5, 0.5, 1.5];
+/// Times at most that this leads to a better fit.
+const MOST_MOVES: usize = 4;
+/// Root mean square of the relative errors above which the law does not follow the data.
+const MISFIT: f64 = 0.05;
 
 /// When the fit ends.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -71,6 +92,171 @@ pub struct DensityFit {
     pub relative_error: f64,
     /// Iterations used.
     pub iterations: usize,
+}
+
+/// What to know of a fit before its parameters are used.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub enum FitDoubt {
+    /// The law departs from the data by more than 5 %.
+    Misfit {
+        /// Root mean square of the relative errors.
+        relative_error: f64,
+    },
+    /// A parameter that lies where nothing was measured, or next to nothing: beyond `phi_2` it takes two of
+    /// the data to tell what slips there from what never does.
+    Outside {
+        /// `phi_1` or `phi_2`.
+        parameter: &'static str,
+        /// Its value (m).
+        value: f64,
+        /// Least and largest amplitude or deformation of the data (m).
+        measured: [f64; 2],
+    },
+    /// A straight line, along which nothing slips.
+    Straight,
+    /// An exponent that ran to its limit of -1.
+    ExponentAtLimit {
+        /// The exponent.
+        exponent: f64,
+    },
+}
+
+impl std::fmt::Display for FitDoubt {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let millimetres = |metres: f64| significant(1.0e3 * metres);
+        match self {
+            Self::Misfit { relative_error } => write!(
+                f,
+                "the law does not follow the data: the root mean square of the relative errors is {} %, above {} %",
+                significant(100.0 * relative_error),
+                significant(100.0 * MISFIT)
+            ),
+            Self::Outside {
+                parameter,
+                value,
+                measured: [least, largest],
+            } => {
+                let stiffnesses = match *parameter {
+                    "phi_2" => {
+                        ", nor how much stiffness slips there (slider_stiffness) and how much never does (residual_stiffness)"
+                    }
+                    _ => "",
+                };
+                write!(
+                    f,
+                    "{parameter} = {} mm lies at the edge of the data or beyond, which reach from {} to {} mm: they do not determine it{stiffnesses}",
+                    millimetres(*value),
+                    millimetres(*least),
+                    millimetres(*largest)
+                )
+            }
+            Self::Straight => f.write_str(
+                "the fit is a straight line, along which no slider slips: the data determine neither density, exponent nor phi_2, but the sum of all stiffnesses alone",
+            ),
+            Self::ExponentAtLimit { exponent } => write!(
+                f,
+                "the exponent {exponent} stands at the limit of the law, -1: the data do not determine it"
+            ),
+        }
+    }
+}
+
+impl DensityFit {
+    /// What speaks against the parameters of this fit to these data.
+    #[must_use]
+    pub fn doubts(&self, measured: &[(f64, f64)]) -> Vec<FitDoubt> {
+        let mut doubts = Vec::new();
+        if self.relative_error > MISFIT {
+            doubts.push(FitDoubt::Misfit {
+                relative_error: self.relative_error,
+            });
+        }
+        let ends = ends(measured);
+        if self.is_straight(ends[1]) {
+            doubts.push(FitDoubt::Straight);
+            return doubts;
+        }
+        let IwanDensity {
+            exponent,
+            phi_1,
+            phi_2,
+            ..
+        } = self.density;
+        let beyond = measured.iter().filter(|(reach, _)| *reach > phi_2).count();
+        let outside = [
+            ("phi_1", phi_1, phi_1 > 0.0 && phi_1 < ends[0]),
+            ("phi_2", phi_2, beyond < 2 || phi_2 < ends[0]),
+        ];
+        let outside = outside.into_iter().filter(|(.., outside)| *outside);
+        doubts.extend(outside.map(|(parameter, value, _)| FitDoubt::Outside {
+            parameter,
+            value,
+            measured: ends,
+        }));
+        if self.density.density > 0.0 && exponent < -1.0 + 2.0 * LEAST_ABOVE {
+            doubts.push(FitDoubt::ExponentAtLimit { exponent });
+        }
+        doubts
+    }
+
+    /// Whether of a backbone so little slips up to this deformation (m) that it is a straight line.
+    fn is_straight(&self, largest: f64) -> bool {
+        let (first, at_end) = (
+            self.density.initial_stiffness(),
+            self.density.backbone(largest).1,
+        );
+        self.curve == MeasuredCurve::Backbone && first - at_end < NOTHING_SLIPS * first
+    }
+
+    /// Refuses a fit to data that fall, which no density follows, or one that makes no density.
+    fn sound(self, measured: &[(f64, f64)]) -> Result<Self, HysteresisError> {
+        let by_reach = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
+        let first = measured.iter().min_by(by_reach).copied();
+        let last = measured.iter().max_by(by_reach).copied();
+        let falls = first.zip(last).filter(|(first, last)| last.1 < first.1);
+        let (what, over, remedy) = match self.curve {
+            MeasuredCurve::Dissipation => (
+                "energy",
+                "amplitude",
+                "give the energy of each cycle over its amplitude; check the order of the columns and their units",
+            ),
+            MeasuredCurve::Backbone => (
+                "force",
+                "deformation",
+                "give the force on first loading alone; check the order of the columns and their units",
+            ),
+        };
+        if let (Some((first, last)), true) = (falls, self.relative_error > MISFIT) {
+            let (unit, shown) = (self.curve.unit(), significant);
+            return Err(HysteresisError::Measured {
+                reason: format!(
+                    "the measured {what} falls with the {over}, from {} {unit} at {} mm to {} {unit} at {} mm, and that of law {LAW} never does",
+                    shown(first.1),
+                    shown(1.0e3 * first.0),
+                    shown(last.1),
+                    shown(1.0e3 * last.0)
+                ),
+                remedy,
+            });
+        }
+        match self.density.checked() {
+            Ok(_) => Ok(self),
+            Err(_) => Err(HysteresisError::Fit {
+                reason: format!("law {LAW} does not follow the data"),
+                remedy,
+            }),
+        }
+    }
+}
+
+/// Least and largest amplitude or deformation (m).
+fn ends(measured: &[(f64, f64)]) -> [f64; 2] {
+    let reaches = measured.iter().map(|(reach, _)| *reach);
+    [
+        reaches.clone().fold(f64::INFINITY, f64::min),
+        reaches.fold(0.0, f64::max),
+    ]
 }
 
 /// The density of sliders (N/m2) at the deformations (m) of a measured backbone, deformations and
@@ -190,36 +376,120 @@ pub fn unknowns_of_fit(curve: MeasuredCurve, start: &LawParameters) -> usize {
 
 /// The best of the fits ([`fit_dissipation`], [`fit_backbone`]) that set out from these parameters of
 /// `iwan_six_parameter`, and from several values of exponent and `phi_2` where they are not
-/// given. `phi_1 = 0`, `slider_stiffness = 0` and, of a backbone, `residual_stiffness = 0` are kept.
+/// given; `phi_1` sets out from shares of `phi_2` as well, unless it is nothing. `phi_1 = 0`,
+/// `slider_stiffness = 0` and, of a backbone, `residual_stiffness = 0` are kept.
 ///
 /// # Errors
-/// As [`fit_dissipation`], if no fit comes to a result.
+/// As [`fit_dissipation`], if no fit comes to a result; [`HysteresisError::Measured`]: data that fall.
 pub fn fit_from_many(
     curve: MeasuredCurve,
     measured: &[(f64, f64)],
     start: &LawParameters,
     options: FitOptions,
 ) -> Result<DensityFit, HysteresisError> {
-    let fits = guesses(curve, start, measured)
-        .into_iter()
-        .map(|guess| fit(curve, measured, guess, options));
-    let better = |best: Result<DensityFit, _>, fit: Result<DensityFit, _>| match (&best, &fit) {
-        (Ok(b), Ok(f)) if f.relative_error < b.relative_error => fit,
-        (Ok(_), _) => best,
-        (Err(_), _) => fit,
-    };
-    let none = HysteresisError::Fit {
+    let mut starts = guesses(curve, start, measured, SHARES.to_vec());
+    starts.extend(near_starts(curve, start, measured));
+    let mut best: Result<DensityFit, _> = Err(HysteresisError::Fit {
         reason: "no start".to_owned(),
         remedy: "give a start with --set",
-    };
-    fits.fold(Err(none), better)
+    });
+    for guess in starts {
+        let found = fit(curve, measured, guess, options);
+        best = match (best, found) {
+            (Ok(best), Ok(found)) if found.relative_error < best.relative_error => Ok(found),
+            (Ok(best), _) => Ok(best),
+            (Err(_), found) => found,
+        };
+        if matches!(&best, Ok(best) if best.relative_error < EXACT) {
+            break;
+        }
+    }
+    let mut best = best?;
+    for _ in 0..MOST_MOVES {
+        if best.relative_error < EXACT || start.values.contains_key("phi_2") {
+            break;
+        }
+        let before = best.relative_error;
+        for guess in moved(&best.density, measured) {
+            if let Ok(found) = fit(curve, measured, guess, options)
+                && found.relative_error < best.relative_error
+            {
+                best = found;
+            }
+        }
+        if !(best.relative_error < 0.99 * before) {
+            break;
+        }
+    }
+    best.sound(measured)
 }
 
-/// Where the fit sets out: every combination of what is not given.
+/// A density with its `phi_2` at places between the data around it.
+fn moved(density: &IwanDensity, measured: &[(f64, f64)]) -> Vec<IwanDensity> {
+    let mut reaches: Vec<f64> = measured.iter().map(|(reach, _)| *reach).collect();
+    reaches.sort_by(f64::total_cmp);
+    let nearest = |a: &&[f64], b: &&[f64]| {
+        let off = |pair: &&[f64]| (0.5 * (pair[0] + pair[1]) - density.phi_2).abs();
+        off(a).total_cmp(&off(b))
+    };
+    let Some(pair) = reaches.windows(2).min_by(nearest) else {
+        return Vec::new();
+    };
+    let distance = pair[1] - pair[0];
+    let at = |by: f64| IwanDensity {
+        phi_2: density.phi_2 + by * distance,
+        // Free shares set out from above nothing.
+        density: density.density.max(1.0),
+        slider_stiffness: 1.0,
+        ..*density
+    };
+    let moved = MOVES.map(at).into_iter();
+    moved
+        .filter(|density| density.phi_2 > density.phi_1)
+        .collect()
+}
+
+/// Those of many places of `phi_1` and `phi_2` from which the law comes nearest to the data.
+fn near_starts(
+    curve: MeasuredCurve,
+    start: &LawParameters,
+    measured: &[(f64, f64)],
+) -> Vec<IwanDensity> {
+    let [least, largest] = ends(measured);
+    let last = f64::from(PLACES - 1);
+    let shares = (0..PLACES).map(|k| {
+        let (from, to) = (least / largest, 2.0);
+        from * libm::pow(to / from, f64::from(k) / last)
+    });
+    let places = guesses(curve, start, measured, shares.collect());
+    let with_first = places.into_iter().flat_map(|guess| {
+        let shares = SHARES_OF_END.map(|share| IwanDensity {
+            phi_1: share * guess.phi_2,
+            ..guess
+        });
+        let free = (guess.phi_1 > 0.0).then_some(shares);
+        std::iter::once(guess).chain(free.into_iter().flatten())
+    });
+    let mut judged: Vec<(f64, IwanDensity)> = with_first
+        .filter_map(|guess| {
+            let problem = Problem::new(curve, measured, guess.checked().ok()?).ok()?;
+            let errors = problem.errors(&problem.unknowns());
+            Some((errors.norm_squared(), guess))
+        })
+        .filter(|(miss, _)| miss.is_finite())
+        .collect();
+    judged.sort_by(|a, b| a.0.total_cmp(&b.0));
+    judged.truncate(MORE_STARTS);
+    judged.into_iter().map(|(_, guess)| guess).collect()
+}
+
+/// Where the fit sets out: every combination of what is not given, `phi_2` at these shares of the largest
+/// amplitude.
 fn guesses(
     curve: MeasuredCurve,
     start: &LawParameters,
     measured: &[(f64, f64)],
+    shares: Vec<f64>,
 ) -> Vec<IwanDensity> {
     // A spring that does not dissipate is fitted to a backbone alone.
     let residual = match curve {
@@ -227,10 +497,10 @@ fn guesses(
         MeasuredCurve::Backbone => 1.0,
     };
     let get = |name: &str| start.values.get(name).copied();
-    let maximum = measured.iter().map(|(a, _)| *a).fold(0.0, f64::max);
+    let [_, maximum] = ends(measured);
     let exponents = get("exponent").map_or_else(|| EXPONENTS.to_vec(), |e| vec![e]);
     let ends = get("phi_2").map_or_else(
-        || SHARES.iter().map(|s| s * maximum).collect(),
+        || shares.iter().map(|s| s * maximum).collect(),
         |end| vec![end],
     );
     let guess = |exponent, phi_2| IwanDensity {
@@ -311,10 +581,11 @@ impl<'a> Problem<'a> {
         })
     }
 
-    /// ln(alpha+1), ln phi_2, and where free ln(beta/(1-beta)) of the guess.
+    /// ln(alpha + 1 - [`LEAST_ABOVE`]), ln phi_2, and where free ln(beta/(1-beta)) of the guess.
     fn unknowns(&self) -> DVector<f64> {
         let g = &self.guess;
-        let mut values = vec![libm::log(g.exponent + 1.0), libm::log(g.phi_2)];
+        let above = (g.exponent + 1.0 - LEAST_ABOVE).max(LEAST_ABOVE);
+        let mut values = vec![libm::log(above), libm::log(g.phi_2)];
         if g.phi_1 > 0.0 {
             values.push(libm::log(g.phi_1 / (g.phi_2 - g.phi_1)));
         }
@@ -323,7 +594,7 @@ impl<'a> Problem<'a> {
 
     /// The density of these unknowns with the best R and K2.
     fn density(&self, unknowns: &DVector<f64>) -> IwanDensity {
-        let exponent = libm::exp(unknowns[0]) - 1.0;
+        let exponent = libm::exp(unknowns[0]) + LEAST_ABOVE - 1.0;
         let phi_2 = libm::exp(unknowns[1]);
         let phi_1 = if self.guess.phi_1 > 0.0 {
             phi_2 / (1.0 + libm::exp(-unknowns[2]))
@@ -382,7 +653,13 @@ impl<'a> Problem<'a> {
         if free.flat_map(|(c, _)| c.iter()).any(|x| !x.is_finite()) {
             return [f64::NAN; 3];
         }
+        // Orthogonal rotations take all rows into four, of which the shares are found faster.
+        let [a, b, c] = &columns;
         let ones = DVector::from_element(rows, 1.0);
+        let all = DMatrix::from_columns(&[a.clone(), b.clone(), c.clone(), ones]);
+        let rotated = all.qr().r();
+        let columns: [DVector<f64>; 3] = std::array::from_fn(|j| rotated.column(j).into_owned());
+        let ones = rotated.column(3).into_owned();
         let mut best = ([0.0; 3], f64::INFINITY);
         for subset in 1..8_usize {
             let chosen: Vec<usize> = (0..3).filter(|j| subset >> j & 1 == 1).collect();

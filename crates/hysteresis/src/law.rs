@@ -107,8 +107,8 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
         0.0
     }
 
-    /// Whether the element at rest keeps up a lasting load. A storey needs that: one whose
-    /// force is due to the speed alone sinks away under it.
+    /// Whether the element at rest keeps up a lasting load, which one whose force is due to the speed
+    /// alone does not.
     fn holds_static_load(&self) -> bool {
         !self.descriptor().rate_dependent
     }

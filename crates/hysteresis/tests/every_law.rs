@@ -327,6 +327,51 @@ fn the_mirrored_path_gives_the_mirrored_force_bit_for_bit() {
     }
 }
 
+/// Forces (N) after the element went slowly from rest to this deformation, behind a gap of zero where it has
+/// one, and once it has rested there for an hour.
+fn force_at_rest(descriptor: &'static LawDescriptor, deformation: f64) -> f64 {
+    let mut parameters = descriptor.example_parameters();
+    for (name, value) in &mut parameters.values {
+        if name.ends_with("gap") {
+            *value = 0.0;
+        }
+    }
+    let law = pounding_hysteresis::build(descriptor.name, &parameters).unwrap();
+    let (mut history, mut candidate) = (law.virgin(), law.virgin());
+    let rest = Motion {
+        deformation,
+        velocity: 0.0,
+    };
+    law.trial(&history, &mut candidate, rest, 10.0);
+    history.commit(&mut candidate);
+    law.trial(&history, &mut candidate, rest, 3600.0).force
+}
+
+/// Laws of storeys resist a lasting deformation either way; those of links alone do not, but for a gap and
+/// hook that both act from zero.
+#[test]
+fn laws_of_storeys_hold_a_lasting_load_in_both_directions() {
+    for descriptor in descriptors() {
+        let reach = 0.1 * descriptor.example_amplitude;
+        let holds = [1.0, -1.0].map(|side| side * force_at_rest(descriptor, side * reach) > 0.0);
+        let of_storeys = descriptor.link_alone.is_none();
+        if descriptor.name != "gap_hook" {
+            assert_eq!(holds == [true, true], of_storeys, "{}", descriptor.name);
+        }
+        let law = example(descriptor);
+        if of_storeys {
+            assert!(law.initial_stiffness() > 0.0, "{}", descriptor.name);
+            assert!(law.holds_static_load(), "{}", descriptor.name);
+        }
+    }
+    assert!(
+        pounding_hysteresis::find("gap_hook")
+            .unwrap()
+            .link_alone
+            .is_some()
+    );
+}
+
 #[test]
 fn descriptors_are_complete_and_examples_build() {
     let mut names = BTreeSet::new();

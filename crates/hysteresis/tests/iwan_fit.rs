@@ -4,8 +4,8 @@
 use pounding_hysteresis::HysteresisError;
 use pounding_hysteresis::LawParameters;
 use pounding_hysteresis::iwan::{
-    FitOptions, IwanDensity, MeasuredCurve, density_of_backbone, fit_backbone, fit_dissipation,
-    fit_from_many,
+    FitDoubt, FitOptions, IwanDensity, MeasuredCurve, density_of_backbone, fit_backbone,
+    fit_dissipation, fit_from_many,
 };
 
 /// A density with all six parameters.
@@ -155,6 +155,91 @@ fn a_backbone_gives_its_density_back() {
     ];
     for (found, expected) in pairs {
         assert!((found / expected - 1.0).abs() < 1e-4, "{fit:?}");
+    }
+}
+
+/// The density of a backbone that any start of `phi_1` leads back to.
+#[test]
+fn a_backbone_gives_its_density_back_from_any_start() {
+    let truth = IwanDensity {
+        density: 5e8,
+        exponent: -0.5,
+        phi_1: 5e-4,
+        phi_2: 2e-3,
+        slider_stiffness: 5e5,
+        residual_stiffness: 0.0,
+    };
+    let measured: Vec<(f64, f64)> = (0..80)
+        .map(|i| 4e-5 + f64::from(i) * (6e-3 - 4e-5) / 79.0)
+        .map(|x| (x, truth.backbone(x).0))
+        .collect();
+    for phi_1 in [1e-4, 2e-4, 4.5e-4, 1e-3] {
+        let start = LawParameters::from_pairs(&[("phi_1", phi_1)]);
+        let options = FitOptions::default();
+        let fit = fit_from_many(MeasuredCurve::Backbone, &measured, &start, options).unwrap();
+        assert!(fit.relative_error < 1e-9, "{phi_1}: {fit:?}");
+        assert!(
+            (fit.density.phi_1 / truth.phi_1 - 1.0).abs() < 1e-6,
+            "{phi_1}: {fit:?}"
+        );
+        assert!(
+            (fit.density.exponent + 0.5).abs() < 1e-6,
+            "{phi_1}: {fit:?}"
+        );
+        assert_eq!(fit.doubts(&measured), []);
+    }
+}
+
+/// Data that grow like a square, a straight line and a curve that ends before everything slips are fitted,
+/// with what there is to doubt; data that fall are refused in words of their own.
+#[test]
+fn doubts_of_a_fit_are_told() {
+    let fitted = |curve, value: fn(f64) -> f64| {
+        let measured: Vec<(f64, f64)> = (1..=9)
+            .map(f64::from)
+            .map(|i| (1e-3 * i, value(i)))
+            .collect();
+        let start = LawParameters::default();
+        let fit = fit_from_many(curve, &measured, &start, FitOptions::default());
+        fit.map(|fit| {
+            let doubts = fit.doubts(&measured);
+            (fit, doubts)
+        })
+    };
+    let (_, doubts) = fitted(MeasuredCurve::Backbone, |i| 1e3 * i * i).unwrap();
+    let misfit =
+        |d: &FitDoubt| matches!(d, FitDoubt::Misfit { relative_error } if *relative_error > 0.4);
+    assert!(doubts.iter().any(misfit), "{doubts:?}");
+    let (_, doubts) = fitted(MeasuredCurve::Backbone, |i| 1e3 * i).unwrap();
+    assert_eq!(doubts, [FitDoubt::Straight]);
+    // One of the data lies beyond `phi_2`, which may be anywhere before it.
+    let (fit, doubts) = fitted(MeasuredCurve::Backbone, |i| 1e3 * (i - i * i / 60.0)).unwrap();
+    assert!(fit.relative_error < 1e-3, "{fit:?}");
+    let outside = |d: &FitDoubt| {
+        matches!(
+            d,
+            FitDoubt::Outside {
+                parameter: "phi_2",
+                ..
+            }
+        )
+    };
+    assert!(doubts.iter().any(outside), "{fit:?}");
+    assert!(
+        doubts[0].to_string().contains("from 1 to 9 mm"),
+        "{doubts:?}"
+    );
+    for (curve, what) in [
+        (MeasuredCurve::Backbone, "force falls with the deformation"),
+        (
+            MeasuredCurve::Dissipation,
+            "energy falls with the amplitude",
+        ),
+    ] {
+        let error = fitted(curve, |i| 10.0 / i).unwrap_err();
+        assert!(error.to_string().contains(what), "{error}");
+        assert!(error.to_string().contains("from 10"), "{error}");
+        assert!(error.help().is_some());
     }
 }
 

@@ -77,6 +77,33 @@ fn cycles_of_a_history_are_found() {
     assert_eq!(ends, [(0.010, -0.010), (0.012, -0.003)]);
 }
 
+/// States have the times of the rows, to the last bit, and begin with the first: here before zero, and with a
+/// way back that a cycle divides.
+#[test]
+fn a_history_keeps_its_times() {
+    let specimen = bilinear();
+    let rows: Vec<HistoryRow> = [(-1.0, 0.0), (-0.7, 0.01), (0.1, -0.01), (0.3, 0.02)]
+        .iter()
+        .map(|&(time, deformation)| HistoryRow {
+            time: Some(time),
+            deformation,
+        })
+        .collect();
+    let path = LoadPath::history(specimen.descriptor, &rows, None).unwrap();
+    let states = Loop::drive(&specimen, &path).unwrap().states;
+    for row in &rows {
+        let state = states.iter().find(|s| Some(s.time) == row.time);
+        assert_eq!(state.unwrap().deformation, row.deformation);
+    }
+    assert_eq!(states[0].time, -1.0);
+    assert!(states.windows(2).all(|w| w[0].time < w[1].time));
+    // Straight between the rows, where the cycle ends as well.
+    let back = states
+        .iter()
+        .find(|s| s.time > 0.2 && s.deformation >= 0.01);
+    assert!((back.unwrap().time - (0.1 + 0.2 * 2.0 / 3.0)).abs() < 1e-12);
+}
+
 #[test]
 fn histories_that_say_too_little_are_refused() {
     let (plain, damper) = (find("bilinear").unwrap(), find("viscous_damper").unwrap());

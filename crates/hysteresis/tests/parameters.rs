@@ -60,7 +60,26 @@ fn values_that_contradict_one_another_are_refused_with_the_reason() {
             ],
             "initial stiffness",
         ),
-        ("song_2004", &[("phi_1", 1e-3)], "phi_1"),
+        (
+            "song_2004",
+            &[("phi_1", 1e-3)],
+            "phi_1 0.001 m is not below its phi_2 0.0005 m",
+        ),
+        (
+            "song_2004",
+            &[("phi_1", 5e-4)],
+            "phi_1 0.0005 m is not below",
+        ),
+        (
+            "song_2004",
+            &[("stiffness", 1e308)],
+            "stiffness = 1e308 N/m, residual_ratio = 0.1",
+        ),
+        (
+            "segalman_2005",
+            &[("stiffness", 1e-320)],
+            "slip_force = 4000.0 N",
+        ),
         ("bouc_wen", &[("gamma", 0.6)], "create energy"),
         ("bouc_wen", &[("gamma", -0.5)], "create energy"),
         (
@@ -75,6 +94,11 @@ fn values_that_contradict_one_another_are_refused_with_the_reason() {
             "{error}"
         );
         assert!(error.to_string().contains(reason), "{error}");
+        // Under its own name, not that of the law that it is a case of.
+        assert!(
+            error.to_string().starts_with(&format!("law {law}: ")),
+            "{error}"
+        );
     }
 }
 

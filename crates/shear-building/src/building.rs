@@ -494,8 +494,8 @@ impl ShearBuilding {
     /// storey. Modes and damping stay those of the elastic building.
     ///
     /// # Errors
-    /// A number of entries other than that of the storeys, or a law whose initial
-    /// stiffness is not the stiffness of its storey.
+    /// A number of entries other than that of the storeys, a law of links alone, or one whose
+    /// initial stiffness is not the stiffness of its storey.
     pub fn with_laws(mut self, laws: Vec<Option<StoreyLaw>>) -> Result<Self, ShearBuildingError> {
         if laws.len() != self.storeys() {
             return Err(ShearBuildingError::Length {
@@ -509,12 +509,12 @@ impl ShearBuilding {
             let Some(StoreyLaw { law, .. }) = law else {
                 continue;
             };
-            if !law.holds_static_load() {
-                return Err(ShearBuildingError::Law {
+            if let Some(reason) = law.descriptor().link_alone {
+                return Err(ShearBuildingError::LawOfLinks {
                     building: self.name,
                     storey: i + 1,
                     law: law.descriptor().name,
-                    reason: "its force depends on the speed, so that it carries no lasting load: make it a link, beside a storey that stands".to_owned(),
+                    reason,
                 });
             }
             let Some(elastic) = self.stiffness.get(i).copied() else {

@@ -120,6 +120,18 @@ pub enum ShearBuildingError {
         /// What is wrong.
         reason: String,
     },
+    /// A storey law that serves as a link alone.
+    #[error("building {building}, storey {storey}: law {law} cannot carry a storey: {reason}")]
+    LawOfLinks {
+        /// Name of the building.
+        building: String,
+        /// Storey, from 1.
+        storey: usize,
+        /// Name of the law.
+        law: &'static str,
+        /// Why not.
+        reason: &'static str,
+    },
     /// Gravity that overturns the elastic building.
     #[error(
         "building {building}, storey {storey}: the load {load} N on a storey of {height} m takes {geometric} N/m off its stiffness {stiffness} N/m: it cannot stand"
@@ -200,6 +212,9 @@ impl ShearBuildingError {
             }
             Self::Damping { .. } => {
                 "ratios are of critical damping, from 0 to below 1, usual are 0.02 to 0.05; factors and dashpots are zero or more, with one dashpot for each storey"
+            }
+            Self::LawOfLinks { .. } => {
+                "make it a link, beside a storey with a stiffness or another law"
             }
             Self::Modes { .. } => "correct masses and stiffnesses, with their units",
             Self::Isolator { source, .. } => return source.help(),

@@ -157,6 +157,7 @@ fn friction_pendulum_by_hand() {
     assert!((properties.strength - 0.08 * properties.weight).abs() < 1e-6);
     let law = building.laws()[0].as_ref().unwrap();
     assert_eq!(law.law.descriptor().name, "friction_pendulum");
+    assert_eq!(law.law.descriptor().link_alone, None);
     assert_eq!(law.yield_drift, Some(0.001));
     assert_eq!(law.law.initial_stiffness(), building.stiffness()[0]);
 }

@@ -30,6 +30,7 @@ pub(super) fn with_storey_laws(
     let errors = Errors::default();
     let read = errors.all(b.laws.iter().map(|law| {
         let descriptor = descriptor(case, &law.model)?;
+        carries_a_storey(case, &law.model, descriptor)?;
         let own = descriptor.parameters.iter().any(|p| p.name == "stiffness");
         for (place, storey) in law.storeys.iter().enumerate() {
             let mut values = parameters(case, descriptor, &law.parameters, place, |d| d)?;
@@ -46,7 +47,26 @@ pub(super) fn with_storey_laws(
     errors.finish(read)?;
     building
         .with_laws(laws)
-        .map_err(|e| case.error(first.model.span.clone(), e.to_string(), None))
+        .map_err(|e| case.error(first.model.span.clone(), e.to_string(), e.help()))
+}
+
+/// Refuses what serves as a link alone.
+fn carries_a_storey(
+    case: &Case,
+    model: &Located<String>,
+    descriptor: &LawDescriptor,
+) -> Result<(), CaseError> {
+    let Some(reason) = descriptor.link_alone else {
+        return Ok(());
+    };
+    Err(case.error(
+        model.span.clone(),
+        format!("law {} cannot carry a storey: {reason}", descriptor.name),
+        Some(
+            "make it a [[link]], beside a storey with a stiffness or another law; `pounding hysteresis` lists all"
+                .to_owned(),
+        ),
+    ))
 }
 
 /// Modes and damping belong to the stiffness of the storey: the law must start with it.
@@ -60,11 +80,6 @@ fn check_stiffness(
     if (initial - stated).abs() <= 1.0e-6 * stated {
         return Ok(());
     }
-    let remedy = if initial.is_finite() && initial > 0.0 {
-        format!("write stiffness = {initial} for that storey, or change the law")
-    } else {
-        "a law without an initial stiffness cannot carry a storey: make it a [[link]]".to_owned()
-    };
     Err(case.error(
         model.span.clone(),
         format!(
@@ -73,7 +88,9 @@ fn check_stiffness(
             storey + 1,
             building.name()
         ),
-        Some(remedy),
+        Some(format!(
+            "write stiffness = {initial} for that storey, or change the law"
+        )),
     ))
 }
 

@@ -132,11 +132,18 @@ fn listed_storeys(
                 "name the storeys above it, from 2; or leave [building.isolator] out and give storey 1 a law",
             );
         }
-        if storey > storeys || listed.contains(&(storey - 1)) {
+        if storey > storeys {
             return reader.refuse(
                 span,
-                format!("storey {storey} is not one of {storeys}, or stands here twice"),
-                "name each storey of this law once, from 1 at the bottom",
+                format!("storey {storey} is not one of {storeys}"),
+                format!("storeys are counted from 1 at the bottom to {storeys} at the roof"),
+            );
+        }
+        if listed.contains(&(storey - 1)) {
+            return reader.refuse(
+                span,
+                format!("storey {storey} stands here twice"),
+                "name each storey of this law once",
             );
         }
         listed.push(storey - 1);

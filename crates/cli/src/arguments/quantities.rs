@@ -69,15 +69,19 @@ pub fn optional(
     text.map(|text| value(text, option, wanted)).transpose()
 }
 
-/// The same, greater than zero.
-pub fn positive(text: &str, option: &str, wanted: Dimension) -> Result<f64, Failure> {
+/// The same, greater than zero, `option` with an example of its value.
+pub fn positive(
+    text: &str,
+    (option, example): (&str, &str),
+    wanted: Dimension,
+) -> Result<f64, Failure> {
     let value = value(text, option, wanted)?;
     if value > 0.0 {
         return Ok(value);
     }
     Err(Failure::input(
         format!("--{option} is \"{text}\", but it must be greater than zero"),
-        None,
+        Some(format!("for example --{option} \"{example}\"")),
     ))
 }
 

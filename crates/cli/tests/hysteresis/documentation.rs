@@ -4,6 +4,24 @@
 use std::path::Path;
 use std::process::Command;
 
+/// The laws that the page excepts from the exact steps of `event_driven` are those whose branches are not
+/// straight, or, as the examples of the registry have it, a damper with a power of the velocity.
+#[test]
+fn laws_of_event_driven_are_those_of_the_code() {
+    let page = include_str!("../../../../docs/reference/yielding-storeys-and-links.md");
+    let row = page.lines().find(|l| l.starts_with("| `event_driven` |"));
+    let (_, excepted) = row.unwrap().split_once("With a curved law").unwrap();
+    for law in pounding_hysteresis::descriptors() {
+        let built = pounding_hysteresis::build(law.name, &law.example_parameters()).unwrap();
+        assert_eq!(
+            excepted.contains(&format!("`{}`", law.name)),
+            !built.is_piecewise_linear(),
+            "{}",
+            law.name
+        );
+    }
+}
+
 /// Runs the indented lines of the page in a shell, with the program at hand first.
 #[cfg(unix)]
 #[test]

@@ -207,6 +207,26 @@ fn damaged_histories_are_refused_at_their_line() {
     );
 }
 
+/// What must be greater than zero has an example of it.
+#[test]
+fn values_of_zero_and_below_are_refused_with_a_remedy() {
+    for (arguments, remedy) in [
+        ("bilinear --cycles 0mm", "--cycles \"10 mm,20 mm\""),
+        ("bilinear --cycles 10mm,-20mm", "--cycles \"10 mm,20 mm\""),
+        (
+            "bilinear --dissipation 0mm,1mm",
+            "--dissipation \"0.1 mm,10 mm\"",
+        ),
+        ("maxwell --cycles 1mm --period 0s", "--period \"1 s\""),
+        ("maxwell --cycles 1mm --rate=-1m/s", "--rate \"20 mm/s\""),
+    ] {
+        refused(
+            arguments,
+            &["greater than zero", &format!("for example {remedy}")],
+        );
+    }
+}
+
 #[test]
 fn curves_that_cannot_be_fitted_are_refused() {
     let folder = tempfile::tempdir().unwrap();
@@ -259,6 +279,14 @@ fn curves_that_cannot_be_fitted_are_refused() {
     refused(
         &format!("iwan_six_parameter --fit spine {path}"),
         &["no curve \"spine\""],
+    );
+    let path = file(
+        folder.path(),
+        "d_mm,f_kN\n1,4\n2,3\n3,2\n4,1\n5,0.5\n6,0.1\n",
+    );
+    refused(
+        &format!("iwan_six_parameter --fit backbone {path}"),
+        &["force falls with the deformation", "first loading alone"],
     );
     let path = file(folder.path(), "d_mm,f_kN\n1,1\n2,2\n");
     refused(

@@ -76,7 +76,7 @@ fn bad_arguments() {
     );
     refused(
         "hertz_1882|--example|--mass-left=-3 t",
-        &["--mass-left", "greater than zero"],
+        &["greater than zero", "for example --mass-left \"25 t\""],
     );
     refused(
         "hertz_1882|--example|--mass-right=3 m",

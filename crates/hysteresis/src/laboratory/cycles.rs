@@ -79,11 +79,13 @@ impl Loop {
     /// [`LaboratoryError::TooLong`] before the work, [`LaboratoryError::Overflow`] after it.
     pub fn drive(specimen: &Specimen, path: &LoadPath) -> Result<Self, LaboratoryError> {
         specimen.reaches(path.length())?;
-        let mut states = vec![LaboratoryPoint::default()];
-        states.extend(drive_steps(
-            specimen.law.as_ref(),
-            path.steps.iter().copied(),
-        ));
+        let mut states = vec![LaboratoryPoint {
+            time: path.start,
+            ..LaboratoryPoint::default()
+        }];
+        let driven = drive_steps(specimen.law.as_ref(), path.steps.iter().copied());
+        let timed = driven.into_iter().zip(&path.times);
+        states.extend(timed.map(|(state, &time)| LaboratoryPoint { time, ..state }));
         let overflows = |s: &&LaboratoryPoint| !(s.force.is_finite() && s.dissipated.is_finite());
         if let Some(s) = states.iter().find(overflows) {
             let deformation = s.deformation;

@@ -18,7 +18,7 @@ use crate::law::{HysteresisLaw, Motion};
 /// One state of a test.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct LaboratoryPoint {
-    /// Time since the start (s).
+    /// Time (s): since the start, or of a history that states its times.
     pub time: f64,
     /// Deformation (m).
     pub deformation: f64,

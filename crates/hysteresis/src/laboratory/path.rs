@@ -14,10 +14,14 @@ pub struct Step {
 }
 
 /// A path of deformations from a new element at rest.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Default)]
 pub struct LoadPath {
     /// Its steps.
     pub steps: Vec<Step>,
+    /// Time at its start (s): that of the first row of a history, else zero.
+    pub start: f64,
+    /// Time at the end of each step (s).
+    pub times: Vec<f64>,
     /// Cycles as numbers of steps taken: before, at the turning point, and after.
     pub cycles: Vec<[usize; 3]>,
 }
@@ -51,10 +55,7 @@ impl LoadPath {
     /// one.
     #[must_use]
     pub fn full_cycles(law: &LawDescriptor, amplitudes: &[f64], pace: Pace, steps: usize) -> Self {
-        let mut path = Self {
-            steps: Vec::new(),
-            cycles: Vec::new(),
-        };
+        let mut path = Self::default();
         let mut at = 0.0;
         for &amplitude in amplitudes {
             // From a larger cycle by way of the far side, so that this one is closed as well.
@@ -89,10 +90,7 @@ impl LoadPath {
         if law.rate_dependent && !timed && speed.is_none() {
             return Err(LaboratoryError::UnknownRate { law: law.name });
         }
-        let mut path = Self {
-            steps: Vec::new(),
-            cycles: Vec::new(),
-        };
+        let mut path = Self::default();
         path.follow(law, rows, speed)?;
         if path.steps.iter().all(|s| s.motion.deformation == 0.0) {
             return Err(LaboratoryError::NoMotion);
@@ -154,7 +152,15 @@ impl LoadPath {
             deformation,
             velocity,
         };
+        self.times.push(self.time(self.steps.len()) + duration);
         self.steps.push(Step { motion, duration });
+    }
+
+    /// Time (s) after so many steps.
+    fn time(&self, taken: usize) -> f64 {
+        taken
+            .checked_sub(1)
+            .map_or(self.start, |last| self.times[last])
     }
 
     /// A sudden change of velocity, which only a law that depends on it would notice.
@@ -215,6 +221,8 @@ impl LoadPath {
     fn divide(&mut self, index: usize, deformation: f64) {
         let (from, step) = (self.position(index), self.steps[index]);
         let share = (deformation - from) / (step.motion.deformation - from);
+        let time = self.time(index) + share * step.duration;
+        self.times.insert(index, time);
         self.steps[index].duration *= 1.0 - share;
         let motion = Motion {
             deformation,
@@ -252,6 +260,9 @@ impl LoadPath {
                 (None, _, Some(speed)) => way.abs() / speed,
                 (None, _, None) => 1.0,
             };
+            if before.is_none() {
+                self.start = time.unwrap_or(0.0);
+            }
             before = time;
             let pieces = (PIECES * way.abs() / (high - low)).ceil().max(1.0);
             let velocity = if duration > 0.0 { way / duration } else { 0.0 };
@@ -261,6 +272,10 @@ impl LoadPath {
                     let share = i as f64 / pieces;
                     let at = if share == 1.0 { to } else { from + way * share };
                     self.step(at, velocity, duration / pieces);
+                }
+                // As stated, not as the pieces add up to.
+                if let (Some(time), Some(end)) = (time, self.times.last_mut()) {
+                    *end = time;
                 }
             }
             from = to;

@@ -63,6 +63,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(0.5),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::SecondarySources(
         "the equations; solved independently to 1e-12; equals bouc_wen without degradation",
     ),

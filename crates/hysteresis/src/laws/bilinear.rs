@@ -28,6 +28,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(0.0),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::Verified(
         "closed forms of force and cycle dissipation; sliders in parallel",
     ),

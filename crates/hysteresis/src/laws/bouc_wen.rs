@@ -26,6 +26,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         GAMMA,
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::Verified("its differential equation solved independently to 1e-12"),
     example: &[
         ("stiffness", 2.0e7),

@@ -28,6 +28,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         ),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::Verified("closed forms of force and cycle dissipation"),
     example: &[("friction_force", 5.0e4), ("sticking_stiffness", 5.0e8)],
     example_amplitude: 0.01,

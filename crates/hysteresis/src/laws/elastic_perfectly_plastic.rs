@@ -17,6 +17,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     citation: "Prandtl, Zeitschrift fuer Angewandte Mathematik und Mechanik 8 (1928) 85",
     parameters: &[STIFFNESS, YIELD_FORCE],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::Verified("closed forms of force and cycle dissipation"),
     example: &[("stiffness", 2.0e7), ("yield_force", 2.0e5)],
     example_amplitude: 0.05,

@@ -48,6 +48,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         ),
     ],
     rate_dependent: true,
+    link_alone: None,
     verification: Verification::Verified(
         "closed form of the dissipation of cycles; a rigid block between walls by two independent integrations",
     ),

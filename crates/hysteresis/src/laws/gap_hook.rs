@@ -43,6 +43,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(0.0),
     ],
     rate_dependent: false,
+    link_alone: Some("it has no stiffness between its gap and its hook"),
     verification: Verification::Verified("closed form"),
     example: &[
         ("compression_stiffness", 5.0e8),

@@ -49,6 +49,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(0.0),
     ],
     rate_dependent: false,
+    link_alone: Some("it acts on shortening alone"),
     verification: Verification::Verified(
         "closed form of force and dissipation; an oscillator beside an abutment by two independent integrations",
     ),

@@ -17,6 +17,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     citation: "Ibarra, Medina and Krawinkler, Earthquake Engineering and Structural Dynamics 34 (2005) 1489",
     parameters: &OWN,
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::SecondarySources(
         "the rules; paths computed by hand from them are checked",
     ),

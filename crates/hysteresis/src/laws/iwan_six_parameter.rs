@@ -50,6 +50,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(0.0),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::Verified(
         "closed forms against quadrature of the density and the tabulated example; 20 000 discrete sliders",
     ),

@@ -18,6 +18,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     citation: "Hooke 1678",
     parameters: &[STIFFNESS],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::Verified("closed form"),
     example: &[("stiffness", 2.0e7)],
     example_amplitude: 0.02,

@@ -24,6 +24,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         ),
     ],
     rate_dependent: true,
+    link_alone: Some("its force fades under a lasting load"),
     verification: Verification::Verified(
         "closed forms of relaxation and of the dissipation of harmonic cycles",
     ),

@@ -44,6 +44,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(0.15),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::Verified(
         "Steel02 of OpenSees along a path with partial unloadings, to round-off (pounding verify structures); the bilinear law away from the knee for a large R0",
     ),

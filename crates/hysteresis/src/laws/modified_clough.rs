@@ -17,6 +17,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     citation: "Mahin and Bertero, Journal of the Structural Division 102 (1976), after Clough and Johnston 1966",
     parameters: &[STIFFNESS, YIELD_FORCE, HARDENING_RATIO],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::SecondarySources(
         "the rules; paths computed by hand from them are checked",
     ),

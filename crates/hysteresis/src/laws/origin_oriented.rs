@@ -18,6 +18,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     citation: "Umemura, Aoyama and Takizawa 1974, as in Otani, Journal of the Faculty of Engineering, University of Tokyo 36 (1981) 407",
     parameters: &[STIFFNESS, YIELD_FORCE, HARDENING_RATIO],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::SecondarySources(
         "the rules; closed form of the dissipation on first loading",
     ),

@@ -17,6 +17,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     citation: "Clough and Johnston, Proceedings of the Second Japan Earthquake Engineering Symposium (1966) 227",
     parameters: &[STIFFNESS, YIELD_FORCE, HARDENING_RATIO],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::SecondarySources(
         "the rules; paths computed by hand from them are checked",
     ),

@@ -29,6 +29,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .within((1.0, false), (100.0, true)),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::Verified(
         "backbone inverted; closed form of the cycle dissipation; quadrature of the loop",
     ),

@@ -37,6 +37,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         ),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::Verified(
         "conversion back to F_S, K_T and beta; closed form against quadrature; fitted slope of small cycles",
     ),

@@ -41,6 +41,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         ),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::SecondarySources(
         "the density; its closed forms are checked against discrete sliders",
     ),
@@ -59,6 +60,13 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
     let get = |name| parameters.get(&DESCRIPTOR, name);
     let (stiffness, ratio) = (get("stiffness")?, get("residual_ratio")?);
     let (phi_1, phi_2) = (get("phi_1")?, get("phi_2")?);
+    if phi_1 >= phi_2 {
+        return Err(HysteresisError::Inconsistent {
+            law: DESCRIPTOR.name,
+            reason: format!("its phi_1 {phi_1} m is not below its phi_2 {phi_2} m"),
+            remedy: "give phi_1 below phi_2, or leave phi_1 out for 0",
+        });
+    }
     let density = IwanDensity {
         density: stiffness * (1.0 - ratio) / (phi_2 - phi_1),
         exponent: 0.0,
@@ -67,5 +75,13 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
         slider_stiffness: 0.0,
         residual_stiffness: ratio * stiffness,
     };
-    Ok(law(&DESCRIPTOR, density.checked()?))
+    let stated = || {
+        format!(
+            "stiffness = {stiffness:?} N/m, residual_ratio = {ratio:?}, phi_1 = {phi_1:?} m and phi_2 = {phi_2:?} m"
+        )
+    };
+    Ok(law(
+        &DESCRIPTOR,
+        density.checked_as(DESCRIPTOR.name, stated)?,
+    ))
 }

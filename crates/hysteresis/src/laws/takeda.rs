@@ -35,6 +35,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(0.0),
     ],
     rate_dependent: false,
+    link_alone: None,
     verification: Verification::SecondarySources(
         "the rules; paths computed by hand from them are checked",
     ),

@@ -32,6 +32,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
         .default_to(1.0e-3),
     ],
     rate_dependent: true,
+    link_alone: Some("it has no stiffness"),
     verification: Verification::Verified("closed form of the dissipation of harmonic cycles"),
     example: &[("damping", 3.0e5), ("exponent", 0.5)],
     example_amplitude: 0.02,

@@ -55,7 +55,13 @@ pub fn curve(
     let ends = arguments
         .dissipation
         .iter()
-        .map(|text| positive(text.trim(), "dissipation", Dimension::LENGTH))
+        .map(|text| {
+            positive(
+                text.trim(),
+                ("dissipation", "0.1 mm,10 mm"),
+                Dimension::LENGTH,
+            )
+        })
         .collect::<Result<Vec<f64>, Failure>>()?;
     let [from, to] = ends[..] else {
         return Err(not_two());

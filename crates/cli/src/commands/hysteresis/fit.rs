@@ -15,7 +15,7 @@ use super::chosen::given;
 use crate::arguments::InputPath;
 use crate::columns::{Column, Source};
 use crate::failure::Failure;
-use crate::tables::new_table;
+use crate::tables::{new_table, warning_lines};
 
 /// Law whose parameters can be fitted.
 const LAW: &str = "iwan_six_parameter";
@@ -220,6 +220,7 @@ impl Fitted {
             MeasuredCurve::Backbone => "never slips\n",
         });
         text.push_str(&self.density_text());
+        text.push_str(&warning_lines(&self.fit.doubts(&self.measured)));
         text
     }
 
@@ -270,6 +271,12 @@ impl Fitted {
             curve: measured.map(|(a, d)| (*a, *d, self.fitted(*a))).collect(),
             density_by_curvature: self.curvature(),
             relative_error: self.fit.relative_error,
+            warnings: self
+                .fit
+                .doubts(&self.measured)
+                .iter()
+                .map(ToString::to_string)
+                .collect(),
             iterations: self.fit.iterations,
         }
     }
@@ -283,5 +290,6 @@ pub struct ShownFit {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     density_by_curvature: Vec<(f64, f64)>,
     relative_error: f64,
+    warnings: Vec<String>,
     iterations: usize,
 }

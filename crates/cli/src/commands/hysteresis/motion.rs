@@ -33,7 +33,7 @@ pub fn path(
     let amplitudes = arguments
         .cycles
         .iter()
-        .map(|text| positive(text.trim(), "cycles", Dimension::LENGTH))
+        .map(|text| positive(text.trim(), ("cycles", "10 mm,20 mm"), Dimension::LENGTH))
         .collect::<Result<Vec<f64>, Failure>>()?;
     let pace = match speed(arguments)? {
         Some(speed) => Pace::Steady(speed),
@@ -53,12 +53,14 @@ pub fn path(
 /// Period of harmonic cycles (s).
 pub fn period(arguments: &HysteresisArguments) -> Result<f64, Failure> {
     let text = arguments.period.as_deref();
-    text.map_or(Ok(1.0), |text| positive(text, "period", Dimension::TIME))
+    text.map_or(Ok(1.0), |text| {
+        positive(text, ("period", "1 s"), Dimension::TIME)
+    })
 }
 
 fn speed(arguments: &HysteresisArguments) -> Result<Option<f64>, Failure> {
     let text = arguments.rate.as_deref();
-    text.map(|text| positive(text, "rate", Dimension::VELOCITY))
+    text.map(|text| positive(text, ("rate", "20 mm/s"), Dimension::VELOCITY))
         .transpose()
 }
 

@@ -72,7 +72,7 @@ pub fn setting(arguments: &ImpactArguments) -> Result<Setting, Failure> {
     let read_at = arguments
         .read_at
         .as_deref()
-        .map(|text| positive(text, "read-at", Dimension::TIME))
+        .map(|text| positive(text, ("read-at", "5 ms"), Dimension::TIME))
         .transpose()?;
     Ok(Setting {
         bodies,
@@ -98,13 +98,13 @@ fn arrival(arguments: &ImpactArguments) -> Result<(f64, f64), Failure> {
     if !(gravity >= 0.0) {
         return Err(Failure::input(
             format!("--gravity is {gravity} m/s2, but it must be zero or more"),
-            None,
+            Some("leave --gravity out for 9.80665 m/s2; 0 is a blow without weight".to_owned()),
         ));
     }
     match (given, &arguments.height) {
         (Some(velocity), _) => Ok((velocity, gravity)),
         (None, Some(text)) => {
-            let height = positive(text, "height", Dimension::LENGTH)?;
+            let height = positive(text, ("height", "0.2 m"), Dimension::LENGTH)?;
             Ok(((2.0 * gravity * height).sqrt(), gravity))
         }
         (None, None) => Err(Failure::input(
@@ -171,7 +171,7 @@ impl Setting {
 }
 
 fn mass(text: &str, option: &str) -> Result<f64, Failure> {
-    positive(text, option, Dimension::MASS)
+    positive(text, (option, "25 t"), Dimension::MASS)
 }
 
 /// What an error of a model means to somebody at the command line.

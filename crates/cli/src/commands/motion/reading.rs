@@ -25,7 +25,7 @@ pub fn options(arguments: &ReadArguments, unless: Offset) -> Result<ReadOptions,
             number if number > 0.0 => Ok(number),
             number => Err(Failure::input(
                 format!("--{name} = {number} must be greater than zero"),
-                None,
+                Some(format!("correct it, or leave --{name} out")),
             )),
         };
         text.as_ref().map(read).transpose()

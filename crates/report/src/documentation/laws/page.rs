@@ -1,8 +1,8 @@
 //! The page of one law.
 
 use pounding_catalogue::numbers::{all_digits, significant};
+use pounding_hysteresis::LawDescriptor;
 use pounding_hysteresis::laboratory::Specimen;
-use pounding_hysteresis::{LawDescriptor, build};
 
 use super::super::{Head, PARAMETERS, parameter, quoted, traps};
 use super::{Example, dependence};
@@ -19,19 +19,6 @@ pub fn page(example: &Example) -> String {
         usage(example),
     ];
     format!("\n{}\n", sections.join("\n"))
-}
-
-/// Whether a storey can have this law: it starts with a stiffness, to which modes and
-/// damping belong, and holds a static load.
-pub fn carries_a_storey(d: &'static LawDescriptor) -> bool {
-    let law = build(d.name, &d.example_parameters());
-    initial_stiffness(d).is_some() && law.is_ok_and(|law| law.holds_static_load())
-}
-
-/// Initial stiffness (N/m) of the example, if it has one.
-fn initial_stiffness(d: &'static LawDescriptor) -> Option<f64> {
-    let law = build(d.name, &d.example_parameters()).ok()?;
-    Some(law.initial_stiffness()).filter(|k| k.is_finite() && *k > 0.0)
 }
 
 fn head(d: &LawDescriptor) -> String {
@@ -90,15 +77,15 @@ fn usage(example: &Example) -> String {
     let specimen = &example.specimen;
     let name = specimen.descriptor.name;
     let mut text = "## Use it\n\n".to_owned();
-    match initial_stiffness(specimen.descriptor).filter(|_| carries_a_storey(specimen.descriptor)) {
-        Some(stiffness) => text.push_str(&format!(
+    match specimen.descriptor.link_alone {
+        None => text.push_str(&format!(
             "As the law of storeys, whose `stiffness` it starts with:\n\n```toml\n[[building]]\nname = \"left\"\nstoreys = 2\nmass = \"25 t\"\nstiffness = \"{} N/m\"\nheight = \"3 m\"\ndamping = {{ stiffness_proportional = 0.05 }}\nlaw = {{ model = \"{name}\"{} }}\n```\n\n",
-            all_digits(stiffness),
+            all_digits(specimen.law.initial_stiffness()),
             storey_keys(specimen)
         )),
-        None => text.push_str(
-            "It starts without a stiffness or holds no static load, so that it serves as a link, not as a storey.\n\n",
-        ),
+        Some(reason) => text.push_str(&format!(
+            "It serves as a link, not as a storey: {reason}.\n\n"
+        )),
     }
     let amplitudes: Vec<_> = example
         .amplitudes

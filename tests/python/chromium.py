@@ -140,9 +140,14 @@ class Chromium:
         arguments = {"targetId": target, "flatten": True}
         session = self.call("Target.attachToTarget", arguments)["sessionId"]
         page = Page.__new__(Page)
+        page.target = target
         self.pages[session] = page
         page.__init__(self, session, url)
         return page
+
+    def close(self, page):
+        """Ends a page, and what it computes."""
+        self.call("Target.closeTarget", {"targetId": page.target})
 
     def call(self, method, arguments=None, session=None):
         self.last += 1

@@ -218,6 +218,8 @@ def factors(page, browser, url):
     until(shared, f"{DATA}.ready === 'true'")
     assert shared.value(factor) == times != "1", (shared.value(factor), times)
     assert shared.value("document.getElementById('control-building.0.mass-0').value") == page.value("document.getElementById('control-building.0.mass-0').value")
+    # Its sweep would be computed beside all that follows.
+    browser.close(shared)
     resets(page)
     assert page.value(factor) == "1"
 
@@ -265,6 +267,13 @@ def prints(page):
     page.call("Emulation.setEmulatedMedia", media="screen")
 
 
+def complains_of_nothing(page, url):
+    """The page asked for nothing else, and wrote no complaint."""
+    foreign = [r for r in page.requests if not r.startswith((url, "blob:", "data:"))]
+    assert not foreign, foreign
+    assert not page.complaints, page.complaints
+
+
 def in_chromium(arguments, pictures):
     page_file, pounding, record, broken, components, rules = arguments
     url = pathlib.Path(page_file).resolve().as_uri()
@@ -296,20 +305,23 @@ def in_chromium(arguments, pictures):
         prints(page)
         # An address holds the state.
         state = page.value("location.hash")
+        complains_of_nothing(page, url)
+        browser.close(page)
         shared = browser.open(url + "#" + "%7B%22entries%22%3A%7B%22gap.0.width%22%3A%22118%20mm%22%7D%7D")
         opened_with = f"{DATA}.ready === 'true' && document.querySelector('[data-result=width]')?.textContent === '118 mm'"
         until(shared, opened_with)
+        complains_of_nothing(shared, url)
+        browser.close(shared)
         garbage = browser.open(url + "#%7Bnothing")
         until(garbage, f"{DATA}.ready === 'true' && document.querySelectorAll('.fault').length === 1")
+        complains_of_nothing(garbage, url)
+        browser.close(garbage)
         # What cannot be run is left out, and said.
         refused = browser.open(url + "#%7B%22entries%22%3A%7B%22gap.0.width%22%3A%22abc%22%7D%7D")
         until(refused, f"{DATA}.ready === 'true' && Number({DATA}.runs) > 0 && document.querySelectorAll('.fault').length === 1")
         assert "the address" in told(refused) and "abc" in told(refused), told(refused)
         assert refused.value("document.getElementById('control-gap.0.width').value") == "20"
-        for one in (page, shared, garbage, refused):
-            foreign = [r for r in one.requests if not r.startswith((url, "blob:", "data:"))]
-            assert not foreign, foreign
-            assert not one.complaints, one.complaints
+        complains_of_nothing(refused, url)
         size = pathlib.Path(page_file).stat().st_size
         print(f"Chromium: {size / 1e6:.2f} MB, {drag}, the rest of the sweep in {sweep:.1f} s, state {len(state)} characters")
 

@@ -209,6 +209,18 @@ impl HysteresisLaw for BoucWen {
     fn initial_stiffness(&self) -> f64 {
         self.stiffness
     }
+    /// The slope is `h (1 -+ r bend) / eta`, where `h <= 1 <= eta`, and `r`, the power of `zeta` as a part of the ultimate
+    /// one, is at most 1 but for what the strength has lost since: twice what it is leaves room for the loss of a step.
+    fn slope_bound(&self, committed: &History) -> Option<f64> {
+        let [zeta, work] = committed.variables;
+        let weakening = 1.0 + self.degradation.strength * work;
+        let power = libm::pow(zeta.abs(), self.exponent);
+        let reached = 2.0 * (weakening * power * (self.beta + self.gamma)).max(1.0);
+        let unloading = 1.0 + reached * (self.beta - self.gamma) / (self.beta + self.gamma);
+        let slope = unloading.max(reached - 1.0);
+        let parallel = self.hardening_ratio;
+        Some(self.stiffness * (parallel + (1.0 - parallel) * slope))
+    }
     fn internal_variables(&self) -> usize {
         2
     }

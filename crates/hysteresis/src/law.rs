@@ -97,6 +97,14 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
         self.initial_stiffness()
     }
 
+    /// Bound (N/m) of the magnitude of the derivative of the force by the deformation on all straight paths that
+    /// [`HysteresisLaw::trial`] follows from this history within a step; `None` where the force depends on the
+    /// velocity too, or none is known.
+    fn slope_bound(&self, committed: &History) -> Option<f64> {
+        let _ = committed;
+        None
+    }
+
     /// Derivative of the force by the velocity at rest (N s/m).
     fn initial_damping(&self) -> f64 {
         0.0

@@ -3,7 +3,7 @@
 
 use crate::common::example;
 use pounding_hysteresis::laboratory::history;
-use pounding_hysteresis::{LawDescriptor, descriptors};
+use pounding_hysteresis::{LawDescriptor, LawParameters, Motion, build, descriptors};
 use proptest::prelude::*;
 
 /// Energy (J) that an element may give back beyond what it was given, each time that its
@@ -36,7 +36,7 @@ proptest! {
             let (mut from, mut direction, mut turnings) = (0.0, 1.0, 0.0);
             for share in &shares {
                 let x = share * descriptor.example_amplitude;
-                let end = pounding_hysteresis::Motion {
+                let end = Motion {
                     deformation: x,
                     velocity: (x - from) / 0.1,
                 };
@@ -85,6 +85,54 @@ proptest! {
                 let b = &two[2 * i + 1];
                 prop_assert!((a.force - b.force).abs() <= 1e-9 * force, "{}: {:?} {:?}", descriptor.name, a, b);
                 prop_assert!((a.dissipated - b.dissipated).abs() <= 1e-9 * energy, "{}: {:?} {:?}", descriptor.name, a, b);
+            }
+        }
+    }
+
+    /// Forces on the paths of a step differ by no more than the bound of the slope says, at any parameters: those of
+    /// slow unloading and of fast loss of strength too.
+    #[test]
+    fn slopes_keep_their_bound(
+        shares in prop::collection::vec(-0.5..0.5_f64, 1..12),
+        exponent in 1.0..8.0_f64,
+        beta in 0.05..1.5_f64,
+        of_beta in -0.95..1.0_f64,
+        strength in prop::sample::select(vec![0.0, 0.005, 0.1]),
+        pinching in prop::sample::select(vec![0.0, 0.5, 0.95]),
+    ) {
+        let shape = [("exponent", exponent), ("beta", beta), ("gamma", of_beta * beta)];
+        let loss = [("strength_degradation", strength), ("stiffness_degradation", 0.02), ("pinching", pinching)];
+        for (name, more) in [("bouc_wen", &[][..]), ("baber_noori_1985", &loss[..])] {
+            let common = [("stiffness", 2.0e7), ("yield_force", 2.0e5), ("hardening_ratio", 0.05)];
+            let all = [&common[..], &shape[..], more].concat();
+            let law = build(name, &LawParameters::from_pairs(&all)).unwrap();
+            let mut committed = law.virgin();
+            let mut candidate = committed.clone();
+            let mut from = 0.0;
+            for share in &shares {
+                let bound = law.slope_bound(&committed).unwrap();
+                // Up to two and a half yield deformations away, either way.
+                let place = |k: i32| from + 0.05 * share * f64::from(k) / 8.0;
+                let mut force = |k: i32| {
+                    let end = Motion { deformation: place(k), velocity: 0.0 };
+                    law.trial(&committed, &mut candidate, end, 0.1).force
+                };
+                let mut before = force(-8);
+                for k in -7..=8 {
+                    let after = force(k);
+                    let (rise, run) = (after - before, place(k) - place(k - 1));
+                    prop_assert!(
+                        rise.abs() <= bound * run.abs() + 1e-6,
+                        "{}: {} at {} of {}",
+                        name,
+                        rise / run / bound,
+                        k,
+                        share
+                    );
+                    before = after;
+                }
+                committed.commit(&mut candidate);
+                from = place(8);
             }
         }
     }

@@ -44,8 +44,8 @@ pub(crate) struct Peaks {
     height: Vec<f64>,
     /// Elements of a section within a step.
     parts: Vec<SectionPart>,
-    /// Largest accelerations of a step, with their places, of floors and then of sums of them.
-    largest: Vec<(f64, f64)>,
+    /// What accelerations reach in a step, of floors and then of sums of them.
+    reached: Vec<branches::Reached>,
     /// Accelerations at the nodes of a fit, of the same.
     samples: Vec<Polynomial>,
 }
@@ -80,7 +80,7 @@ impl Peaks {
             at: [f64::NAN; 3],
             height: buildings.iter().flat_map(|b| b.height()).copied().collect(),
             parts: Vec::new(),
-            largest: Vec::new(),
+            reached: Vec::new(),
             samples: Vec::new(),
         }
     }
@@ -305,8 +305,18 @@ impl Peaks {
         let implicit = method.information().implicit;
         let velocity = element.polynomial(|i| *method.polynomial(i), context.dynamics.layout.dofs);
         let motion = [deformation, velocity];
+        let slope = match implicit {
+            true => (element.law).slope_bound(&context.contacts.elements.histories[index]),
+            false => None,
+        };
         let mut force =
             |theta: f64| force_of_element(context, method, (index, &motion), (theta, step));
+        if let Some(slope) = slope {
+            let ends = [force(0.0), force(1.0)];
+            if branches::most_on_path(&motion[0], ends, slope) <= self.elements[index].force.value {
+                return;
+            }
+        }
         let samples = fit_nodes().map(&mut force);
         let fitted = fit(&samples);
         let maximum = self.elements[index].force.value;
@@ -319,7 +329,8 @@ impl Peaks {
         }
         // What the law of a step holds is smooth only where its branches are located.
         if implicit {
-            let (theta, top) = branches::largest(|theta| force(theta).abs());
+            let peak = self.elements[index].force.value;
+            let (theta, top) = branches::largest(peak, |theta| force(theta).abs());
             self.raise_force(element, index, top, start + theta * step);
             return;
         }
@@ -379,7 +390,8 @@ impl Peaks {
             self.raise_section(section.place, sample.abs(), start + theta * step);
         }
         if implicit {
-            let (theta, top) = branches::largest(|theta| sum(theta).abs());
+            let peak = self.of_section(section.place).value;
+            let (theta, top) = branches::largest(peak, |theta| sum(theta).abs());
             self.raise_section(section.place, top, start + theta * step);
             return;
         }

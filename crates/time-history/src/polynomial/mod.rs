@@ -75,7 +75,7 @@ pub(crate) fn bound(p: &Polynomial) -> f64 {
 }
 
 /// Bound of the distance from the chord: an eighth of that of the second derivative.
-fn sagitta(p: &Polynomial) -> f64 {
+pub(crate) fn sagitta(p: &Polynomial) -> f64 {
     const EIGHTHS: Polynomial = [0.0, 0.0, 0.25, 0.75, 1.5, 2.5, 3.75, 5.25];
     let terms = p.iter().zip(&EIGHTHS);
     terms.map(|(c, k)| c.abs() * k).sum()

@@ -193,7 +193,7 @@ def clears(page):
 def computes(page, folder):
     """A run that takes longer says for how long it has been computed."""
     case = pathlib.Path(folder) / "slow.toml"
-    case.write_text(page.value("window.given").replace("[analysis]", '[analysis]\nmethod = "newmark"\nstep = "3e-5 s"'))
+    case.write_text(page.value("window.given").replace("[analysis]", '[analysis]\nmethod = "newmark"\nstep = "1.5e-4 s"'))
     runs = page.value(f"Number({DATA}.runs)")
     working = "document.querySelector('[data-part=working]')"
     drop(page, case)

@@ -240,14 +240,38 @@ impl Driver<'_> {
         self.settle_held(segment, tau)?;
         self.settle_stuck(segment, tau);
         self.method.restart(smooth);
+        self.is_stalled(segment.start + tau, &event)?;
+        Ok(smooth)
+    }
+
+    /// Notes a step that ended before an event that is not there, at once: round-off of a gap of floors that set out
+    /// together crosses zero in every long step, and in no short one. What comes so again and again does not count
+    /// before the level has made progress.
+    pub(super) fn makes_no_progress(
+        &mut self,
+        time: f64,
+        event: Candidate,
+    ) -> Result<(), TimeHistoryError> {
+        if !matches!(event.kind, EventKind::Branch(_)) {
+            self.at_once[event.level] += 1;
+            if self.at_once[event.level] > EVENTS_AT_ONCE && self.mute[event.level] == Mute::No {
+                self.mute[event.level] = Mute::Start;
+            }
+        }
+        self.stalled += 1;
+        self.is_stalled(time, &event)
+    }
+
+    /// Gives up a run whose events leave no time between them.
+    fn is_stalled(&self, time: f64, event: &Candidate) -> Result<(), TimeHistoryError> {
         if self.stalled > CHATTER {
             return Err(TimeHistoryError::Chatter {
-                time: segment.start + tau,
+                time,
                 count: self.stalled,
-                place: self.place_of(&event),
+                place: self.place_of(event),
             });
         }
-        Ok(smooth)
+        Ok(())
     }
 
     /// An element leaves its branch.

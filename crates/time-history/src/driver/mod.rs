@@ -372,6 +372,9 @@ impl<'a> Driver<'a> {
                 }
                 step = cut;
                 ended_by = reached.then_some((event, whole));
+                if !reached && cut <= SIMULTANEOUS {
+                    self.makes_no_progress(segment.start + tau, event)?;
+                }
             }
             let reached_end = ended_by.is_none() && step >= rest;
             let next = if reached_end {

@@ -220,11 +220,7 @@ impl Driver<'_> {
                 self.fire(segment, tau, *other);
             }
             self.statistics.events += 1;
-            self.at_once[other.level] += 1;
-            if self.at_once[other.level] > EVENTS_AT_ONCE && self.mute[other.level] == Mute::No {
-                self.mute[other.level] = Mute::Start;
-            }
-            self.stalled += 1;
+            self.comes_at_once(other.level);
             let model = &self.system.levels()[other.level].model;
             let begins = other.kind == EventKind::Close && self.mute[other.level] != Mute::Step;
             if begins && !model.smooth_at_closure() {
@@ -252,14 +248,20 @@ impl Driver<'_> {
         time: f64,
         event: Candidate,
     ) -> Result<(), TimeHistoryError> {
-        if !matches!(event.kind, EventKind::Branch(_)) {
-            self.at_once[event.level] += 1;
-            if self.at_once[event.level] > EVENTS_AT_ONCE && self.mute[event.level] == Mute::No {
-                self.mute[event.level] = Mute::Start;
-            }
+        match event.kind {
+            EventKind::Branch(_) => self.stalled += 1,
+            _ => self.comes_at_once(event.level),
+        }
+        self.is_stalled(time, &event)
+    }
+
+    /// Counts an event of a level at the present instant; after many of them the level has to make progress.
+    fn comes_at_once(&mut self, l: usize) {
+        self.at_once[l] += 1;
+        if self.at_once[l] > EVENTS_AT_ONCE && self.mute[l] == Mute::No {
+            self.mute[l] = Mute::Start;
         }
         self.stalled += 1;
-        self.is_stalled(time, &event)
     }
 
     /// Gives up a run whose events leave no time between them.

@@ -54,6 +54,12 @@ pub fn shard(
     }
 }
 
+/// Reads a study; one whose values take long to try in its case says so.
+pub fn read(path: &Path) -> Result<Study, Failure> {
+    let _progress = Progress::working(format!("reading {}", path.display()))?;
+    Ok(Study::read(path)?)
+}
+
 /// How a study is run, as the arguments say; finds out before the runs that the result
 /// has no place, or would have that of a file that is read.
 pub fn options(

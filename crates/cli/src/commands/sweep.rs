@@ -1,7 +1,7 @@
 //! `pounding sweep`: many runs of one case.
 
 use pounding_files::FileUse;
-use pounding_study::{Study, case_of_run};
+use pounding_study::case_of_run;
 
 use crate::arguments::SweepArguments;
 use crate::failure::Failure;
@@ -9,11 +9,13 @@ use crate::files::have_a_place;
 use crate::output::{pretty, print, print_as_it_is};
 use crate::page;
 use crate::plan::{self, Planned};
-use crate::study::{Finished, all_failed, options, run, shard, stands_complete, summary, told};
+use crate::study::{
+    Finished, all_failed, options, read, run, shard, stands_complete, summary, told,
+};
 
 /// Runs a study, or shows what it would run.
 pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failure> {
-    let study = Study::read(&arguments.study)?;
+    let study = read(&arguments.study)?;
     if let Some(run) = arguments.show {
         return print_as_it_is(&case_of_run(&study, run)?);
     }

@@ -38,6 +38,27 @@ fn modes_of_tall_buildings_are_computed_aloud() {
     assert!(said.contains("storeys, 0 s elapsed"), "{said}");
 }
 
+/// Every value of a list is tried in the case before the first run, which takes a while where they are many.
+#[test]
+fn long_studies_are_read_aloud() {
+    let fixture = Fixture::new();
+    let widths: Vec<String> = (1..500).map(|i| format!("\"{i} mm\"")).collect();
+    let study = format!(
+        "case = \"case.toml\"\n[[variable]]\nname = \"width\"\npath = \"gap.0.width\"\nvalues = [{}]\n",
+        widths.join(", ")
+    );
+    std::fs::write(fixture.path("study.toml"), study).unwrap();
+    let mut command = fixture.command(&["sweep", "study.toml", "--show", "7"]);
+    command.env("POUNDING_PROGRESS_SECONDS", "0.01");
+    let output = command.output().unwrap();
+    let said = message(&output);
+    assert!(output.status.success(), "{said}");
+    assert!(
+        said.starts_with("reading study.toml, 0 s elapsed"),
+        "{said}"
+    );
+}
+
 /// A long one says how far it is, line by line, on the stream of errors; here every
 /// hundredth of a second.
 #[test]
@@ -68,7 +89,8 @@ fn lines_of_progress_come_where_there_is_no_terminal() {
         for _ in 0..3 {
             let line = lines.next().unwrap().unwrap();
             // Before it is known how many there are, there are none.
-            let begun = line.starts_with("no run begun") || line.contains(part);
+            let before = ["no run begun", "reading long-study.toml"];
+            let begun = before.iter().any(|b| line.starts_with(b)) || line.contains(part);
             assert!(begun && line.contains(" s elapsed"), "{words}: {line}");
         }
         child.kill().unwrap();

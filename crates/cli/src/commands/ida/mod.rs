@@ -22,12 +22,14 @@ use crate::interruption::quoted;
 use crate::output::{comma_separated, pretty, print, warn};
 use crate::plan::{self, Planned, path_word};
 use crate::progress::{Progress, Unit, threads};
-use crate::study::{Finished, all_failed, name, options, run, shard, stands_complete, summary};
+use crate::study::{
+    Finished, all_failed, name, options, read, run, shard, stands_complete, summary,
+};
 use crate::{page, plot};
 
 /// Runs all records at all intensities and evaluates them.
 pub fn ida(arguments: &IdaArguments, mut files: FileUse) -> Result<(), Failure> {
-    let study = Study::read(&arguments.study)?;
+    let study = read(&arguments.study)?;
     let Some(settings) = &study.ida else {
         return Err(no_analysis(&study));
     };
@@ -206,7 +208,7 @@ pub fn page_of_result(
     output: &Path,
     files: &mut FileUse,
 ) -> Result<(), Failure> {
-    let study = Study::read(study)?;
+    let study = read(study)?;
     reads_too(files, study.files())?;
     let d = &result.description;
     if study.source != d.study || study.base.source != d.case {

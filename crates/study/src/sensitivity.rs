@@ -30,6 +30,8 @@ pub struct Sensitivity {
     pub by_chance: Vec<f64>,
     /// Whether runs are all combinations of their inputs.
     pub is_grid: bool,
+    /// Values that are not finite and left out.
+    pub left_out: usize,
     /// The part (-) that none explains by itself, where runs are all combinations and all have a value.
     pub combinations: Option<f64>,
 }
@@ -98,6 +100,7 @@ pub fn sensitivity(values: &[f64], inputs: &[Input<'_>]) -> Option<Sensitivity> 
         first_order,
         by_chance,
         is_grid,
+        left_out: values.len() - known.len(),
     })
 }
 

@@ -433,6 +433,17 @@ fn measures_have_their_closed_forms() {
     assert!((pga / a - 1.0).abs() < 1e-5, "{pga}");
     let pgv = IntensityMeasure::PeakGroundVelocity.of(&motion).unwrap();
     assert!((pgv / (2.0 * a / w) - 1.0).abs() < 1e-5, "{pgv}");
+    // From the velocity that a file states: 0.5, 0.2 and -0.05 m/s, where from rest it would be 0.55 m/s.
+    let text = "# Initial velocity: 0.5 m/s\ntime_s,acceleration_m_s2\n0,-3\n0.1,-3\n0.2,-2\n";
+    let moving = pounding_ground_motion::read_bytes(
+        "moving.csv",
+        text.as_bytes(),
+        &pounding_ground_motion::ReadOptions::default(),
+    );
+    let pgv = IntensityMeasure::PeakGroundVelocity
+        .of(&moving.unwrap())
+        .unwrap();
+    assert!((pgv - 0.5).abs() < 1e-12, "{pgv}");
     // A stiff oscillator follows the ground; two periods make a geometric mean.
     let spectral = |periods: &[f64]| {
         let periods = periods.to_vec();

@@ -58,7 +58,7 @@ pub fn sweep(result: &ResultReader, name: &str) -> Result<String, ReportError> {
     let answer = SweepAnswer::of(result).map_err(ReportError::Study)?;
     let mut points = counts(result, &answer);
     points.extend(answer.sentences().iter().map(Sentence::html));
-    points.extend(depends_most(result, &sensitivities));
+    points.extend(depends_most(result, &runs, &sensitivities));
     let mut body = section("Summary", &(sentences(&points) + &warnings(&d.warnings)));
     body.push_str(&section("What varied", &variables(result, &runs)));
     let mut peaks = statistics(result, &runs);
@@ -346,8 +346,12 @@ fn percent(part: f64, by_chance: f64) -> String {
     }
 }
 
-/// The variable on which each quantity depends most, in words.
-fn depends_most(result: &ResultReader, found: &[(&str, Sensitivity)]) -> Option<String> {
+/// The variable on which each quantity depends most, in words; among those that the runs tell, where they do not tell all.
+fn depends_most(
+    result: &ResultReader,
+    runs: &Runs,
+    found: &[(&str, Sensitivity)],
+) -> Option<String> {
     let coordinates = &result.description.coordinates;
     let most = found.iter().filter_map(|(heading, sensitivity)| {
         let parts = sensitivity.first_order.iter().zip(&sensitivity.by_chance);
@@ -356,14 +360,45 @@ fn depends_most(result: &ResultReader, found: &[(&str, Sensitivity)]) -> Option<
             .zip(parts)
             .filter(|(_, (part, by_chance))| **part >= by_chance.max(WORTH_SAYING))
             .max_by(|a, b| a.1.0.total_cmp(b.1.0))?;
-        Some((heading, named(&coordinate.name), percent(*part, 0.0)))
+        let varies = |i: &usize| {
+            runs.coordinates[*i]
+                .windows(2)
+                .any(|pair| pair[0] != pair[1])
+        };
+        let open: Vec<String> = (0..coordinates.len())
+            .filter(|i| sensitivity.first_order[*i].is_nan() && varies(i))
+            .map(|i| named(&coordinates[i].name))
+            .collect();
+        let left_out = match sensitivity.left_out {
+            0 => String::new(),
+            n => format!(", without {} that have no value", counted(n as u64, "run")),
+        };
+        Some((
+            heading,
+            named(&coordinate.name),
+            percent(*part, 0.0),
+            left_out,
+            open,
+        ))
     });
-    let said = most.enumerate().map(|(i, (heading, name, part))| match i {
-        0 => format!("the {heading} varies most with {name} ({part} of its variance)"),
-        _ => format!("the {heading} with {name} ({part})"),
-    });
+    let said = most
+        .enumerate()
+        .map(|(i, (heading, name, part, left_out, open))| {
+            let (varies, of_variance) = match i {
+                0 => (" varies most", " of its variance"),
+                _ => ("", ""),
+            };
+            let told = format!("the {heading}{varies} with {name} ({part}{of_variance}{left_out})");
+            match open.is_empty() {
+                true => told,
+                false => format!(
+                    "{told} among the variables whose part they tell, unlike that of {}",
+                    open.join(" or ")
+                ),
+            }
+        });
     let said: Vec<String> = said.collect();
-    (!said.is_empty()).then(|| format!("Over the runs {}.", said.join(", ")))
+    (!said.is_empty()).then(|| format!("Over the runs {}.", said.join("; ")))
 }
 
 /// What part of the variance of each quantity every variable explains by itself.

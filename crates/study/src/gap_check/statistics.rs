@@ -5,33 +5,20 @@ use pounding_ground_motion::distributions::{
 };
 
 /// Distribution function of the noncentral t distribution: `P(Z + noncentrality <= t S)`
-/// with `S^2` chi-square over its degrees of freedom, by Simpson's rule over `S`.
+/// with `S^2` chi-square over its degrees of freedom, by equal steps of the logarithm of `S`, in which the
+/// integrand dies away to both sides, so that the rule converges faster than any power of the step.
 fn noncentral_t(t: f64, degrees: f64, noncentrality: f64) -> f64 {
-    const INTERVALS: usize = 2000;
-    // The density of S and its logarithm at its top, so that nothing overflows.
-    let reach = 12.0 / degrees.sqrt();
-    let (low, high) = ((1.0 - reach).max(0.0), 1.0 + reach);
-    let logarithm = |s: f64| {
-        if s > 0.0 {
-            (degrees - 1.0) * s.ln() - 0.5 * degrees * s * s
-        } else if degrees == 1.0 {
-            0.0
-        } else {
-            f64::NEG_INFINITY
-        }
-    };
-    let top = logarithm(((degrees - 1.0) / degrees).sqrt());
+    // Steps for each width of the steepest factor: the distribution function around `noncentrality / t`, and the density.
+    let step = 0.2 / (1.0 + noncentrality.abs() + (2.0 * degrees).sqrt());
+    // The density falls by the power `degrees` to the one side and by the exponential of a square to the other.
+    let (low, high) = (-0.5 - 45.0 / degrees, (1.0 + 12.0 / degrees.sqrt()).ln());
+    let intervals = ((high - low) / step).ceil();
     let (mut sum, mut whole) = (0.0, 0.0);
-    for i in 0..=INTERVALS {
-        let s = low + (high - low) * i as f64 / INTERVALS as f64;
-        let weight = match i {
-            0 | INTERVALS => 1.0,
-            i if i % 2 == 1 => 4.0,
-            _ => 2.0,
-        };
-        let density = weight * (logarithm(s) - top).exp();
+    for i in 0..=intervals as usize {
+        let y = low + (high - low) * i as f64 / intervals;
+        let density = (degrees * (y - 0.5 * (2.0 * y).exp_m1())).exp();
         whole += density;
-        sum += density * normal_distribution(t * s - noncentrality);
+        sum += density * normal_distribution(t * y.exp() - noncentrality);
     }
     sum / whole
 }
@@ -103,6 +90,45 @@ mod tests {
         let found = tolerance_factor(2, 0.5, 0.95);
         let exact = (std::f64::consts::PI * 0.45).tan() / 2.0_f64.sqrt();
         assert!((found - exact).abs() < 1.0e-6, "{found} {exact}");
+    }
+
+    /// The same for confidences near zero and one, where the distribution reaches far.
+    #[test]
+    fn two_records_at_any_confidence() {
+        for confidence in [1e-6, 1e-3, 0.005, 0.3, 0.995, 0.9995, 0.99995, 0.999999] {
+            let found = tolerance_factor(2, 0.5, confidence);
+            let exact = (std::f64::consts::PI * (confidence - 0.5)).tan() / 2.0_f64.sqrt();
+            assert!(
+                (found / exact - 1.0).abs() < 1e-8,
+                "{confidence}: {found} {exact}"
+            );
+        }
+    }
+
+    /// Against `scipy.stats.nct.ppf(confidence, n - 1, z sqrt(n)) / sqrt(n)` (SciPy 1.17).
+    #[test]
+    fn tolerance_factors_of_few_records_and_many() {
+        for (size, probability, confidence, factor) in [
+            (2, 0.9, 0.025, -0.142_893_597_102),
+            (2, 0.9, 0.975, 41.200_840_049_2),
+            (2, 0.9, 0.99995, 20_606.732_386_5),
+            (2, 0.99, 0.99995, 37_124.632_882_5),
+            (3, 0.9, 0.00005, -4.426_822_200_79),
+            (3, 0.9, 0.99995, 198.727_933_316),
+            (3, 0.99, 0.975, 15.042_508_045_3),
+            (7, 0.9, 0.00005, -0.215_477_465_429),
+            (7, 0.99, 0.99995, 16.360_649_786),
+            (40, 0.9, 0.99995, 2.489_002_490_3),
+            (40, 0.99, 0.025, 1.822_560_708_88),
+            (400, 0.5, 0.975, 0.098_296_364_796),
+            (400, 0.99, 0.99995, 2.746_737_996_66),
+        ] {
+            let found = tolerance_factor(size, probability, confidence);
+            assert!(
+                (found / factor - 1.0).abs() < 1e-7,
+                "{size} {probability} {confidence}: {found} {factor}"
+            );
+        }
     }
 
     /// No hit in ten: 1 - 0.025^(1/10). Five of ten: 0.1871 and 0.8129 in the paper's

@@ -8,18 +8,35 @@ use crate::design::mixing::unit;
 use crate::fractiles::fractile;
 use crate::study_file::HazardCurve;
 
-/// Sets of records that are drawn.
-pub const RESAMPLES: usize = 1000;
+/// Sets of records that are drawn at least, and at most.
+const RESAMPLES: [usize; 2] = [1000, 10_000];
+/// Sets that are to lie beyond a bound, and that must: fewer make it an extreme of what was drawn.
+const BEYOND: [f64; 2] = [25.0, 4.999_999];
 /// Seed of the drawing, the same in every analysis.
 const SEED: u64 = 20_261_123;
+
+/// Sets of records that bounds at a confidence are drawn from; `None` where too few of the most that are drawn
+/// lie beyond them, above 99.9 %.
+#[must_use]
+pub fn bootstrap_sets(confidence: f64) -> Option<usize> {
+    let tail = 0.5 * (1.0 - confidence);
+    let [least, most] = RESAMPLES;
+    let sets = (BEYOND[0] / tail).round().clamp(least as f64, most as f64);
+    (tail * sets >= BEYOND[1]).then_some(sets as usize)
+}
 
 /// Bounds of a mean annual frequency.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct FrequencyBounds {
-    /// Lower bound (1/year); `None` where the sets that could have any frequency reach its tail.
+    /// Lower bound (1/year); `None` where the sets of which no least frequency is known reach its tail.
     pub low: Option<f64>,
     /// Upper bound (1/year); `None` where the sets of unknown frequency reach its tail.
     pub high: Option<f64>,
+    /// Sets that were drawn.
+    pub sets: usize,
+    /// Sets of whose frequency only the most is known: none of their records reach the state, or some at
+    /// the highest intensity alone.
+    pub below: usize,
     /// Sets whose frequency is not known but above the others: some or all of their records reach
     /// the state at the lowest intensity already.
     pub above: usize,
@@ -30,6 +47,7 @@ pub struct FrequencyBounds {
 /// What a set says of its frequency.
 enum Drawn {
     Frequency(f64),
+    AtMost(f64),
     Above,
     Unknown,
 }
@@ -44,6 +62,10 @@ impl Drawn {
             // All from the second intensity on: what they do below is not known.
             FragilityFit::Step { upper, .. } if upper.is_finite() => return Self::Above,
             FragilityFit::Always { .. } => return Self::Above,
+            // At the highest intensity alone, or nowhere: they may do so at any intensity above.
+            FragilityFit::Step { lower: x, .. } | FragilityFit::Never { up_to: x } if x > 0.0 => {
+                return Self::AtMost(hazard.frequency(x));
+            }
             _ => mean_annual_frequency(fit, hazard),
         };
         match frequency {
@@ -66,8 +88,9 @@ const LEAST_GROUP: usize = 5;
 /// themselves, which keeps the number of runs at each intensity; unless one of them is small. The hazard is taken as
 /// known. A set that leaves a step between two intensities counts
 /// with their geometric mean; one of which some or all records reach the state at the lowest
-/// intensity counts as above all others, and one without a fragility at both ends. `None` with
-/// fewer than two records.
+/// intensity counts as above all others, one of which none do, or at the highest intensity alone, as below all others
+/// for the lower bound and with the most it may have for the upper, and one without a fragility at both ends. `None`
+/// with fewer than two records, and for a confidence that so few sets do not tell.
 pub(super) fn frequency_bounds(
     intensities: &[f64],
     groups: &[Vec<RecordCounts>],
@@ -78,6 +101,7 @@ pub(super) fn frequency_bounds(
     if records.len() < 2 {
         return None;
     }
+    let sets = bootstrap_sets(confidence)?;
     let large = groups.iter().all(|group| group.len() >= LEAST_GROUP);
     // Of every draw the records that it is made from: first and number.
     let mut sources = Vec::with_capacity(records.len());
@@ -105,35 +129,55 @@ pub(super) fn frequency_bounds(
         }
         Drawn::of(&fit(&counts), hazard)
     };
-    let mut found = Vec::new();
-    let (mut above, mut unknown) = (0, 0);
-    for of_set in in_parallel(RESAMPLES, threads, drawn) {
+    let mut all = Frequencies::default();
+    for of_set in in_parallel(sets, threads, drawn) {
         match of_set {
-            Drawn::Frequency(frequency) => found.push(frequency),
-            Drawn::Above => above += 1,
-            Drawn::Unknown => unknown += 1,
+            Drawn::Frequency(frequency) => all.found.push(frequency),
+            Drawn::AtMost(frequency) => all.at_most.push(frequency),
+            Drawn::Above => all.above += 1,
+            Drawn::Unknown => all.unknown += 1,
         }
     }
-    let tail = 0.5 * (1.0 - confidence);
-    Some(bounds(found, [above, unknown], tail))
+    Some(all.bounds(0.5 * (1.0 - confidence)))
 }
 
-/// Percentiles of frequencies beside so many sets that are above them and so many that could be
-/// anywhere, which are none where such a set has part in them.
-fn bounds(mut found: Vec<f64>, [above, unknown]: [usize; 2], tail: f64) -> FrequencyBounds {
-    found.sort_by(f64::total_cmp);
-    let known = |bound: f64| bound.is_finite().then_some(bound);
-    let beside = |below: usize, above: usize| {
-        let mut all = vec![f64::NEG_INFINITY; below];
-        all.extend(&found);
-        all.resize(all.len() + above, f64::INFINITY);
-        all
-    };
-    FrequencyBounds {
-        low: known(fractile(&beside(unknown, above), tail)),
-        high: known(fractile(&beside(0, above + unknown), 1.0 - tail)),
-        above,
-        unknown,
+/// What all sets say of their frequencies.
+#[derive(Default)]
+struct Frequencies {
+    found: Vec<f64>,
+    /// The most it may be.
+    at_most: Vec<f64>,
+    /// Sets above all others, and those that could be anywhere.
+    above: usize,
+    unknown: usize,
+}
+
+impl Frequencies {
+    /// Percentiles, which are none where a set of unknown frequency has part in them.
+    fn bounds(self, tail: f64) -> FrequencyBounds {
+        let Self {
+            found,
+            at_most,
+            above,
+            unknown,
+        } = self;
+        let below = at_most.len();
+        let percentile = |mut all: Vec<f64>, [below, above]: [usize; 2], at: f64| {
+            all.resize(all.len() + below, f64::NEG_INFINITY);
+            all.resize(all.len() + above, f64::INFINITY);
+            all.sort_by(f64::total_cmp);
+            let bound = fractile(&all, at);
+            bound.is_finite().then_some(bound)
+        };
+        let most = [found.clone(), at_most].concat();
+        FrequencyBounds {
+            sets: most.len() + above + unknown,
+            low: percentile(found, [below + unknown, above], tail),
+            high: percentile(most, [0, above + unknown], 1.0 - tail),
+            below,
+            above,
+            unknown,
+        }
     }
 }
 
@@ -231,6 +275,30 @@ mod tests {
         assert!((reach / expected - 1.0).abs() < 0.12, "{reach} {expected}");
     }
 
+    /// One record of ten reaches the state, at the highest intensities: (9/10)^10 of the sets are without it, which is far
+    /// more than a tail of 2.5 %, and there is no lower bound.
+    #[test]
+    fn a_single_record_that_reaches_the_state_leaves_no_lower_bound() {
+        let hazard = HazardCurve::new(vec![(0.01, 1e-1), (1.0, 1e-4)]).unwrap();
+        let mut records = vec![vec![(1, 0); 4]; 9];
+        records.push(vec![(1, 0), (1, 0), (1, 1), (1, 1)]);
+        let found =
+            frequency_bounds(&[0.1, 0.2, 0.3, 0.4], &[records], &hazard, (0.95, 2)).unwrap();
+        let expected = 1000.0 * 0.9_f64.powi(10);
+        assert!((found.below as f64 - expected).abs() < 60.0, "{found:?}");
+        assert_eq!(found.low, None, "{found:?}");
+        assert!(found.high.unwrap() > hazard.frequency(0.4), "{found:?}");
+    }
+
+    #[test]
+    fn sets_beyond_a_bound_are_not_few() {
+        assert_eq!(bootstrap_sets(0.9), Some(1000));
+        assert_eq!(bootstrap_sets(0.95), Some(1000));
+        assert_eq!(bootstrap_sets(0.99), Some(5000));
+        assert_eq!(bootstrap_sets(0.999), Some(10_000));
+        assert_eq!(bootstrap_sets(0.9995), None);
+    }
+
     #[test]
     fn one_record_has_no_bounds() {
         let hazard = HazardCurve::new(vec![(0.1, 1e-2), (1.0, 1e-4)]).unwrap();
@@ -240,7 +308,10 @@ mod tests {
         let always = [vec![vec![(1, 1), (1, 1)], vec![(1, 1), (1, 1)]]];
         let without = frequency_bounds(&[0.1, 0.2], &always, &hazard, (0.9, 2)).unwrap();
         assert_eq!((without.low, without.high), (None, None));
-        assert_eq!((without.above, without.unknown), (RESAMPLES, 0));
+        assert_eq!(
+            (without.sets, without.above, without.unknown),
+            (1000, 1000, 0)
+        );
         let counts = [Counts {
             intensity: 0.1,
             runs: 2,
@@ -267,6 +338,15 @@ mod tests {
     #[test]
     fn a_bound_is_withheld_where_unknown_sets_reach_its_tail() {
         let rising = |count: u32| (1..=count).map(f64::from).collect::<Vec<f64>>();
+        let bounds = |found, [above, unknown]: [usize; 2], tail| {
+            let all = Frequencies {
+                found,
+                above,
+                unknown,
+                at_most: Vec::new(),
+            };
+            all.bounds(tail)
+        };
         // Place 949.05 of 0 to 999 is among the known ones as long as 951 are known.
         let found = bounds(rising(951), [49, 0], 0.05);
         assert!((found.low.unwrap() - 50.95).abs() < 1e-9, "{found:?}");
@@ -280,6 +360,18 @@ mod tests {
         assert!((found.high.unwrap() - 950.05).abs() < 1e-9, "{found:?}");
         let found = bounds(rising(900), [0, 100], 0.05);
         assert_eq!((found.low, found.high), (None, None));
+        // Those of which the most is known are below all others for the one bound, and at their most for the other.
+        let of = |found, at_most| Frequencies {
+            found: rising(found),
+            at_most: vec![2000.0; at_most],
+            ..Frequencies::default()
+        };
+        let found = of(960, 40).bounds(0.05);
+        assert!((found.low.unwrap() - 10.95).abs() < 1e-9, "{found:?}");
+        assert!((found.high.unwrap() - 950.05).abs() < 1e-9, "{found:?}");
+        let found = of(940, 60).bounds(0.05);
+        assert_eq!((found.low, found.high), (None, Some(2000.0)));
+        assert_eq!((found.sets, found.below), (1000, 60));
         // No number is none of them.
         let counts = |reached: [usize; 2]| {
             let level = |(i, reached): (usize, usize)| Counts {
@@ -299,5 +391,11 @@ mod tests {
         assert!(matches!(of([2, 4]), Drawn::Above));
         assert!(matches!(of([4, 4]), Drawn::Above));
         assert!(matches!(of([1, 2]), Drawn::Frequency(_)));
+        assert!(matches!(of([0, 4]), Drawn::Frequency(_)));
+        // What is reached nowhere, or at the highest intensity alone, has no least frequency.
+        for (reached, most) in [([0, 0], 0.2), ([0, 1], 0.1)] {
+            let expected = hazard.frequency(most);
+            assert!(matches!(of(reached), Drawn::AtMost(x) if x == expected));
+        }
     }
 }

@@ -6,7 +6,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use pounding_case::Dimension;
 use pounding_catalogue::STANDARD_GRAVITY;
 
-use super::bootstrap::{FrequencyBounds, RecordCounts, frequency_bounds};
+use super::bootstrap::{FrequencyBounds, RecordCounts, bootstrap_sets, frequency_bounds};
 use super::demands::{
     Demand, Lack, isolated_buildings, of_gap, of_limit, sides_of_gaps, usual, yielding_buildings,
 };
@@ -567,6 +567,9 @@ impl Evaluation<'_> {
         let mut remarks = goodness::remarks(&fit, goodness.as_ref(), &counts, of);
         remarks.extend(hazard.into_iter().flat_map(|h| self.of_frequency(&fit, h)));
         remarks.extend(bounds.iter().flat_map(of_bounds));
+        if hazard.is_some() && fitted && bootstrap_sets(confidence).is_none() {
+            remarks.push(FitRemark::NoBoundsSoSure { confidence });
+        }
         (self.evaluated)();
         Ok(LimitResult {
             name: name.to_owned(),
@@ -903,11 +906,25 @@ fn capacities(
 
 /// What must be said of bounds that are missing.
 fn of_bounds(bounds: &FrequencyBounds) -> Vec<FitRemark> {
-    let &FrequencyBounds { above, unknown, .. } = bounds;
-    let low = bounds.low.is_none() && unknown > 0;
-    let low = low.then_some(FitRemark::NoLowerBound { unknown });
+    let &FrequencyBounds {
+        sets,
+        below,
+        above,
+        unknown,
+        ..
+    } = bounds;
+    let low = bounds.low.is_none() && below + unknown > 0;
+    let low = low.then_some(FitRemark::NoLowerBound {
+        sets,
+        below,
+        unknown,
+    });
     let high = bounds.high.is_none();
-    let high = high.then_some(FitRemark::NoUpperBound { above, unknown });
+    let high = high.then_some(FitRemark::NoUpperBound {
+        sets,
+        above,
+        unknown,
+    });
     low.into_iter().chain(high).collect()
 }
 

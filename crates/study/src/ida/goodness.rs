@@ -3,9 +3,9 @@
 use std::fmt;
 
 use pounding_catalogue::STANDARD_GRAVITY;
+use pounding_catalogue::wording::counted;
 use pounding_ground_motion::distributions::chi_square_exceedance;
 
-use super::bootstrap::RESAMPLES;
 use super::fragility::{Counts, Fragility, FragilityFit};
 
 /// Below this probability a fit is poor.
@@ -189,6 +189,8 @@ pub enum FitRemark {
     },
     /// The bootstrap has no upper bound of the frequency.
     NoUpperBound {
+        /// Sets that were drawn.
+        sets: usize,
         /// Sets whose records reach the state at the lowest intensity already, some or all.
         above: usize,
         /// Sets whose counts give no fragility.
@@ -196,8 +198,17 @@ pub enum FitRemark {
     },
     /// The bootstrap has no lower bound of the frequency.
     NoLowerBound {
+        /// Sets that were drawn.
+        sets: usize,
+        /// Sets whose records reach the state nowhere, or some at the highest intensity alone.
+        below: usize,
         /// Sets whose counts give no fragility.
         unknown: usize,
+    },
+    /// The bootstrap has no bounds of the frequency at so high a confidence.
+    NoBoundsSoSure {
+        /// Confidence (-).
+        confidence: f64,
     },
     /// Part of the frequency comes from above the hazard curve.
     AboveHazard {
@@ -232,6 +243,7 @@ impl FitRemark {
                 | Self::AtMost { .. }
                 | Self::NoUpperBound { .. }
                 | Self::NoLowerBound { .. }
+                | Self::NoBoundsSoSure { .. }
                 | Self::AboveHazard { .. }
                 | Self::FromBelow { .. }
                 | Self::FromAbove { .. }
@@ -267,6 +279,28 @@ fn figures(x: f64) -> String {
     format!("{x:.decimals$}")
 }
 
+/// What the sets have of which nothing is known.
+const NO_FRAGILITY: &str = "have no fragility";
+
+/// Says why a bound of a frequency is missing: of so many sets some are, and what to add.
+fn no_bound(
+    f: &mut fmt::Formatter<'_>,
+    (bound, sets): (&str, usize),
+    reasons: [(usize, &str, &str); 2],
+) -> fmt::Result {
+    let reasons = || reasons.iter().filter(|(count, ..)| *count > 0);
+    let are: Vec<String> = reasons()
+        .map(|(count, what, _)| format!("{count} {what}"))
+        .collect();
+    let add: Vec<&str> = reasons().map(|(.., add)| *add).collect();
+    write!(
+        f,
+        "no {bound} bound of the frequency: of {sets} sets of records {}; add {}",
+        are.join(" and "),
+        add.join(" and ")
+    )
+}
+
 impl fmt::Display for FitRemark {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -294,7 +328,12 @@ impl fmt::Display for FitRemark {
                 f,
                 "the median lies below the intensities: the curve is extrapolated"
             ),
-            Self::FewRecords { records } => write!(f, "there are only {records} records"),
+            Self::FewRecords { records } => write!(
+                f,
+                "there {} only {}",
+                if *records == 1 { "is" } else { "are" },
+                counted(*records as u64, "record")
+            ),
             Self::BelowHazard {
                 first,
                 probability,
@@ -321,28 +360,44 @@ impl fmt::Display for FitRemark {
             }
             Self::AtMost { above } => write!(
                 f,
-                "the frequency is an upper bound, as if the state were reached right above {above}, where no record reaches it: the counts give no curve; add intensities from there on"
+                "the frequency is an upper bound, as if the state were reached right above {above}, where no record of the study reaches it: the counts give no curve; add intensities from there on"
             ),
-            Self::NoUpperBound { above, unknown } => {
-                write!(
-                    f,
-                    "no upper bound of the frequency: of {RESAMPLES} sets of records "
-                )?;
-                match (*above, *unknown) {
-                    (above, 0) => write!(
-                        f,
-                        "{above} reach the state at the lowest intensity already; add lower intensities"
-                    ),
-                    (0, unknown) => write!(f, "{unknown} have no fragility; add records"),
-                    (above, unknown) => write!(
-                        f,
-                        "{above} reach the state at the lowest intensity already and {unknown} have no fragility; add lower intensities and records"
-                    ),
-                }
-            }
-            Self::NoLowerBound { unknown } => write!(
+            Self::NoUpperBound {
+                sets,
+                above,
+                unknown,
+            } => no_bound(
                 f,
-                "no lower bound of the frequency: of {RESAMPLES} sets of records {unknown} have no fragility; add records"
+                ("upper", *sets),
+                [
+                    (
+                        *above,
+                        "reach the state at the lowest intensity already",
+                        "lower intensities",
+                    ),
+                    (*unknown, NO_FRAGILITY, "records"),
+                ],
+            ),
+            Self::NoLowerBound {
+                sets,
+                below,
+                unknown,
+            } => no_bound(
+                f,
+                ("lower", *sets),
+                [
+                    (
+                        *below,
+                        "reach the state nowhere, or some at the highest intensity alone",
+                        "higher intensities",
+                    ),
+                    (*unknown, NO_FRAGILITY, "records"),
+                ],
+            ),
+            Self::NoBoundsSoSure { confidence } => write!(
+                f,
+                "no bounds of the frequency at {} % confidence, which too few sets of records lie beyond; ask for 99.9 % or less",
+                100.0 * confidence
             ),
             Self::AboveHazard { last, share } => write!(
                 f,
@@ -550,6 +605,8 @@ pub(super) fn remarks(
         }
     }
     let FragilityFit::Lognormal(fragility) = fit else {
+        // Of so few the intensities between which all reach the state, or up to which none do, say little.
+        remarks.extend(few_records(records));
         return remarks;
     };
     match (goodness, evidence) {
@@ -560,9 +617,7 @@ pub(super) fn remarks(
         (None, Evidence::Mixed) => remarks.push(FitRemark::NotTested(Untested::Mixed)),
         (None, _) => remarks.push(FitRemark::NotTested(Untested::FewClasses)),
     }
-    if records < FEW {
-        remarks.push(FitRemark::FewRecords { records });
-    }
+    remarks.extend(few_records(records));
     if reach < FEW.min(of) {
         remarks.push(FitRemark::FewReach {
             records: reach,
@@ -588,6 +643,10 @@ pub(super) fn remarks(
     }
     remarks.extend(plateau(counts));
     remarks
+}
+
+fn few_records(records: usize) -> Option<FitRemark> {
+    (records < FEW).then_some(FitRemark::FewRecords { records })
 }
 
 /// Whether the fraction of records stays the same, between none and all, over the last

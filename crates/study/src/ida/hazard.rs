@@ -189,7 +189,9 @@ pub(super) fn remarks(
         });
     }
     let share = hazard.between(f, highest, f64::INFINITY) / frequency;
-    if share > FROM_OUTSIDE {
+    // Where all reach the state already, runs above would change nothing.
+    let open = hazard.frequency(highest) * (1.0 - f.probability(highest)) / frequency;
+    if share.min(open) > FROM_OUTSIDE {
         remarks.push(FitRemark::FromAbove {
             highest: shown(highest),
             share,

@@ -7,7 +7,7 @@ mod fragility;
 mod goodness;
 mod hazard;
 
-pub use bootstrap::{FrequencyBounds, RESAMPLES};
+pub use bootstrap::{FrequencyBounds, bootstrap_sets};
 pub use evaluation::{
     GapResult, IdaReport, IntensityLevel, LimitResult, MinimumGap, OpenGap, PoundingDemand,
     evaluate,

@@ -21,8 +21,8 @@ use crate::error::StudyError;
 pub enum IntensityMeasure {
     /// Maximum ground acceleration (m/s2).
     PeakGroundAcceleration,
-    /// Maximum ground velocity (m/s), from rest, exact for an acceleration that is linear
-    /// between samples.
+    /// Maximum ground velocity (m/s), from the initial velocity that the file of the record states, exact
+    /// for an acceleration that is linear between samples.
     PeakGroundVelocity,
     /// Geometric mean of pseudo-spectral accelerations (m/s2) at some periods: one
     /// period is Sa(T), those of several buildings are their geometric mean.
@@ -56,7 +56,8 @@ impl IntensityMeasure {
         Ok(match self {
             Self::PeakGroundAcceleration => record.peak().value,
             Self::PeakGroundVelocity => {
-                GroundMotion::of(record, 0.0, 0.0)
+                let (velocity, displacement) = record.initial().unwrap_or_default();
+                GroundMotion::of(record, velocity, displacement)
                     .peak_velocity(evaluation)
                     .value
             }

@@ -10,6 +10,9 @@ use pounding_study::gap_check::{
 use super::rules::widest;
 use crate::tables::{decimal, new_table};
 
+/// Bounds (m) from which on their digits say nothing: few records at a high confidence have them.
+const NO_GAP: f64 = 1e4;
+
 /// Whether the gap is wide enough, by the code that is asked for or by the demand, and what
 /// decides.
 pub fn answer(check: &GapCheck, gap: &GapReport) -> String {
@@ -153,12 +156,15 @@ fn required(check: &GapCheck, gap: &GapReport) -> String {
     text.push('\n');
     match &required.lognormal {
         Ok(fit) => text.push_str(&format!(
-            "  lognormal demand (median {:.2} mm, dispersion {:.3}): {} mm is exceeded with probability {p}; {confidence} % bounds {:.2} to {:.2} mm\n",
+            "  lognormal demand (median {:.2} mm, dispersion {:.3}): {} mm is exceeded with probability {p}; {confidence} % bounds {:.2} {}\n",
             fit.median * 1e3,
             fit.dispersion,
             rounded_up(fit.width * 1e3, 2),
             fit.bounds.0 * 1e3,
-            fit.bounds.1 * 1e3,
+            match fit.bounds.1 < NO_GAP {
+                true => format!("to {:.2} mm", fit.bounds.1 * 1e3),
+                false => "mm to more than 10 km".to_owned(),
+            },
         )),
         Err(reason) if p > 0.0 => text.push_str(&format!("  no lognormal fit: {reason}\n")),
         Err(_) => {}

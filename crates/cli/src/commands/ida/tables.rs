@@ -3,7 +3,7 @@
 use pounding_catalogue::wording::counted;
 use pounding_study::{
     FitRemark, FragilityFit, FrequencyBounds, IdaReport, IdaSettings, LimitResult, POOR,
-    PoundingDemand, RESAMPLES, Untested,
+    PoundingDemand, bootstrap_sets,
 };
 
 use crate::tables::{Table, new_table};
@@ -134,11 +134,12 @@ fn how_frequencies_are_bounded(report: &IdaReport, settings: &IdaSettings) -> St
     let widths = report.gaps.iter().flat_map(|gap| &gap.widths);
     let mut states = report.limits.iter().chain(widths.map(|w| &w.result));
     let stands = |b: FrequencyBounds| b.low.or(b.high).is_some();
-    if !states.any(|state| state.frequency_bounds.is_some_and(stands)) {
+    let sets = bootstrap_sets(settings.confidence);
+    let Some(sets) = sets.filter(|_| states.any(|s| s.frequency_bounds.is_some_and(stands))) else {
         return String::new();
-    }
+    };
     format!(
-        "Bounds of mean annual frequencies: percentiles of a bootstrap over records ({RESAMPLES} sets, fixed seed) at {} % confidence; the hazard is taken as known.\n",
+        "Bounds of mean annual frequencies: percentiles of a bootstrap over records ({sets} sets, fixed seed) at {} % confidence; the hazard is taken as known.\n",
         settings.confidence * 100.0
     )
 }
@@ -170,11 +171,18 @@ fn poor_fits<'s>(
 ) -> String {
     let mut text = String::new();
     let (scale, unit) = report.shown_intensity();
-    let (mut untested, mut at_most) = (Vec::new(), false);
+    // What holds for most states where it holds for one is said once, with their names.
+    let mut together: Vec<(FitRemark, Vec<String>)> = Vec::new();
+    let mut at_most = false;
     for (name, state) in states.filter(|(_, s)| !s.remarks.is_empty()) {
         for remark in &state.remarks {
             match remark {
-                FitRemark::NotTested(why) => untested.push((*why, name.clone())),
+                FitRemark::NotTested(_) | FitRemark::FewRecords { .. } => {
+                    match together.iter_mut().find(|(said, _)| said == remark) {
+                        Some((_, names)) => names.push(name.clone()),
+                        None => together.push((*remark, vec![name.clone()])),
+                    }
+                }
                 FitRemark::AtMost { .. } => at_most = true,
                 remark => text.push_str(&format!("  {name}: {remark}\n")),
             }
@@ -206,16 +214,12 @@ fn poor_fits<'s>(
         let pairs: Vec<String> = pairs.collect();
         text.push_str(&format!("    counted/fitted: {}\n", pairs.join(", ")));
     }
-    for why in [Untested::FewClasses, Untested::Mixed] {
-        let names = untested.iter().filter(|(of, _)| *of == why);
-        let names: Vec<&str> = names.map(|(_, name)| name.as_str()).collect();
-        if !names.is_empty() {
-            text.push_str(&format!("  {}: {why}\n", names.join(", ")));
-        }
+    for (remark, names) in together {
+        text.push_str(&format!("  {}: {remark}\n", names.join(", ")));
     }
     if at_most {
         text.push_str(
-            "  \"at most\": the counts give no curve; the frequency is that of a state which is reached right above the highest intensity at which no record reaches it\n",
+            "  \"at most\": the counts give no curve; the frequency is that of a state which is reached right above the highest intensity at which no record of the study reaches it\n",
         );
     }
     text

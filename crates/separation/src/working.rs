@@ -225,9 +225,15 @@ impl Working {
                 let d = self.note(format!("d({})", s.name), d, "m");
                 self.response_modification(s)? * d
             }
-            None => self.importance(s)? * self.displacement(s)?,
+            None => self.unreduced(s)?,
         };
         Ok(value)
+    }
+
+    /// `I u`, the displacement that design forces would cause without their reduction (m): for codes whose factor is a part
+    /// of `R`, of which the whole is taken.
+    pub(crate) fn unreduced(&mut self, s: &Structure) -> Number {
+        Ok(self.importance(s)? * self.displacement(s)?)
     }
 
     /// Whether the floors of both structures lie at equal elevations.

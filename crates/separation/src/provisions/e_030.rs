@@ -40,7 +40,7 @@ macro_rules! rules_with {
                 structure: &Structure,
                 site: &Site,
             ) -> Result<f64, SeparationError> {
-                let displacement = working.displacement(structure)?;
+                let displacement = working.unreduced(structure)?;
                 let height = working.elevation(structure);
                 let half = 0.5 * LEAST(working, height, site)?;
                 Ok((PART * displacement).max(working.note("s / 2", half, "m")))
@@ -74,7 +74,7 @@ rules_with!(of_2018, s_2018);
 rules_with!(of_2026, s_2026);
 
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let sum = working.displacement(&situation.left)? + working.displacement(&situation.right)?;
+    let sum = working.unreduced(&situation.left)? + working.unreduced(&situation.right)?;
     Ok(PART * sum)
 }
 
@@ -92,8 +92,8 @@ static E_030_2026: Edition = Edition {
     superseded_by: None,
 };
 
-const UNREDUCED: &str = "u is the unreduced displacement; the code takes 0.75 R or 0.85 R of the reduced one (Art. 31).";
-const UNREDUCED_2026: &str = "u is the unreduced displacement; the edition of 2018 takes 0.75 R or 0.85 R of the reduced one (its Art. 31), that of 2026 was not seen on it.";
+const UNREDUCED: &str = "I u is the displacement without reduction of forces; the code takes 0.75 R (irregular buildings 0.85 R) times the reduced one (Art. 31), which is 0.75 or 0.85 of that: on the safe side. I is its factor U of use.";
+const UNREDUCED_2026: &str = "I u is the displacement without reduction of forces; the edition of 2018 takes 0.75 R (irregular buildings 0.85 R) times the reduced one (its Art. 31), which is 0.75 or 0.85 of that: on the safe side; that of 2026 was not seen on it. I is its factor U of use.";
 
 pub(crate) static BOUNDARY_2018: ProvisionDescriptor = ProvisionDescriptor {
     name: "e_030_2018_boundary",
@@ -103,14 +103,14 @@ pub(crate) static BOUNDARY_2018: ProvisionDescriptor = ProvisionDescriptor {
     height: HeightDatum::NotSeen,
     ground: Ground::OwnSide,
     elastic_displacement_factor: Some("0.75 R or 0.85 R"),
-    formula: "max(2/3 u, s / 2), s = max(0.006 h, 30 mm)",
-    inputs: &[Input::Displacement],
+    formula: "max(2/3 I u, s / 2), s = max(0.006 h, 30 mm)",
+    inputs: &[Input::Displacement, Input::Importance],
     status: Status::SeenInText("a transcription of Art. 33"),
     remarks: &[
         UNREDUCED,
         "s / 2 holds beside a neighbour that has its joint; beside another see 33.4.",
     ],
-    worked: "max(2 / 3 * 80, max(0.006 * 18000, 30) / 2)",
+    worked: "max(2 / 3 * 1.1 * 80, max(0.006 * 18000, 30) / 2)",
     rule: Rule::Boundary(of_2018::boundary),
 };
 
@@ -119,9 +119,9 @@ pub(crate) static BETWEEN_2018: ProvisionDescriptor = ProvisionDescriptor {
     clause: "33.2",
     height: HeightDatum::NotUsed,
     ground: Ground::NotAsked,
-    formula: "2/3 (u1 + u2)",
+    formula: "2/3 (I1 u1 + I2 u2)",
     remarks: &[UNREDUCED],
-    worked: "2 / 3 * (80 + 60)",
+    worked: "2 / 3 * (1.1 * 80 + 1.1 * 60)",
     rule: Rule::Between(between),
     ..BOUNDARY_2018
 };
@@ -157,14 +157,18 @@ pub(crate) static BOUNDARY_2026: ProvisionDescriptor = ProvisionDescriptor {
     name: "e_030_2026_boundary",
     edition: &E_030_2026,
     clause: "52.3",
-    formula: "max(2/3 u, s / 2), s = max(0.02 Z S h, 30 mm)",
-    inputs: &[Input::Displacement, Input::DesignGroundAcceleration],
+    formula: "max(2/3 I u, s / 2), s = max(0.02 Z S h, 30 mm)",
+    inputs: &[
+        Input::Displacement,
+        Input::Importance,
+        Input::DesignGroundAcceleration,
+    ],
     status: OF_2026,
     remarks: &[
         UNREDUCED_2026,
         "s / 2 holds beside a neighbour that has its joint; beside another see 52.4.",
     ],
-    worked: "max(2 / 3 * 80, max(0.02 * 0.25 * 18000, 30) / 2)",
+    worked: "max(2 / 3 * 1.1 * 80, max(0.02 * 0.25 * 18000, 30) / 2)",
     rule: Rule::Boundary(of_2026::boundary),
     ..BOUNDARY_2018
 };
@@ -211,6 +215,7 @@ mod tests {
     fn structure(u: f64, elevation: f64) -> Structure {
         Structure {
             displacement: Some(u),
+            importance: Some(1.0),
             elevation,
             ..Structure::default()
         }
@@ -245,6 +250,10 @@ mod tests {
         };
         assert!((own(0.09, 9.0) - 0.06).abs() < 1.0e-12);
         assert!((own(0.03, 9.0) - 0.027).abs() < 1.0e-12);
+        // An essential building, whose design forces are 1.5 times as large: 100 mm + 20 mm on its own side alone.
+        let mut essential = s;
+        essential.right.importance = Some(1.5);
+        assert!((BETWEEN_2018.between(&essential).unwrap().width - 0.12).abs() < 1.0e-12);
     }
 
     /// Z = 0.45, S = 1.1: 0.02 * 0.495 * 9 m is 89.1 mm, at 3 m 29.7 mm and so 30 mm; half of it

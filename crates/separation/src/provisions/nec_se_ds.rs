@@ -9,8 +9,8 @@ use crate::status::Status;
 use crate::working::Working;
 
 fn within(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let left = working.displacement(&situation.left)?;
-    let right = working.displacement(&situation.right)?;
+    let left = working.unreduced(&situation.left)?;
+    let right = working.unreduced(&situation.right)?;
     let aligned = working.floors_aligned(&situation.site)?;
     let taken = if aligned {
         left.max(right)
@@ -35,14 +35,14 @@ pub(crate) static WITHIN: ProvisionDescriptor = ProvisionDescriptor {
     height: HeightDatum::NotUsed,
     ground: Ground::OneStructure,
     elastic_displacement_factor: Some("0.75 R"),
-    formula: "half of max(|DeltaM1|, |DeltaM2|) where floors are aligned, else half of |DeltaM1| + |DeltaM2| (DeltaM = u)",
-    inputs: &[Input::Displacement, Input::FloorsAligned],
+    formula: "half of max(|DeltaM1|, |DeltaM2|) where floors are aligned, else half of |DeltaM1| + |DeltaM2| (DeltaM = I u)",
+    inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
     status: Status::SeenInText("an excerpt of 5.2.1"),
     remarks: &[
         "Between parts of one structure; what holds across a property line was not seen.",
-        "That DeltaM is 0.75 R times the elastic displacement is recalled; u is the unreduced one.",
+        "That DeltaM is 0.75 R times the elastic displacement is recalled; I u is R times that, on the safe side.",
     ],
-    worked: "(80 + 60) / 2",
+    worked: "(1.1 * 80 + 1.1 * 60) / 2",
     rule: Rule::Between(within),
 };
 
@@ -59,6 +59,7 @@ mod tests {
         for (aligned, width) in [(false, 0.07), (true, 0.04)] {
             let structure = |u| Structure {
                 displacement: Some(u),
+                importance: Some(1.0),
                 ..Structure::default()
             };
             let situation = Situation {

@@ -13,7 +13,7 @@ use crate::foundation::{BuildingOnFoundation, CoupledMode, FixedBaseBuilding, Fo
 pub struct OnFoundation {
     foundation: Foundation,
     length: Option<f64>,
-    moment_of_uplift: Option<f64>,
+    overturning_moment: Option<f64>,
     fixed_base: ShearBuilding,
     matrices: BuildingOnFoundation,
     first_mode: Option<CoupledMode>,
@@ -58,16 +58,29 @@ impl OnFoundation {
         Some(self.first_mode?.period / fixed)
     }
 
-    /// The moment (N m) at which half the length of the foundation no longer holds the weight
-    /// of floors and foundation: the far edge lifts off. `None` where the length is not known.
+    /// The moment (N m) that overturns a rigid body on rigid ground: the weight of floors and foundation stands on
+    /// the edge alone. No soil bears more. `None` where the length is not known.
+    #[must_use]
+    pub fn overturning_moment(&self) -> Option<f64> {
+        self.overturning_moment
+    }
+
+    /// The moment (N m) from which on the edge of the foundation lifts off elastic soil, [`UPLIFT_BEGINS`] of
+    /// [`OnFoundation::overturning_moment`]; `None` where the length is not known.
     #[must_use]
     pub fn moment_of_uplift(&self) -> Option<f64> {
-        self.moment_of_uplift
+        self.overturning_moment.map(|moment| UPLIFT_BEGINS * moment)
     }
 }
 
-/// Name of the response that is the moment on the foundation over that at which it lifts off.
+/// Name of the response that is the moment on the foundation over that which overturns a rigid body.
 pub const OVERTURNING_RATIO: &str = "overturning_ratio";
+
+/// The overturning ratio (-) from which on an edge lifts off: the pressure under it is zero at a moment of a sixth of
+/// weight times length under a rectangle on Winkler's springs, and under a rigid disc on an elastic half-space, where
+/// weight and moment press by `P / (2 pi a r)` and `3 M x / (2 pi a^3 r)`, `r = sqrt(a^2 - x^2 - y^2)` (Boussinesq 1885;
+/// Borowicka 1943, Ingenieur-Archiv 14, 1). Under a rigid strip on a half-space it is a quarter.
+pub const UPLIFT_BEGINS: f64 = 1.0 / 3.0;
 
 impl ShearBuilding {
     /// This building on a foundation, of this length along the motion (m) if it is known.
@@ -131,11 +144,11 @@ impl ShearBuilding {
         }
         let floors: f64 = self.mass().iter().sum();
         let weight = gravity * (floors + foundation.mass());
-        let moment_of_uplift = length.map(|length| 0.5 * weight * length);
-        let made = general(&self, &matrices, moment_of_uplift);
+        let overturning_moment = length.map(|length| 0.5 * weight * length);
+        let made = general(&self, &matrices, overturning_moment);
         let building = Self::with_coordinates(made)?;
         let on = OnFoundation {
-            moment_of_uplift,
+            overturning_moment,
             first_mode: matrices.first_mode(),
             foundation,
             length,
@@ -150,7 +163,7 @@ impl ShearBuilding {
 fn general(
     fixed: &ShearBuilding,
     matrices: &BuildingOnFoundation,
-    moment_of_uplift: Option<f64>,
+    overturning_moment: Option<f64>,
 ) -> GeneralBuilding {
     let mut further = Vec::new();
     let mut responses = Vec::new();
@@ -189,7 +202,7 @@ fn general(
             });
         }
     }
-    if let Some(limit) = moment_of_uplift {
+    if let Some(limit) = overturning_moment {
         let moment = matrices.rocking_moment();
         let moment = moment.unwrap_or_else(|| matrices.base_moment());
         responses.push(ResponseRow {
@@ -261,7 +274,8 @@ mod tests {
         assert_eq!(names, expected);
         // Half of 2.3 MN times 8 m.
         let on = building.foundation().unwrap();
-        assert_eq!(on.moment_of_uplift(), Some(9.2e6));
+        assert_eq!(on.overturning_moment(), Some(9.2e6));
+        assert!((on.moment_of_uplift().unwrap() / 9.2e6 - 1.0 / 3.0).abs() < 1e-15);
         let ratio = &building.responses()[2].weights;
         for (ratio, moment) in ratio.iter().zip(on.matrices().base_moment()) {
             assert!((ratio * 9.2e6 - moment).abs() <= 1e-14 * moment.abs());

@@ -42,7 +42,7 @@ pub use foundation::{
     BuildingOnFoundation, CoupledMode, FixedBaseBuilding, Foundation, FoundationError, Soil,
     SoilSprings, SpringDashpot,
 };
-pub use founded::{OVERTURNING_RATIO, OnFoundation};
+pub use founded::{OVERTURNING_RATIO, OnFoundation, UPLIFT_BEGINS};
 pub use isolator::{
     Isolator, IsolatorError, IsolatorKind, IsolatorProperties, PostYield, Strength,
 };

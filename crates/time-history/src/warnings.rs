@@ -8,7 +8,9 @@ use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::numbers::six_digits;
 use pounding_gap_element::{Bodies, ImpactModel, collide};
 use pounding_hysteresis::laboratory;
-use pounding_shear_building::{Damping, DampingMatrix, Modes, OVERTURNING_RATIO, ShearBuilding};
+use pounding_shear_building::{
+    Damping, DampingMatrix, Modes, OVERTURNING_RATIO, ShearBuilding, UPLIFT_BEGINS,
+};
 
 use crate::estimate::{StepEstimate, StepLimit, short, step_taken};
 use crate::options::{MethodChoice, RunOptions};
@@ -537,7 +539,11 @@ impl fmt::Display for Warning {
             ),
             Self::Uplift { building, ratio } => write!(
                 f,
-                "{building}: the moment on the foundation is {ratio:.2} times half of weight times length: its edge lifts off the soil, which is not modelled; springs that hold it down make the rotation, and with it the displacement of floors, too small, and the moment too large"
+                "{building}: the moment on the foundation is {ratio:.2} of half of weight times length, {}: its edge lifts off the soil, which is not modelled; springs that hold it down make the rotation, and with it the displacement of floors, too small, and the moment too large",
+                match *ratio > 1.0 {
+                    true => "more than the weight holds at all",
+                    false => "and from a third of it on the soil is pulled at",
+                }
             ),
             Self::AdaptiveInPlace { place } => write!(
                 f,
@@ -852,7 +858,7 @@ impl Warning {
             }
             let mut responses = outcome.responses.iter();
             let overturning = responses.find(|r| r.name == OVERTURNING_RATIO);
-            if let Some(found) = overturning.filter(|r| r.peak.value > 1.0) {
+            if let Some(found) = overturning.filter(|r| r.peak.value > UPLIFT_BEGINS) {
                 warnings.push(Self::Uplift {
                     building: outcome.name.clone(),
                     ratio: found.peak.value,

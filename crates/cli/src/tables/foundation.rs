@@ -51,10 +51,11 @@ pub(super) fn understood(building: &ShearBuilding) -> String {
         _ => text.push_str("first mode of building and soil: it does not oscillate, the dashpots of the soil are so strong\n"),
     }
     text.push_str("soil dashpots couple the modes: those in the table are without them, with the diagonal part of their damping\n");
-    if let Some(moment) = on.moment_of_uplift() {
+    if let (Some(uplift), Some(most)) = (on.moment_of_uplift(), on.overturning_moment()) {
         text.push_str(&format!(
-            "the foundation lifts off at a moment of {:.1} kN m, half of weight times length; uplift is not modelled\n",
-            moment * 1e-3
+            "the edge of the foundation lifts off from a moment of some {:.1} kN m on, a sixth of weight times length; uplift is not modelled, and half of it, {:.1} kN m, is the most that the weight holds\n",
+            uplift * 1e-3,
+            most * 1e-3
         ));
     }
     text

@@ -2,7 +2,7 @@
 
 use pounding_case::Case;
 use pounding_catalogue::wording::counted;
-use pounding_shear_building::OVERTURNING_RATIO;
+use pounding_shear_building::{OVERTURNING_RATIO, UPLIFT_BEGINS};
 use pounding_study::gap_check::{
     Amplification, GapCheck, GapSweep, LevelDemand, RecordDemand, collapsed_building,
 };
@@ -115,18 +115,18 @@ fn foundations(case: &Case, check: &GapCheck) -> String {
         let Some((ratio, record)) = ratios.max_by(|a, b| a.0.total_cmp(&b.0)) else {
             continue;
         };
-        let lifts = if ratio > 1.0 {
+        let lifts = if ratio > UPLIFT_BEGINS {
             "warning: the foundation of"
         } else {
             "  the foundation of"
         };
-        let so = if ratio > 1.0 {
-            ": it lifts off the soil, which is not modelled, and the demand may be greater"
+        let so = if ratio > UPLIFT_BEGINS {
+            ": from 0.33 on its edge lifts off the soil, which is not modelled, and the demand may be greater"
         } else {
             ""
         };
         text.push_str(&format!(
-            "{lifts} {name} bears up to {ratio:.2} of the moment at which it lifts off, under {record}{so}\n"
+            "{lifts} {name} bears up to {ratio:.2} of the moment that would overturn it, under {record}{so}\n"
         ));
     }
     text

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use pounding_gap_element::{ModelParameters, registry};
 use pounding_shear_building::ShearBuilding;
-use pounding_time_history::{Floor, MethodChoice, Outcome, System};
+use pounding_time_history::{Floor, MethodChoice, Outcome, System, TimeHistoryError};
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
 use verification::{EqualStoreys, outcome_by, single_storey, synthetic_motion};
@@ -50,6 +50,26 @@ fn contacts_of_microseconds_are_followed() {
                 assert!((a / b - 1.0).abs() < 1e-6, "{place}: {a} {b}");
             }
         }
+    }
+}
+
+/// Steps that are far too long for a contact make motion of their own, 1e4 times as fast after some of them: the run ends where
+/// the energy of that is a thousand times what the ground has put in, and not at its end, which runs with steps that
+/// are cut at the events of such motion would not reach.
+#[test]
+fn a_run_that_its_steps_drive_ends_early() {
+    for step in [1e-3, 1e-4, 2e-5] {
+        let system = beside_a_wall("papi_toopchi_2022", 1e14);
+        let method = MethodChoice::RungeKutta4 { step };
+        let error = outcome_by(&system, method, DURATION).unwrap_err();
+        let TimeHistoryError::EnergyResidual { time, residual, .. } = error else {
+            panic!("{step}: {error}");
+        };
+        assert!(
+            time < 0.9 * DURATION && residual > 1e3,
+            "{step}: {time} s, {residual}"
+        );
+        assert!(error.help().unwrap().contains("smaller `step`"));
     }
 }
 

@@ -249,6 +249,8 @@ pub enum TimeHistoryError {
         count: usize,
         /// Gap and level, storey or link of the last one.
         place: String,
+        /// Whether the method chooses its steps.
+        adaptive: bool,
     },
     /// The energy ledger did not close.
     #[error(
@@ -329,6 +331,11 @@ impl TimeHistoryError {
             Self::InitialState { .. } => {
                 "correct `initial_displacement` and `initial_velocity` of the buildings"
             }
+            Self::Chatter {
+                adaptive: false, ..
+            } => {
+                "choose a smaller `step`, or use method = \"event_driven\"; or at a gap try another separation rule, at a storey or a link another law; and report the case"
+            }
             Self::Chatter { .. } => {
                 "at a gap try another separation rule, at a storey or a link another law, or a method of fixed steps such as `newmark` or `runge_kutta_4`; and report the case"
             }
@@ -340,7 +347,7 @@ impl TimeHistoryError {
                 "hht_alpha" => {
                     "use a smaller `step`; the method takes energy from the motion, which a larger `energy_tolerance` allows"
                 }
-                _ => "use a smaller `step`",
+                _ => "use a smaller `step`, or method = \"event_driven\"",
             },
             Self::ResponsesTooLarge { .. } => {
                 "record at longer steps, or shorten the run; peaks and impacts do not depend on the step of a recorder"

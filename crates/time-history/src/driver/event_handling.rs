@@ -271,6 +271,7 @@ impl Driver<'_> {
                 time,
                 count: self.stalled,
                 place: self.place_of(event),
+                adaptive: self.method.information().adaptive,
             });
         }
         Ok(())

@@ -51,13 +51,7 @@ impl Driver<'_> {
         }
         let allowed = self.options.energy_tolerance();
         if self.ledger.residual_ratio > allowed {
-            return Err(TimeHistoryError::EnergyResidual {
-                residual: self.ledger.residual_ratio,
-                allowed,
-                time: duration,
-                method: self.method.information().title,
-                name: self.method.information().name,
-            });
+            return Err(self.does_not_close(duration, self.ledger.residual_ratio));
         }
         let counts = self.method.counts();
         let recording = self.exact.as_ref().map_or(0, |exact| exact.recording);

@@ -11,6 +11,9 @@ use crate::polynomial::{Polynomial, first_rise};
 
 /// Work of contacts on the buildings, over the largest input energy, that no contact does.
 const GIVEN: f64 = 1.0e6;
+/// Residual of the balance, over the largest input energy so far, at which a run of fixed steps is given up: what follows
+/// is motion that the steps make, however much energy the ground may yet put in.
+const LOST: f64 = 1.0e3;
 /// How far beyond its bound the error of a fixed step may lead a variable of a law.
 const BEYOND: f64 = 1.1;
 /// Part of it up to which the balance counts as closed.
@@ -146,10 +149,27 @@ impl Driver<'_> {
         }
         self.ledger.largest_input = self.ledger.largest_input.max(energy.input.abs());
         self.largest_residual = self.largest_residual.max(energy.residual.abs());
+        let lost = LOST.max(self.options.energy_tolerance());
+        let input = self.ledger.largest_input.max(self.least_energy);
+        if energy.residual.abs() > lost * input && !self.method.information().adaptive {
+            return Err(self.does_not_close(time, energy.residual.abs() / input));
+        }
         if energy.impact < -self.most_given() {
             return self.contacts_give(time, energy.residual);
         }
         Ok(())
+    }
+
+    /// A balance that is open by this part of the largest input energy.
+    pub(super) fn does_not_close(&self, time: f64, residual: f64) -> TimeHistoryError {
+        let information = self.method.information();
+        TimeHistoryError::EnergyResidual {
+            residual,
+            allowed: self.options.energy_tolerance(),
+            time,
+            method: information.title,
+            name: information.name,
+        }
     }
 
     pub(super) fn not_finite(&self, time: f64) -> TimeHistoryError {

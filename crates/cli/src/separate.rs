@@ -8,8 +8,9 @@
 use std::ffi::OsString;
 use std::io::{IsTerminal, Read, Write};
 use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus, Stdio};
+use std::process::{ChildStdout, Command, ExitStatus, Stdio};
 use std::sync::{Mutex, OnceLock, PoisonError};
+use std::thread::JoinHandle;
 #[cfg(not(unix))]
 use std::time::{Duration, Instant};
 
@@ -118,10 +119,9 @@ pub fn by_child(
     if files.iter().all(|file| is_absent(file).is_err()) {
         return Ok(Ok(Reading::Here(WithoutChecksum::Refuse)));
     }
-    let failed = |e: std::io::Error| Failure::output(&e, "a process that reads");
     let program = match PROGRAM.get() {
         Some(program) => program.clone(),
-        None => std::env::current_exe().map_err(failed)?,
+        None => std::env::current_exe().map_err(no_process)?,
     };
     let given: Vec<OsString> = std::env::args_os().skip(1).collect();
     let (options, names) = given.split_at(end_of_options(&given));
@@ -133,7 +133,7 @@ pub fn by_child(
         command.arg("--color=always");
     }
     command.args(names);
-    match ended(&mut command, files, used).map_err(failed)? {
+    match ended(&mut command, files, used).map_err(no_process)? {
         Ok(answer) => {
             // If it cannot be said, the exit code still says it.
             let _ = std::io::stderr().write_all(&answer.said);
@@ -203,7 +203,7 @@ pub fn answered(
     command.args(arguments).arg(format!("--{OPTION}"));
     command.env("NO_COLOR", "1").stdout(Stdio::piped());
     let ended = ended(&mut command, files, used);
-    let ended = ended.map_err(|e| Failure::output(&e, "a process that reads"))?;
+    let ended = ended.map_err(no_process)?;
     ended.map_err(|none| none.failure(files))
 }
 
@@ -314,6 +314,23 @@ struct Ended {
     process: u32,
 }
 
+/// Reads what a child prints.
+fn printed_by(mut pipe: ChildStdout) -> std::io::Result<JoinHandle<Vec<u8>>> {
+    std::thread::Builder::new().spawn(move || {
+        let mut printed = Vec::new();
+        let _ = pipe.read_to_end(&mut printed);
+        printed
+    })
+}
+
+/// Why there is no process that reads.
+fn no_process(error: std::io::Error) -> Failure {
+    Failure::computation(
+        format!("results are read by a process of their own, which the system refuses: {error}"),
+        Some("end other programs, or raise the limits of processes and memory (`ulimit -u`, `ulimit -v`)".to_owned()),
+    )
+}
+
 /// Runs a command that reads so many bytes.
 #[cfg_attr(unix, expect(unused_variables))]
 fn run(command: &mut Command, bytes: u64) -> std::io::Result<Ended> {
@@ -324,13 +341,14 @@ fn run(command: &mut Command, bytes: u64) -> std::io::Result<Ended> {
     let process = child.id();
     let known = |child| *CHILD.lock().unwrap_or_else(PoisonError::into_inner) = child;
     known(Some(process));
-    let printing = child.stdout.take().map(|mut pipe| {
-        std::thread::spawn(move || {
-            let mut printed = Vec::new();
-            let _ = pipe.read_to_end(&mut printed);
-            printed
-        })
-    });
+    let printing = match child.stdout.take().map(printed_by).transpose() {
+        Ok(printing) => printing,
+        Err(error) => {
+            let _ = child.kill();
+            let _ = child.wait();
+            return Err(error);
+        }
+    };
     let pipe = child.stderr.take();
     #[cfg(unix)]
     let (ending, said) = {

@@ -9,7 +9,7 @@ use sha2::{Digest as _, Sha256};
 
 use crate::direction::Orientation;
 use crate::error::{GroundMotionError, bound, rounded};
-use crate::recording::unusual_step;
+use crate::recording::{impossible_step, unusual_step};
 use crate::start_times::later;
 use crate::station_xml::ResponseFile;
 use crate::step_record::StepRecord;
@@ -133,16 +133,14 @@ impl Accelerogram {
     ///
     /// # Errors
     /// Fewer than two samples, a sample that is not finite in SI units, or a time step that is
-    /// not positive and finite.
+    /// not between 1e-9 s and 1e6 s.
     pub fn new(
         samples: Vec<f64>,
         unit: AccelerationUnit,
         time_step: f64,
     ) -> Result<Self, GroundMotionError> {
-        if !(time_step.is_finite() && time_step > 0.0) {
-            return Err(GroundMotionError::Invalid(format!(
-                "time step {time_step} s must be greater than zero"
-            )));
+        if let Some(wrong) = impossible_step(time_step) {
+            return Err(GroundMotionError::Invalid(wrong));
         }
         if samples.len() < 2 {
             return Err(GroundMotionError::Invalid(format!(

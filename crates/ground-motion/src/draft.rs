@@ -4,7 +4,7 @@ use crate::accelerogram::{Origin, Processing};
 use crate::direction::Orientation;
 use crate::error::{GroundMotionError, READING, bound, within};
 use crate::quantity::{Quantity, SeriesUnit};
-use crate::recording::{HeaderPeak, Sampling, Series, unusual_step};
+use crate::recording::{HeaderPeak, Sampling, Series, impossible_step, unusual_step};
 use crate::source::{Source, Used};
 use crate::start_times::is_impossible;
 use crate::time_column::not_after;
@@ -591,13 +591,8 @@ impl Draft {
             (Some(a), _) => (a, "stated in the file"),
             (None, Some(b)) => (b, "given by the user"),
         };
-        if !(step.is_finite() && step > 0.0) {
-            return Err(source.error(
-                line,
-                0,
-                format!("time step {step} s must be greater than zero"),
-                "correct the header, or give `time_step`",
-            ));
+        if let Some(wrong) = impossible_step(step) {
+            return Err(source.error(line, 0, wrong, "correct the header, or give `time_step`"));
         }
         Ok((
             Sampling::Even { time_step: step },

@@ -42,6 +42,22 @@ impl Sampling {
 /// 10,000.
 const USUAL_STEPS: (f64, f64) = (1.0e-4, 0.1);
 
+/// Time steps (s) with which a record is read at all: beyond them times have no digits, or no end.
+const POSSIBLE_STEPS: (f64, f64) = (1.0e-9, 1.0e6);
+
+/// What is wrong with a time step (s) that no record has.
+pub(crate) fn impossible_step(step: f64) -> Option<String> {
+    let (least, most) = POSSIBLE_STEPS;
+    match step {
+        step if !(step > 0.0) => Some(format!("time step {step} s must be greater than zero")),
+        step if !(least..=most).contains(&step) => Some(format!(
+            "time step {} s is that of no record: {least:e} s to {most:e} s are possible",
+            bound(step)
+        )),
+        _ => None,
+    }
+}
+
 /// What is to be said of a time step (s) that no accelerograph has, of so many samples.
 pub(crate) fn unusual_step(step: f64, count: usize) -> Option<String> {
     let (least, most) = USUAL_STEPS;

@@ -416,11 +416,11 @@ fn windows() {
 /// A step that is far too short would make a pad of seconds as long as the memory.
 #[test]
 fn a_pad_of_more_samples_than_any_record_has_is_refused() {
-    let short = record(vec![0.0, 1.0, 0.0], 1.0e-12);
+    let short = record(vec![0.0, 1.0, 0.0], 1.0e-9);
     let pad = |before, after| ProcessingStep::Pad { before, after };
     refused(&short, pad(10.0, 0.0));
     refused(&short, pad(0.0, 10.0));
-    one(&short, pad(1.0e-9, 0.0));
+    one(&short, pad(1.0e-6, 0.0));
 }
 
 /// Each step that multiplies or integrates can leave the range of numbers: it says so by its

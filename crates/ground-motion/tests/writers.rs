@@ -54,6 +54,16 @@ proptest! {
         prop_assert_eq!(record.time_step(), written.time_step);
     }
 
+    /// The time of every sample, from the shortest step that a record may have to the longest.
+    #[test]
+    fn pounding_csv_returns_every_step(written in any_written(), exponent in -9..6_i32, digits in 1_u32..1000) {
+        let time_step = f64::from(digits) * 0.01 * 10.0_f64.powi(exponent);
+        prop_assume!((1.0e-9..=1.0e6).contains(&time_step));
+        let text = write_pounding_csv(&Written { time_step, ..written }).unwrap();
+        let record = read_bytes("a.csv", text.as_bytes(), &keep()).unwrap();
+        prop_assert_eq!(record.time_step(), time_step);
+    }
+
     /// AT2, VT2 and DT2: eight digits.
     #[test]
     fn peer_returns_eight_digits(written in any_written(), kind in 0..3_usize) {

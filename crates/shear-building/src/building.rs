@@ -820,6 +820,8 @@ fn geometric(mass: &[f64], height: &[f64], gravity: f64) -> Vec<f64> {
 /// Sum of masses (kg), heights (m) or stiffnesses (N/m) of a building at most: a little beyond it products with
 /// gravity are no numbers.
 const LARGEST_SUM: f64 = 1.0e300;
+/// The smallest of such values: what is divided by it stays a number.
+const SMALLEST: f64 = 1.0e-100;
 
 impl Parts {
     fn new(
@@ -877,6 +879,9 @@ fn check(
     };
     if let Some(i) = values.iter().position(|x| !(x.is_finite() && *x > 0.0)) {
         return refused(i, "greater than zero");
+    }
+    if let Some(i) = values.iter().position(|x| *x < SMALLEST) {
+        return refused(i, "1e-100 or more: check its unit");
     }
     // The weight of all storeys, and how high they stand, are sums of such values.
     let mut sum = 0.0;

@@ -33,7 +33,7 @@ pub fn run_many<T: Send>(
 }
 
 /// Does `work` for the numbers from zero to `count - 1`, begun in this order, on so many
-/// threads (at least one, the caller's among them). Results are in the order of the numbers.
+/// threads (at least one, the caller's among them), or as many as the system grants. Results are in the order of the numbers.
 ///
 /// # Panics
 /// If `work` panics.
@@ -54,8 +54,10 @@ pub fn in_parallel<T: Send>(
         }
     };
     let mut kept = std::thread::scope(|scope| {
+        // Where the system refuses another thread, fewer do the same.
+        let another = |_| std::thread::Builder::new().spawn_scoped(scope, one_thread);
         let others: Vec<_> = (1..threads.min(count))
-            .map(|_| scope.spawn(one_thread))
+            .map_while(|number| another(number).ok())
             .collect();
         let mut kept = one_thread();
         for other in others {

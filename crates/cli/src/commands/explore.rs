@@ -62,6 +62,12 @@ pub fn explore(arguments: &ExploreArguments, mut files: FileUse) -> Result<(), F
     }
     let name = name_of(path);
     let documentation = arguments.documentation.as_deref();
+    if let Some(address) = documentation.filter(|address| !is_of_pages(address)) {
+        return Err(Failure::input(
+            format!("--documentation {address} is no address of pages"),
+            Some("give https://..., http://..., file:///... or a folder".to_owned()),
+        ));
+    }
     let documentation = documentation.map(|address| match address.contains("{page}") {
         true => address.to_owned(),
         false => format!("{}/", address.trim_end_matches('/')),
@@ -111,4 +117,43 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
         let message = format!("cannot read {}: {e}", path.display());
         Failure::input(message, Some("check the path".to_owned()))
     })
+}
+
+/// Whether an address is one that a link may lead to: of a folder, or with a scheme of pages.
+fn is_of_pages(address: &str) -> bool {
+    match address.split_once(':') {
+        Some((scheme, _)) if !scheme.contains(['/', '.', '?', '#']) => {
+            ["https", "http", "file"].contains(&scheme.trim().to_ascii_lowercase().as_str())
+        }
+        _ => true,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn links_lead_to_pages() {
+        for address in [
+            "https://a.b/docs",
+            "HTTP://a",
+            "file:///d",
+            "docs",
+            "../d",
+            "./a:b",
+            "a/b:c",
+            "/d",
+        ] {
+            assert!(is_of_pages(address), "{address}");
+        }
+        for address in [
+            "javascript:alert(1)",
+            " JavaScript:alert(1)",
+            "data:text/html,x",
+            "vbscript:x",
+        ] {
+            assert!(!is_of_pages(address), "{address}");
+        }
+    }
 }

@@ -34,6 +34,13 @@ fn bad_input() {
         &["cannot read the record", "check the path"],
     );
     refused(2, &["info", &bare], &["unit", "--unit g"]);
+    for step in ["4e-10", "1e7", "1e300"] {
+        refused(
+            2,
+            &["info", &bare, "--unit", "g", "--time-step", step],
+            &["is that of no record", "1e-9 s to 1e6 s", "time_step"],
+        );
+    }
     refused(
         2,
         &["info", &file, "--format", "peer"],

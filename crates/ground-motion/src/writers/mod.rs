@@ -133,10 +133,18 @@ fn number(value: f64) -> String {
     }
 }
 
-/// Time of a sample, without the noise of the multiplication.
+/// Time of a sample, without the noise of the multiplication: to 1e-9 s, and to a thousandth of steps that are not much
+/// longer; times of which a number has no such digits are as they are.
 fn time(index: usize, step: f64) -> f64 {
-    let digits = 1.0e9;
-    (index as f64 * step * digits).round() / digits
+    let mut digits = 1.0e9;
+    while step * digits < 1.0e3 {
+        digits *= 10.0;
+    }
+    let time = index as f64 * step;
+    match time * digits < 1.0e15 {
+        true => (time * digits).round() / digits,
+        false => time,
+    }
 }
 
 /// Only an acceleration has these units.

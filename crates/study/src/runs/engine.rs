@@ -31,10 +31,11 @@ pub(crate) fn run_all(
     let (next, stop) = (AtomicUsize::new(0), AtomicBool::new(false));
     let (sender, receiver) = sync_channel::<Row>(WAITING * threads);
     std::thread::scope(|scope| {
+        let mut begun = 0;
         for _ in 0..threads {
             let sender = sender.clone();
             let (next, stop) = (&next, &stop);
-            scope.spawn(move || {
+            let work = move || {
                 while !stop.load(Ordering::Relaxed) {
                     let at = next.fetch_add(1, Ordering::Relaxed);
                     let Some(run) = runs.get(at) else {
@@ -48,9 +49,28 @@ pub(crate) fn run_all(
                         return;
                     }
                 }
-            });
+            };
+            // Where the system refuses another thread, fewer do the same.
+            if std::thread::Builder::new()
+                .spawn_scoped(scope, work)
+                .is_err()
+            {
+                break;
+            }
+            begun += 1;
         }
         drop(sender);
+        if begun < threads {
+            tracing::info!(begun, threads, "the system grants no more threads");
+        }
+        if begun == 0 {
+            for run in runs {
+                if take(Some(runner.row(*run)))?.is_break() {
+                    break;
+                }
+            }
+            return Ok(());
+        }
         let mut result = Ok(());
         loop {
             let row = match receiver.recv_timeout(PAUSE) {

@@ -65,7 +65,13 @@ pub fn of_check(error: CheckError, case: &Case) -> Failure {
     match error {
         CheckError::Case(error) => Failure::case(error, &case.source),
         CheckError::Record { source, record } => {
-            Failure::assembly(*source, "").within(&format!("record {record}"))
+            // What a run refuses is of the case, with this record.
+            let of_run = matches!(*source, AssemblyError::System(_));
+            let within = match of_run {
+                true => format!("{} under record {record}", case.file.display()),
+                false => format!("record {record}"),
+            };
+            Failure::assembly(*source, "").within(&within)
         }
         CheckError::AllCollapse {
             records,

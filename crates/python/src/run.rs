@@ -77,20 +77,22 @@ impl Run {
         let mut recorder = wanted.histories.then(recorder).transpose()?;
         let (outcome, isolated) = std::thread::scope(|scope| {
             // Neither run depends on the other.
-            let beside = wanted.isolated.then(|| {
-                let work = move || {
-                    let mut stop = Stop(watch);
-                    run_isolated(system, options, &mut [&mut stop], &mut |_| {})
-                };
-                scope.spawn(work)
-            });
+            let without = move || {
+                let mut stop = Stop(watch);
+                run_isolated(system, options, &mut [&mut stop], &mut |_| {})
+            };
+            let beside = wanted
+                .isolated
+                .then(|| std::thread::Builder::new().spawn_scoped(scope, without));
             let mut stop = Stop(watch);
             let mut recorders: Vec<&mut dyn Recorder> = vec![&mut stop];
             recorders.extend(recorder.as_mut().map(|r| r as &mut dyn Recorder));
             let outcome = integrate(system, options, &mut recorders, &mut |part| told(part));
-            let isolated = beside.map(|thread| match thread.join() {
-                Ok(isolated) => isolated,
-                Err(panic) => std::panic::resume_unwind(panic),
+            let isolated = beside.map(|thread| match thread.map(|thread| thread.join()) {
+                Ok(Ok(isolated)) => isolated,
+                Ok(Err(panic)) => std::panic::resume_unwind(panic),
+                // No thread to be had.
+                Err(_) => without(),
             });
             (outcome, isolated)
         });

@@ -77,7 +77,7 @@ impl Recorder for Stop<'_> {
 /// exception of either stops the work and is raised when it has ended.
 ///
 /// # Errors
-/// Such an exception.
+/// Such an exception, and a system that refuses the thread.
 pub fn watched<T: Send>(
     py: Python<'_>,
     progress: Option<&Bound<'_, PyAny>>,
@@ -87,12 +87,12 @@ pub fn watched<T: Send>(
     std::thread::scope(|scope| {
         let (sender, mut receiver) = channel();
         let shared = &watch;
-        let worker = scope.spawn(move || {
+        let worker = std::thread::Builder::new().spawn_scoped(scope, move || {
             let made = work(shared);
             // Who waits may have gone.
             let _ = sender.send(());
             made
-        });
+        })?;
         let (mut shown, mut raised) = ((0, 0), None);
         loop {
             let waiting;

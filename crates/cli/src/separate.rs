@@ -346,6 +346,7 @@ fn run(command: &mut Command, bytes: u64) -> std::io::Result<Ended> {
         Err(error) => {
             let _ = child.kill();
             let _ = child.wait();
+            known(None);
             return Err(error);
         }
     };

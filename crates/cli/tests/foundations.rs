@@ -209,7 +209,7 @@ fn check_tells_the_first_mode_of_building_and_soil() {
     for words in [
         "period 0.6027 s, 1.0186 times that on a fixed base (0.5917 s); damping 5.09 % (5.00 % on a fixed base)",
         "lifts off from a moment of some 8826.0 kN m on, a sixth of weight times length",
-        "26478.0 kN m, is the most that the weight holds",
+        "the most that the weight holds is half of weight times length, 26478.0 kN m",
         "rocking 5.40000e6 kg m2, 7.45679e10 N m/rad",
     ] {
         assert!(shown.contains(words), "{shown}");
@@ -275,6 +275,33 @@ fn run_shows_and_keeps_responses_of_foundations() {
     let mild = by_soil().replace("_ns.csv\"", "_ns.csv\"\nscale = 0.5");
     let mild = Bench::with(&mild).json("run case.toml --no-output");
     assert_eq!(mild["warnings"], serde_json::json!([]));
+}
+
+/// On a foundation that does not rock the ratio is of the moment at the base; a law that never yields changes nothing in it.
+#[test]
+fn the_overturning_ratio_of_storeys_with_laws_is_that_of_elastic_ones() {
+    let bench = Bench::with(&by_soil());
+    let ratio = |law: &str| {
+        bench.write(
+            "sway.toml",
+            &format!(
+                "[[building]]\nname = \"low\"\nstoreys = 3\nmass = \"90 t\"\nstiffness = \"90 MN/m\"\nheight = \"3.2 m\"\ndamping = {{ ratio = 0.05, modes = [1, 3] }}\n{law}\n[building.foundation]\nmass = \"120 t\"\nsway = {{ stiffness = \"500 MN/m\", dashpot = \"1 MN s/m\" }}\nlength = \"12 m\"\n[ground_motion]\nfile = \"MOTIONS/el_centro_1940_ns.csv\"\n[analysis]\nduration = \"10 s\"\n"
+            ),
+        );
+        let told = bench.json("run sway.toml --no-output");
+        let responses = told["buildings"][0]["responses"].as_array().unwrap();
+        let found = responses.iter().find(|r| r["name"] == "overturning_ratio");
+        found.unwrap()["peak"].as_f64().unwrap()
+    };
+    let elastic = ratio("");
+    // Base moment of 16,248 kN m over 390 t times g times 6 m.
+    assert!((elastic / 0.708 - 1.0).abs() < 1e-3, "{elastic}");
+    let with_law =
+        ratio("law = { model = \"bilinear\", yield_force = \"550 MN\", hardening_ratio = 0.05 }");
+    assert!(
+        (with_law / elastic - 1.0).abs() < 1e-6,
+        "{with_law} {elastic}"
+    );
 }
 
 /// Both buildings with storeys that yield.

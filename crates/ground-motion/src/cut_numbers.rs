@@ -60,9 +60,11 @@ pub(crate) struct Forms {
     none: bool,
     exponents: Exponents,
     decimals: Decimals,
+    /// Whether one program prints all files of the format, so that fewer decimals are lost ones without exponents, too.
+    of_one_program: bool,
 }
 
-/// Values with exponents by their decimals: one that alone has fewer lost a digit.
+/// Values by their decimals: one that alone has fewer lost a digit.
 #[derive(Debug, Default)]
 struct Decimals {
     count: usize,
@@ -221,13 +223,27 @@ impl Forms {
         }
     }
 
+    /// Of numbers that one program prints in all files.
+    pub(crate) fn of_one_program() -> Self {
+        Self {
+            of_one_program: true,
+            ..Self::default()
+        }
+    }
+
     /// Takes one more value of a line into account, which starts at a column (from 0).
     pub(crate) fn see(&mut self, line: usize, column: usize, field: &[u8]) {
         self.count += 1;
         self.exponents.see(line, column, field);
-        if let Some(form) = Form::of(field).filter(|form| form.exponent > 0) {
-            let place = || (line, column, number::shown(field));
-            self.decimals.see(form.decimals, place);
+        let form = Form::of(field);
+        let place = || (line, column, number::shown(field));
+        match form.filter(|form| form.exponent > 0) {
+            Some(form) => self.decimals.see(form.decimals, place),
+            None if self.of_one_program => {
+                let decimals = form.map_or(0, |form| form.decimals);
+                self.decimals.see(decimals, place);
+            }
+            None => {}
         }
         let Some(form) = Form::of(field).filter(|_| !self.none) else {
             self.none = true;

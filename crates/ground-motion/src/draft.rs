@@ -568,6 +568,16 @@ impl Draft {
                 if let Some(i) = times.windows(2).position(|w| !(w[1] > w[0])) {
                     return Err(not_after(source, self.lines.1, &times, i + 1));
                 }
+                let length = times.last().zip(times.first()).map_or(0.0, |(b, a)| b - a);
+                let mean = length / times.len().saturating_sub(1).max(1) as f64;
+                if let Some(wrong) = impossible_step(mean).filter(|_| times.len() > 1) {
+                    return Err(source.error(
+                        self.lines.1,
+                        0,
+                        format!("the times have a mean step of {mean:e} s: {wrong}"),
+                        "correct the times, or their unit",
+                    ));
+                }
                 return Ok((Sampling::Uneven { times }, "uneven".to_owned()));
             }
             Times::Step(stated) => stated,

@@ -52,7 +52,12 @@ pub(crate) fn may_accelerate(
         what,
         remedy,
     };
+    // Codes are in capitals; some programs write them small.
+    let name = name.to_ascii_uppercase();
     match name.as_bytes() {
+        b"LOG" => Err(unsupported(
+            "channel LOG holds messages of the recorder, no motion".to_owned(),
+        )),
         b"HLZ" | b"HLN" | b"HLE" | b"HL1" | b"HL2" | b"HL3" => {
             source.warn(&format!(
                 "channel {name} is that of an instrument of low gain, which is an accelerograph in older codes and a seismometer in others; {unsaid}"

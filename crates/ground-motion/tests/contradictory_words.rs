@@ -141,6 +141,15 @@ fn cosmos_words_and_codes() {
         &at_line(&corrected, "units=cm/sec2(04)"),
         &["unit code is 2 here", "4 in line 15"],
     );
+    // A word that is not known beside a code is said; the number of the layout is no code.
+    let unknown = corrected.replacen("units=cm/sec2(04)", "units=um/sec2(04)", 1);
+    warned(
+        &read(&unknown).unwrap(),
+        "\"um/sec2\" is not known here; the values are taken as cm/s2",
+    );
+    let bare = corrected.replacen("units=cm/sec2(04)", "units=cm/sec2", 1);
+    assert!(bare.contains("Format=("), "{bare}");
+    read(&bare).unwrap();
     // Gal and cm/s2 are one unit.
     read(&corrected.replacen("units=cm/sec2(04)", "units=gal(10)", 1)).unwrap();
     // The component in words and in numbers.

@@ -147,6 +147,35 @@ fn exponents_lost_within_a_file() {
 
 /// A value of DYNA, ISESD and BHRC without its exponent, in columns or not, and one that the end of a
 /// file cuts off.
+/// Of 400 values with six decimals one with fewer was cut off; a program that leaves out zeros has many of those.
+#[test]
+fn decimals_lost_in_the_middle_of_dyna() {
+    let value = |i: u32| format!("{:.6}", 30.0 * f64::sin(0.07 * f64::from(i) + 0.1));
+    let file = |value: &dyn Fn(u32) -> String| {
+        let values: Vec<String> = (0..400).map(value).collect();
+        format!(
+            "EVENT_NAME: quake\nSAMPLING_INTERVAL_S: 0.01\nNDATA: 400\nSTREAM: HNE\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n{}\n",
+            values.join("\n")
+        )
+    };
+    let read = |text: String| read_all_bytes("f", text.as_bytes(), &ReadOptions::default());
+    read(file(&value)).unwrap();
+    for length in [2, 5] {
+        let cut = |i: u32| {
+            let whole = value(i);
+            let end = if i == 300 { length } else { whole.len() };
+            whole[..end].to_owned()
+        };
+        let said = read(file(&cut)).unwrap_err().to_string();
+        assert!(
+            said.starts_with("f:307:1: ") && said.contains("lacks a digit"),
+            "{said}"
+        );
+    }
+    let without_zeros = |i: u32| value(i).trim_end_matches('0').to_owned();
+    read(file(&without_zeros)).unwrap();
+}
+
 #[test]
 fn exponents_lost_in_files_of_agencies() {
     let all = |text: &str, options: &ReadOptions| {

@@ -154,7 +154,6 @@ fn counts_of_sac_are_raw() {
     assert_eq!(record.origin().unwrap().processing, Processing::Unstated);
 }
 
-/// The extremes of a SAC header are in the unit of its samples, whichever that is: no unit that the
 /// The mean of a SAC header, in single precision and in the unit of the samples.
 #[test]
 fn means_of_sac() {
@@ -184,6 +183,7 @@ fn means_of_sac() {
     }
 }
 
+/// The extremes of a SAC header are in the unit of its samples, whichever that is: no unit that the
 /// user states excuses them.
 #[test]
 fn extremes_of_sac_are_held_against_its_samples() {
@@ -215,6 +215,50 @@ fn extremes_of_sac_are_held_against_its_samples() {
         );
         assert!(error.help().unwrap().contains("lenient"), "{error}");
         assert!(warns(&read(2.0, true, sensitivity).unwrap()));
+    }
+}
+
+/// One extreme alone, or that of the smaller magnitude, and a factor: said, not refused.
+#[test]
+fn what_a_sac_header_says_beside_its_peak() {
+    let values: Vec<f32> = signal(0.4, 0.2).iter().map(|a| *a as f32).collect();
+    let high = values.iter().fold(0.0_f32, |high, a| high.max(*a));
+    let warnings = |floats: &[(usize, f32)]| {
+        let unit = ReadOptions {
+            unit: Some(AccelerationUnit::Gal),
+            ..ReadOptions::default()
+        };
+        let record = read_bytes("f", &sac_with(floats, &[], "HNE"), &unit).unwrap();
+        record.origin().unwrap().warnings.join("\n")
+    };
+    for silent in [(2, high), (3, 1.0), (3, 0.0)] {
+        assert!(!warnings(&[silent]).contains("the header"), "{silent:?}");
+    }
+    for of_most in [
+        [(1, -12345.0), (2, 2.0 * high)],
+        [(3, 1.0), (2, 0.5 * high)],
+    ] {
+        assert!(warnings(&of_most).contains("(DEPMAX), that of the samples is"));
+    }
+    let of_least = [(1, -2.0 * high), (2, -12345.0)];
+    assert!(warnings(&of_least).contains("(DEPMIN), that of the samples is"));
+    assert!(warnings(&[(3, 1e-4)]).contains("(SCALE), which is not applied"));
+}
+
+/// The code of a channel in small letters, and the channel of a recorder's messages.
+#[test]
+fn channels_of_sac_that_record_no_acceleration() {
+    let unit = ReadOptions {
+        unit: Some(AccelerationUnit::Gal),
+        ..ReadOptions::default()
+    };
+    for (channel, said) in [
+        ("hhe", "seismometer"),
+        ("HHE", "seismometer"),
+        ("LOG", "messages"),
+    ] {
+        let error = read_bytes("f", &sac_with(&[], &[(86, 5)], channel), &unit).unwrap_err();
+        assert!(error.to_string().contains(said), "{channel}: {error}");
     }
 }
 
@@ -512,6 +556,30 @@ fn two_steps_of_sac() {
     with(-12345.0).unwrap();
     let error = with(0.02).unwrap_err().to_string();
     assert!(error.contains("0.02 s here, but 0.01 s"), "{error}");
+}
+
+/// As many samples as the doubles behind the data would be, 44: those are no samples.
+#[test]
+fn samples_of_sac_that_are_its_footer() {
+    let of = |count: i32, footer: bool| {
+        let mut bytes = sac_with(&[], &[(76, 7), (79, count)], "HNE");
+        if footer {
+            bytes.extend(0.01_f64.to_le_bytes());
+            bytes.extend((-12345.0_f64).to_le_bytes().repeat(21));
+        }
+        let unit = ReadOptions {
+            unit: Some(AccelerationUnit::Gal),
+            ..ReadOptions::default()
+        };
+        read_all_bytes("f", &bytes, &unit).map(|r| r.series[0].samples.len())
+    };
+    assert_eq!(of(23, true).unwrap(), 23);
+    assert_eq!(of(23, false).unwrap(), 23);
+    let error = of(23 + 44, true).unwrap_err().to_string();
+    assert!(
+        error.contains("says 67 samples, the file holds 23"),
+        "{error}"
+    );
 }
 
 /// Files of miniSEED are filled up to whole blocks; between records nothing is passed over.

@@ -122,7 +122,8 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, Failure> {
 /// Whether an address is one that a link may lead to: of a folder, or with a scheme of pages.
 fn is_of_pages(address: &str) -> bool {
     match address.split_once(':') {
-        Some((scheme, _)) if !scheme.contains(['/', '.', '?', '#']) => {
+        // One letter is a drive.
+        Some((scheme, _)) if scheme.trim().len() > 1 && !scheme.contains(['/', '.', '?', '#']) => {
             ["https", "http", "file"].contains(&scheme.trim().to_ascii_lowercase().as_str())
         }
         _ => true,
@@ -137,6 +138,8 @@ mod tests {
     fn links_lead_to_pages() {
         for address in [
             "https://a.b/docs",
+            "C:/docs",
+            "C:\\docs",
             "HTTP://a",
             "file:///d",
             "docs",

@@ -53,7 +53,7 @@ pub(super) fn understood(building: &ShearBuilding) -> String {
     text.push_str("soil dashpots couple the modes: those in the table are without them, with the diagonal part of their damping\n");
     if let (Some(uplift), Some(most)) = (on.moment_of_uplift(), on.overturning_moment()) {
         text.push_str(&format!(
-            "the edge of the foundation lifts off from a moment of some {:.1} kN m on, a sixth of weight times length; uplift is not modelled, and half of it, {:.1} kN m, is the most that the weight holds\n",
+            "the edge of the foundation lifts off from a moment of some {:.1} kN m on, a sixth of weight times length, which is not modelled; the most that the weight holds is half of weight times length, {:.1} kN m\n",
             uplift * 1e-3,
             most * 1e-3
         ));

@@ -467,10 +467,7 @@ fn unit(
             remedy: "use the V2 file of the same record",
         });
     }
-    let printed = lower
-        .split_once("units=")
-        .and_then(|(_, rest)| number::after(rest, "("))
-        .map(|n| n.0);
+    let (word, printed) = unit_stated(lower).unwrap_or_default();
     let in_header = integers.get(3);
     // 4 and 10 are two names of one unit.
     let same = |a: f64, b: f64| a == b || unit_of(a).is_some() && unit_of(a) == unit_of(b);
@@ -487,7 +484,16 @@ fn unit(
             "the header contradicts itself: get the record again",
         ));
     }
-    if let (Some(word), Some(code)) = (unit_in_words(lower), printed.or(in_header))
+    let known = symbol_of_word(word);
+    if let (None, Some(code), false) = (known, printed.or(in_header), word.is_empty())
+        && let Some(symbol) = symbol_of(code)
+    {
+        source.warn(&format!(
+            "line {}: the unit \"{word}\" is not known here; the values are taken as {symbol}, by the code {code} of the unit",
+            line.number
+        ));
+    }
+    if let (Some(word), Some(code)) = (known, printed.or(in_header))
         && symbol_of(code).is_some_and(|symbol| symbol != word)
     {
         return Err(source.error(
@@ -582,10 +588,20 @@ fn symbol_of(code: f64) -> Option<&'static str> {
         .or(of_instrument.map(|(_, symbol)| symbol))
 }
 
-/// The symbol of `units=cm/sec2(04)` or `units= counts(50)` in the line before the data, in lower case.
-fn unit_in_words(lower: &str) -> Option<&'static str> {
+/// Word and code of `units=cm/sec2(04)` or `units= counts(50)` in the line before the data, in lower case: brackets
+/// behind the word, not those of the layout that follows.
+fn unit_stated(lower: &str) -> Option<(&str, Option<f64>)> {
     let (_, rest) = lower.split_once("units=")?;
-    let word = rest.split(['(', ',']).next()?.trim();
+    let rest = rest.split(',').next()?;
+    let rest = rest.split("format").next()?;
+    Some(match rest.split_once('(') {
+        Some((word, code)) => (word.trim(), number::first_in(code).map(|n| n.0)),
+        None => (rest.trim(), None),
+    })
+}
+
+/// The symbol of a unit in words.
+fn symbol_of_word(word: &str) -> Option<&'static str> {
     match word {
         "count" | "counts" => Some("counts"),
         "v" | "volt" | "volts" => Some("V"),

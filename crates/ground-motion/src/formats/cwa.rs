@@ -19,6 +19,8 @@ const REMEDY: &str = "the header is not that of the agency's free-field files: g
 struct Header {
     rate: Option<f64>,
     unit: Option<SeriesUnit>,
+    /// A unit that is not known, with its line.
+    unknown_unit: Option<(usize, String)>,
     names: Vec<String>,
     /// Line of the names, from 1, and the first of them whose sign is minus.
     reversed: Option<(usize, String)>,
@@ -69,6 +71,14 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
                 layout.per_line
             ),
             REMEDY,
+        ));
+    }
+    if let Some((line, word)) = &header.unknown_unit {
+        return Err(source.error(
+            *line,
+            0,
+            format!("\"{word}\" is not a unit of ground motion"),
+            "give the record of the accelerations, whose unit is gal; if the unit alone is wrong, correct the line",
         ));
     }
     let room = lines.remaining() / (layout.width * layout.per_line) + 1;
@@ -134,6 +144,7 @@ fn header(lines: &mut Lines<'_>) -> Header {
     let mut header = Header {
         rate: None,
         unit: None,
+        unknown_unit: None,
         names: Vec::new(),
         reversed: None,
         duration: None,
@@ -159,7 +170,11 @@ fn header(lines: &mut Lines<'_>) -> Header {
             }
             "amplitudeunit" => {
                 let mut words = value.split_whitespace();
-                header.unit = words.next().and_then(SeriesUnit::parse);
+                if let Some(word) = words.next() {
+                    header.unit = SeriesUnit::parse(word);
+                    let unknown = || (line.number, word.to_owned());
+                    header.unknown_unit = header.unit.is_none().then(unknown);
+                }
                 if value.to_ascii_lowercase().contains("dcoffset(corr)") {
                     header.processing = Processing::Unstated;
                 }

@@ -60,7 +60,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     let end = lines.number();
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
-    let mut forms = Forms::default();
+    let mut forms = Forms::of_one_program();
     for line in lines.by_ref() {
         for (column, field) in line.fields() {
             samples.push(source.number(line, column, field)?);

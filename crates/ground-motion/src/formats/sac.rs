@@ -30,6 +30,13 @@ const MEAN: usize = 56;
 const MEAN_TOLERANCE: f64 = 1.0e-3;
 const UNDEFINED: f32 = -12345.0;
 
+/// Bytes of the 22 doubles behind the data of version 7, of which the first is the time step.
+const FOOTER: usize = 176;
+/// Least and largest sample, and a factor that programs other than SAC write.
+const LEAST: usize = 1;
+const LARGEST: usize = 2;
+const SCALE: usize = 3;
+
 /// The bytes with their order.
 struct Words<'a> {
     bytes: &'a [u8],
@@ -52,6 +59,15 @@ impl Words<'_> {
         } else {
             f32::from_le_bytes(four)
         }
+    }
+
+    fn double_at(&self, offset: usize) -> Option<f64> {
+        let mut eight = [0; 8];
+        eight.copy_from_slice(self.bytes.get(offset..offset + 8)?);
+        Some(match self.big {
+            true => f64::from_be_bytes(eight),
+            false => f64::from_le_bytes(eight),
+        })
     }
 
     /// Word `index` (from 0) as a number, unless it is undefined.
@@ -118,12 +134,14 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     acceleration(source, &words)?;
     let count = usize::try_from(words.integer(79)).unwrap_or(0);
     let uneven = words.integer(105) == 0;
-    // Version 7 has 22 doubles after the data.
-    let footer = if words.integer(VERSION) == 7 { 176 } else { 0 };
     let data = source.bytes.len() - HEADER;
-    let width = if uneven { 8 } else { 4 };
-    let present = data / width;
-    let surplus = data.saturating_sub(footer) / width > count;
+    let width: usize = if uneven { 8 } else { 4 };
+    // Version 7 has 22 doubles after the data; some programs leave them out.
+    let without = words.integer(VERSION) != 7
+        || data == width.saturating_mul(count) && !ends_in_footer(&words, data);
+    let footer = if without { 0 } else { FOOTER };
+    let present = data.saturating_sub(footer) / width;
+    let surplus = present > count;
     if uneven && count >= 2 && present < count && data / 4 >= count {
         return Err(GroundMotionError::Unsupported {
             file: source.file.to_owned(),
@@ -178,6 +196,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         ));
     }
     draft.warnings.extend(other_mean(&words, &draft.samples));
+    draft.warnings.extend(other_ends(&words, &draft.samples));
+    draft.warnings.extend(factor(&words));
     fill(&words, &mut draft);
     // Counts are as the instrument gave them.
     if source.options.sensitivity.is_some() {
@@ -186,17 +206,20 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     Ok(vec![draft.finish(source)?])
 }
 
+/// Whether so many bytes behind the header end in the doubles of version 7: with a time step that is that of the header.
+fn ends_in_footer(words: &Words<'_>, data: usize) -> bool {
+    let double = data
+        .checked_sub(FOOTER)
+        .and_then(|at| words.double_at(HEADER + at));
+    let agrees = |(double, step): (f64, f64)| (double - step).abs() <= 1.0e-6 * step.abs();
+    double.zip(words.float(0)).is_some_and(agrees)
+}
+
 /// Refuses a step in double precision, the first number behind the data of version 7, that is not
 /// the one of the header.
 fn same_step(source: &Source<'_>, words: &Words<'_>, at: usize) -> Result<(), GroundMotionError> {
-    let (Some(field), Some(step)) = (words.bytes.get(at..at + 8), words.float(0)) else {
+    let (Some(double), Some(step)) = (words.double_at(at), words.float(0)) else {
         return Ok(());
-    };
-    let mut eight = [0; 8];
-    eight.copy_from_slice(field);
-    let double = match words.big {
-        true => f64::from_be_bytes(eight),
-        false => f64::from_le_bytes(eight),
     };
     let stated = double.is_finite() && double != f64::from(UNDEFINED);
     if stated && (double - step).abs() > 1.0e-6 * step.abs() && !source.options.lenient {
@@ -279,6 +302,40 @@ fn other_mean(words: &Words<'_>, samples: &[f64]) -> Option<String> {
     })
 }
 
+/// What to say of a least or largest sample in the header that is not that of the samples. The one of the larger
+/// magnitude is the peak, which is refused where both are stated; a zero may not have been filled in.
+fn other_ends(words: &Words<'_>, samples: &[f64]) -> Vec<String> {
+    let least = samples.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = samples.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    let size = least.abs().max(most.abs());
+    let ends = [
+        (LEAST, "least value", "DEPMIN", least),
+        (LARGEST, "largest value", "DEPMAX", most),
+    ];
+    let other = |(word, what, name, found): (usize, &str, &str, f64)| {
+        let stated = words.float(word).filter(|stated| *stated != 0.0)?;
+        ((stated - found).abs() > 1.0e-6 * size).then(|| {
+            format!(
+                "the header says a {what} of {} ({name}), that of the samples is {}",
+                bound(stated),
+                bound(found)
+            )
+        })
+    };
+    ends.into_iter().filter_map(other).collect()
+}
+
+/// What to say of a factor in the header, which SAC does not use and data centres fill with the sensitivity.
+fn factor(words: &Words<'_>) -> Option<String> {
+    let scale = words
+        .float(SCALE)
+        .filter(|scale| *scale != 0.0 && *scale != 1.0)?;
+    Some(format!(
+        "the header has a factor of {} (SCALE), which is not applied: it may be the sensitivity of the instrument, counts for each unit",
+        bound(scale)
+    ))
+}
+
 /// Time of the first sample: the reference time and B (word 6) after it. Empty where the header
 /// leaves a part of the reference out.
 fn start_time(words: &Words<'_>) -> String {
@@ -306,7 +363,7 @@ fn fill(words: &Words<'_>, draft: &mut Draft) {
         .to_owned();
     draft.processing = Processing::Unstated;
     draft.start_time = start_time(words);
-    let (low, high) = (words.float(1), words.float(2));
+    let (low, high) = (words.float(LEAST), words.float(LARGEST));
     draft.peak = low.zip(high).map(|(low, high)| DraftPeak {
         value: {
             let peak = if high.abs() >= low.abs() { high } else { low };

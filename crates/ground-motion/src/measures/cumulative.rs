@@ -37,7 +37,7 @@ impl Line {
 
     /// `int |a| dt` over those of so many seconds in which the peak reaches a threshold: the first ones and the last
     /// ones, as the peak of a second falls towards that in which the line is zero, and rises from there on.
-    fn seconds(&self, count: f64, threshold: f64) -> f64 {
+    fn seconds(&self, count: f64, threshold: f64, evaluation: Evaluation) -> f64 {
         let reaches = |second: f64| {
             let peak = self.at(second).abs().max(self.at(second + 1.0).abs());
             peak >= threshold
@@ -60,13 +60,18 @@ impl Line {
         };
         let before = change(0.0, bottom + 1.0, true);
         let after = change(bottom, count, false).max(before);
+        // The second in which the line is zero stands alone.
         let integral = |from: f64, to: f64| {
-            absolute(
-                self.at(from),
-                self.at(to),
-                to - from,
-                Evaluation::PiecewiseLinear,
-            )
+            let ends = [
+                from,
+                bottom.clamp(from, to),
+                (bottom + 1.0).clamp(from, to),
+                to,
+            ];
+            let parts = ends.windows(2);
+            let parts =
+                parts.map(|p| absolute(self.at(p[0]), self.at(p[1]), p[1] - p[0], evaluation));
+            parts.sum::<f64>()
         };
         integral(0.0, before) + integral(after, count)
     }
@@ -94,7 +99,7 @@ pub(crate) fn standardised(samples: &[f64], h: f64, threshold: f64, evaluation: 
                 from,
                 slope: (pair[1] - from) / rest,
             };
-            total += line.seconds(whole, threshold);
+            total += line.seconds(whole, threshold, evaluation);
             from = line.at(whole);
             rest -= whole;
             (second, peak, left) = (0.0, from.abs(), 1.0);
@@ -129,7 +134,6 @@ mod tests {
     /// Steps of many seconds, against the same straight lines sampled once a second.
     #[test]
     fn long_steps_are_straight_lines_of_seconds() {
-        let evaluation = Evaluation::PiecewiseLinear;
         let value = |i: u64| {
             crate::distributions::normal_quantile(((i * 7919 + 13) % 1000) as f64 / 1000.0 + 5e-4)
         };
@@ -141,7 +145,15 @@ mod tests {
                     (1..=step).map(|k| pair[0] + (pair[1] - pair[0]) * k as f64 / step as f64);
                 fine.extend(inside);
             }
-            for threshold in [0.0, 0.01, 0.3, 1.0, 3.0] {
+            for (threshold, evaluation) in [
+                (0.0, Evaluation::PiecewiseLinear),
+                (0.0, Evaluation::AtSamples),
+                (0.01, Evaluation::PiecewiseLinear),
+                (0.3, Evaluation::AtSamples),
+                (0.3, Evaluation::PiecewiseLinear),
+                (1.0, Evaluation::PiecewiseLinear),
+                (3.0, Evaluation::PiecewiseLinear),
+            ] {
                 let found = standardised(&samples, step as f64, threshold, evaluation);
                 let expected = standardised(&fine, 1.0, threshold, evaluation);
                 assert!(
@@ -151,6 +163,7 @@ mod tests {
             }
         }
         // It ends.
-        assert!(standardised(&samples, 1.0e6, 0.25, evaluation) > 1e6);
+        let long = standardised(&samples, 1.0e6, 0.25, Evaluation::PiecewiseLinear);
+        assert!(long > 1e6, "{long}");
     }
 }

@@ -872,7 +872,7 @@ fn buildings_that_cannot_be_come_with_a_remedy() {
 #[test]
 fn a_motion_by_code_has_an_origin() {
     let samples = || [0.0, 1.0, -1.0, 0.0].map(Acceleration::metres_per_second_squared);
-    for (step, warned) in [(20.0, true), (1e-300, true), (0.01, false)] {
+    for (step, warned) in [(20.0, true), (1e-8, true), (0.01, false)] {
         let motion = GroundMotion::of(samples(), Time::seconds(step)).unwrap();
         let origin = motion.accelerogram().origin().unwrap();
         let said = origin.warnings.join("\n");

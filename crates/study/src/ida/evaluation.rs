@@ -567,7 +567,8 @@ impl Evaluation<'_> {
         let mut remarks = goodness::remarks(&fit, goodness.as_ref(), &counts, of);
         remarks.extend(hazard.into_iter().flat_map(|h| self.of_frequency(&fit, h)));
         remarks.extend(bounds.iter().flat_map(of_bounds));
-        if hazard.is_some() && fitted && bootstrap_sets(confidence).is_none() {
+        let several = self.records() > 1;
+        if hazard.is_some() && fitted && several && bootstrap_sets(confidence).is_none() {
             remarks.push(FitRemark::NoBoundsSoSure { confidence });
         }
         (self.evaluated)();

@@ -159,7 +159,7 @@ fn moment_with_laws(index: usize, building: &ShearBuilding, elements: &[Element]
 fn overturning_by_base_moment(building: &ShearBuilding, row: &ResponseRow) -> Option<f64> {
     let on = building.foundation()?;
     let by_base = row.name == OVERTURNING_RATIO && on.matrices().rotation().is_none();
-    on.moment_of_uplift().filter(|_| by_base)
+    on.overturning_moment().filter(|_| by_base)
 }
 
 /// Those of absolute accelerations.

@@ -177,7 +177,9 @@ fn poor_fits<'s>(
     for (name, state) in states.filter(|(_, s)| !s.remarks.is_empty()) {
         for remark in &state.remarks {
             match remark {
-                FitRemark::NotTested(_) | FitRemark::FewRecords { .. } => {
+                FitRemark::NotTested(_)
+                | FitRemark::FewRecords { .. }
+                | FitRemark::NoBoundsSoSure { .. } => {
                     match together.iter_mut().find(|(said, _)| said == remark) {
                         Some((_, names)) => names.push(name.clone()),
                         None => together.push((*remark, vec![name.clone()])),

@@ -889,10 +889,7 @@ mod tests {
         let wall = |code: &str, u: f64| {
             let rules = find_code(code).unwrap().code();
             let sides = Sides::Wall {
-                structure: Box::new(Structure {
-                    importance: Some(1.0),
-                    ..structure(u)
-                }),
+                structure: Box::new(structure(u)),
                 site: Site {
                     relative_ground_displacement: 0.005,
                     floors_aligned: Some(false),

@@ -225,15 +225,19 @@ impl Working {
                 let d = self.note(format!("d({})", s.name), d, "m");
                 self.response_modification(s)? * d
             }
-            None => self.unreduced(s)?,
+            None => self.importance(s)? * self.displacement(s)?,
         };
         Ok(value)
     }
 
-    /// `I u`, the displacement that design forces would cause without their reduction (m): for codes whose factor is a part
-    /// of `R`, of which the whole is taken.
+    /// `I u`, the displacement that design forces would cause without their reduction (m), `u` where no `I` is given: for
+    /// codes whose factor is a part of `R`, of which the whole is taken.
     pub(crate) fn unreduced(&mut self, s: &Structure) -> Number {
-        Ok(self.importance(s)? * self.displacement(s)?)
+        let displacement = self.displacement(s)?;
+        Ok(match s.importance {
+            Some(_) => self.importance(s)? * displacement,
+            None => displacement,
+        })
     }
 
     /// Whether the floors of both structures lie at equal elevations.

@@ -92,8 +92,8 @@ static E_030_2026: Edition = Edition {
     superseded_by: None,
 };
 
-const UNREDUCED: &str = "I u is the displacement without reduction of forces; the code takes 0.75 R (irregular buildings 0.85 R) times the reduced one (Art. 31), which is 0.75 or 0.85 of that: on the safe side. I is its factor U of use.";
-const UNREDUCED_2026: &str = "I u is the displacement without reduction of forces; the edition of 2018 takes 0.75 R (irregular buildings 0.85 R) times the reduced one (its Art. 31), which is 0.75 or 0.85 of that: on the safe side; that of 2026 was not seen on it. I is its factor U of use.";
+const UNREDUCED: &str = "I u is the displacement without reduction of forces; the code takes 0.75 R (irregular buildings 0.85 R) times the reduced one (Art. 31), which is 0.75 or 0.85 of that: on the safe side. I is its factor U of use, 1 where `importance` is not given.";
+const UNREDUCED_2026: &str = "I u is the displacement without reduction of forces; the edition of 2018 takes 0.75 R (irregular buildings 0.85 R) times the reduced one (its Art. 31), which is 0.75 or 0.85 of that: on the safe side; that of 2026 was not seen on it. I is its factor U of use, 1 where `importance` is not given.";
 
 pub(crate) static BOUNDARY_2018: ProvisionDescriptor = ProvisionDescriptor {
     name: "e_030_2018_boundary",
@@ -104,7 +104,7 @@ pub(crate) static BOUNDARY_2018: ProvisionDescriptor = ProvisionDescriptor {
     ground: Ground::OwnSide,
     elastic_displacement_factor: Some("0.75 R or 0.85 R"),
     formula: "max(2/3 I u, s / 2), s = max(0.006 h, 30 mm)",
-    inputs: &[Input::Displacement, Input::Importance],
+    inputs: &[Input::Displacement],
     status: Status::SeenInText("a transcription of Art. 33"),
     remarks: &[
         UNREDUCED,
@@ -158,11 +158,7 @@ pub(crate) static BOUNDARY_2026: ProvisionDescriptor = ProvisionDescriptor {
     edition: &E_030_2026,
     clause: "52.3",
     formula: "max(2/3 I u, s / 2), s = max(0.02 Z S h, 30 mm)",
-    inputs: &[
-        Input::Displacement,
-        Input::Importance,
-        Input::DesignGroundAcceleration,
-    ],
+    inputs: &[Input::Displacement, Input::DesignGroundAcceleration],
     status: OF_2026,
     remarks: &[
         UNREDUCED_2026,
@@ -215,7 +211,6 @@ mod tests {
     fn structure(u: f64, elevation: f64) -> Structure {
         Structure {
             displacement: Some(u),
-            importance: Some(1.0),
             elevation,
             ..Structure::default()
         }

@@ -36,11 +36,11 @@ pub(crate) static WITHIN: ProvisionDescriptor = ProvisionDescriptor {
     ground: Ground::OneStructure,
     elastic_displacement_factor: Some("0.75 R"),
     formula: "half of max(|DeltaM1|, |DeltaM2|) where floors are aligned, else half of |DeltaM1| + |DeltaM2| (DeltaM = I u)",
-    inputs: &[Input::Displacement, Input::Importance, Input::FloorsAligned],
+    inputs: &[Input::Displacement, Input::FloorsAligned],
     status: Status::SeenInText("an excerpt of 5.2.1"),
     remarks: &[
         "Between parts of one structure; what holds across a property line was not seen.",
-        "That DeltaM is 0.75 R times the elastic displacement is recalled; I u is R times that, on the safe side.",
+        "That DeltaM is 0.75 R times the elastic displacement is recalled; I u is R times that, on the safe side; I is 1 where `importance` is not given.",
     ],
     worked: "(1.1 * 80 + 1.1 * 60) / 2",
     rule: Rule::Between(within),
@@ -59,7 +59,6 @@ mod tests {
         for (aligned, width) in [(false, 0.07), (true, 0.04)] {
             let structure = |u| Structure {
                 displacement: Some(u),
-                importance: Some(1.0),
                 ..Structure::default()
             };
             let situation = Situation {

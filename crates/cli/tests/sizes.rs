@@ -149,8 +149,9 @@ fn runs_that_would_not_end_are_refused_by_what_they_mean() {
     refused(&light, &period);
     let endless = CASE.replace("\"2 s\"", "\"1e300 s\"");
     refused(&endless, &["`duration` is 1e300 s", "shorten `duration`"]);
-    let fine = CASE.replace("file =", "time_step = \"1e-12 s\"\nfile =");
+    let fine = CASE.replace("file =", "time_step = \"1e-9 s\"\nfile =");
     let fine = fine.replace("record.csv", "values.csv");
+    let fine = fine.replace("\"2 s\"", "\"200 s\"");
     let folder = tempfile::tempdir().unwrap();
     std::fs::write(folder.path().join("values.csv"), "0.1\n0.2\n".repeat(40)).unwrap();
     let fine = fine.replace(
@@ -160,7 +161,7 @@ fn runs_that_would_not_end_are_refused_by_what_they_mean() {
     let output = pounding(folder.path(), &fine, &["check", "case.toml"]);
     let text = one_line(&output.stderr);
     assert_eq!(output.status.code(), Some(2), "{text}");
-    let wanted = "steps over 2 s, as the time step of the ground motion is 1e-12 s";
+    let wanted = "steps over 200 s, as the time step of the ground motion is 1e-9 s";
     assert!(text.contains(wanted), "{text}");
     let step = CASE.replace(
         "\"2 s\"",

@@ -254,7 +254,7 @@ pub enum TimeHistoryError {
     },
     /// The energy ledger did not close.
     #[error(
-        "the energy ledger does not close: residual {residual:e} of the largest input energy at t = {} s, allowed {allowed:e} ({method})",
+        "the energy ledger does not close: residual {residual:.2e} of the largest input energy at t = {} s, allowed {allowed:e} ({method})",
         seconds(*time)
     )]
     EnergyResidual {

@@ -41,7 +41,10 @@ fn a_failing_run_is_recorded_with_its_diagnosis() {
     with_method(&bench);
     let told = bench.text("sweep study.toml -o out.h5 --csv out.csv");
     assert!(told.contains("10 runs in out.h5; 5 failed"), "{told}");
-    assert!(told.contains("run 5: the motion is not finite"), "{told}");
+    assert!(
+        told.contains("run 5: the energy ledger does not close"),
+        "{told}"
+    );
     let mut reader = csv::Reader::from_path(bench.path("out.csv")).unwrap();
     let header = reader.headers().unwrap().clone();
     let column = |name: &str| header.iter().position(|h| h == name).unwrap();
@@ -57,7 +60,7 @@ fn a_failing_run_is_recorded_with_its_diagnosis() {
             "run {i}"
         );
         assert_eq!(
-            row[column("diagnosis")].contains("not finite"),
+            row[column("diagnosis")].contains("energy ledger does not close"),
             failed,
             "run {i}"
         );
@@ -77,7 +80,7 @@ fn a_failing_run_is_recorded_with_its_diagnosis() {
     )
     .unwrap();
     let told = bench.complaint("run fifth.toml --no-output", 3);
-    assert!(told.contains("the motion is not finite"), "{told}");
+    assert!(told.contains("the energy ledger does not close"), "{told}");
     // A study in which nothing works is a failure itself.
     bench.study(&DIVERGING.replace("\"0.2 ms\", ", ""));
     let told = bench.complaint("sweep study.toml -o none.h5", 3);

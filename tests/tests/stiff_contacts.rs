@@ -53,7 +53,7 @@ fn contacts_of_microseconds_are_followed() {
     }
 }
 
-/// Steps that are far too long for a contact make motion of their own, 1e4 times as fast after some of them: the run ends where
+/// Steps that are far too long for a contact make motion of their own, which grows with each of them: the run ends where
 /// the energy of that is a thousand times what the ground has put in, and not at its end, which runs with steps that
 /// are cut at the events of such motion would not reach.
 #[test]

@@ -78,8 +78,8 @@ pub const OVERTURNING_RATIO: &str = "overturning_ratio";
 
 /// The overturning ratio (-) from which on an edge lifts off: the pressure under it is zero at a moment of a sixth of
 /// weight times length under a rectangle on Winkler's springs, and under a rigid disc on an elastic half-space, where
-/// weight and moment press by `P / (2 pi a r)` and `3 M x / (2 pi a^3 r)`, `r = sqrt(a^2 - x^2 - y^2)` (Boussinesq 1885;
-/// Borowicka 1943, Ingenieur-Archiv 14, 1). Under a rigid strip on a half-space it is a quarter.
+/// weight and moment press by `P / (2 pi a r)` and `3 M x / (2 pi a^3 r)`, `r = sqrt(a^2 - x^2 - y^2)`. Under a rigid strip
+/// on a half-space it is a quarter.
 pub const UPLIFT_BEGINS: f64 = 1.0 / 3.0;
 
 impl ShearBuilding {
@@ -258,6 +258,28 @@ mod tests {
             stiffness,
             dashpot: 0.0,
         })
+    }
+
+    /// The pressures under a disc sum up to weight and moment, by the midpoint rule over rings `x^2 + y^2 = (a sin t)^2`; at
+    /// the edge `3 M / a^2` of the one takes away `P / a` of the other where `M = P a / 3`: a third of `P a`, which overturns.
+    #[test]
+    fn pressures_under_a_disc_have_their_resultants() {
+        let (count, a) = (2000_u32, 1.7_f64);
+        let h = 0.5 * std::f64::consts::PI / f64::from(count);
+        // Of a moment of one, over the pressure of a weight of one, at each x.
+        let by_x = 3.0 / (a * a);
+        let (mut weight, mut moment) = (0.0, 0.0);
+        for i in 0..count {
+            let (sine, cosine) = libm::sincos((f64::from(i) + 0.5) * h);
+            let (ring, width) = (a * sine, h * a * cosine);
+            let pressure = 1.0 / (2.0 * std::f64::consts::PI * a * (a * cosine));
+            weight += pressure * 2.0 * std::f64::consts::PI * ring * width;
+            // Over a ring the mean of `x^2` is half its radius squared.
+            moment += by_x * pressure * std::f64::consts::PI * ring.powi(3) * width;
+        }
+        assert!((weight - 1.0).abs() < 1e-6 && (moment - 1.0).abs() < 1e-6);
+        let lifts = 1.0 / (by_x * a);
+        assert!((lifts / a - UPLIFT_BEGINS).abs() < 1e-15);
     }
 
     /// Without rocking the moment at the base takes the place of that of the foundation.

@@ -133,8 +133,8 @@ fn number(value: f64) -> String {
     }
 }
 
-/// Time of a sample, without the noise of the multiplication: to 1e-9 s, and to a thousandth of steps that are not much
-/// longer; times of which a number has no such digits are as they are.
+/// Time of a sample, without the noise of the multiplication: to 1e-9 s, and to a thousandth of a step below 1e-6 s. A
+/// time too long for so many digits in a number is as it is.
 fn time(index: usize, step: f64) -> f64 {
     let mut digits = 1.0e9;
     while step * digits < 1.0e3 {

@@ -604,3 +604,120 @@ fn blocks_behind_the_last_record_of_mini_seed() {
         }
     }
 }
+
+/// A second that is inserted is no overlap: the flags of the record over which it falls name it (SEED
+/// manual 2.4, fixed header, field 12, bit 4). A recorder that has not been told goes on without it.
+#[test]
+fn leap_seconds_of_mini_seed() {
+    let options = ReadOptions {
+        sensitivity: Some(SENSITIVITY),
+        ..ReadOptions::default()
+    };
+    // Two seconds a record, at 100 samples per second.
+    let make = |start: u32, flags: u8| {
+        let mut bytes = record(&Seed {
+            channel: b"HNE",
+            encoding: 1,
+            big: true,
+            start,
+            count: 200,
+            data: (0..200_i16)
+                .flat_map(|i| (i % 9 - 4).to_be_bytes())
+                .collect(),
+        });
+        bytes[36] |= flags;
+        bytes
+    };
+    let read = |first: (u32, u8), second: u32| {
+        let bytes = [make(first.0, first.1), make(second, 0)].concat();
+        read_all_bytes("f", &bytes, &options)
+    };
+    const INSERTED: u8 = 0b1_0000;
+    const LEFT_OUT: u8 = 0b10_0000;
+    for (first, second) in [
+        ((0, 0), 20_000),
+        ((0, INSERTED), 10_000),
+        ((0, INSERTED), 20_000),
+        ((0, LEFT_OUT), 30_000),
+    ] {
+        let found = read(first, second).unwrap();
+        assert_eq!(found.series[0].samples.len(), 400, "{first:?} {second}");
+        let warnings = &found.series[0].origin.warnings;
+        assert!(warnings.is_empty(), "{first:?} {second}: {warnings:?}");
+    }
+    for (first, second) in [((0, 0), 10_000), ((0, INSERTED), 30_000)] {
+        let error = read(first, second).unwrap_err().to_string();
+        assert!(
+            error.contains("an overlap of 1.0000 s") || error.contains("a gap of 1.0000 s"),
+            "{error}"
+        );
+    }
+}
+
+/// Encodings that are not read are named, and called no damage.
+#[test]
+fn encodings_of_mini_seed_that_are_not_read() {
+    for (encoding, name) in [(0, "text"), (13, "GEOSCOPE"), (30, "SRO"), (99, "99")] {
+        let bytes = record(&Seed {
+            channel: b"HNE",
+            encoding,
+            big: true,
+            start: 0,
+            count: 4,
+            data: vec![1; 64],
+        });
+        let options = ReadOptions {
+            sensitivity: Some(SENSITIVITY),
+            ..ReadOptions::default()
+        };
+        let error = read_bytes("f", &bytes, &options).unwrap_err();
+        let told = error.to_string();
+        assert!(told.contains("byte 0") && told.contains(name), "{told}");
+        assert!(error.help().unwrap().contains("Steim-2"));
+    }
+}
+
+/// Data behind the samples that a header counts are not passed over in silence.
+#[test]
+fn more_samples_than_the_header_of_mini_seed_counts() {
+    let options = ReadOptions {
+        sensitivity: Some(SENSITIVITY),
+        ..ReadOptions::default()
+    };
+    // Twelve differences in three words.
+    let packed = steim(&[1, 5, -3, 2, 4, -1, 2, 3, -2, 5, 1, 4], 1, true);
+    for (encoding, data, all, fewer) in [
+        (
+            3,
+            [7_i32; 12].map(i32::to_be_bytes).concat(),
+            12_u16,
+            10_u16,
+        ),
+        (10, packed, 12, 4),
+    ] {
+        for count in [all, fewer] {
+            let mut data = data.clone();
+            if encoding == 10 && count == fewer {
+                // The last sample of those that are counted.
+                data[8..12].copy_from_slice(&2_i32.to_be_bytes());
+            }
+            let bytes = record(&Seed {
+                channel: b"HNE",
+                encoding,
+                big: true,
+                start: 0,
+                count,
+                data,
+            });
+            let found = read_all_bytes("f", &bytes, &options).unwrap();
+            let series = &found.series[0];
+            assert_eq!(series.samples.len(), usize::from(count));
+            let told = series.origin.warnings.join("; ");
+            assert_eq!(
+                told.contains("data stand behind the"),
+                count == fewer,
+                "{told}"
+            );
+        }
+    }
+}

@@ -234,11 +234,28 @@ fn unit(known: &Sensitivity) -> DraftUnit {
 /// header, which is rounded.
 const RATE_TOLERANCE: f64 = 0.01;
 
+/// Time (s) from the last sample of a record with the step after it to the first of the next one,
+/// by their clocks.
+fn clock_gap(before: &Record, after: &Record) -> f64 {
+    (after.start - before.start) as f64 * 1.0e-6 - before.count as f64 / before.rate
+}
+
+/// Seconds that were inserted while a record lasted, where the clock of the next one has gone
+/// over them: some recorders know of them only later.
+fn leap_seconds(before: &Record, after: &Record) -> f64 {
+    let (leap, gap) = (before.leap_seconds as f64, clock_gap(before, after));
+    if (gap + leap).abs() < gap.abs() {
+        leap
+    } else {
+        0.0
+    }
+}
+
 /// One channel from its records in the order of time.
 fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionError> {
     let first = &channel[0];
     for (before, after) in channel.iter().zip(&channel[1..]) {
-        let gap = (after.start - before.start) as f64 * 1.0e-6 - before.count as f64 / before.rate;
+        let gap = clock_gap(before, after) + leap_seconds(before, after);
         if (after.rate - before.rate).abs() > 1.0e-4 * before.rate {
             return Err(source.binary_error(
                 after.at,
@@ -259,9 +276,14 @@ fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionE
     }
     // Gaps too short to be refused may add up, as those of a clock or of a rate that is wrong do.
     let mut counted = 0;
+    let mut inserted = 0.0;
     let mut latest = (0.0_f64, first);
-    for record in channel {
-        let late = (record.start - first.start) as f64 * 1.0e-6 - counted as f64 / first.rate;
+    for (i, record) in channel.iter().enumerate() {
+        if i > 0 {
+            inserted += leap_seconds(&channel[i - 1], record);
+        }
+        let clock = (record.start - first.start) as f64 * 1.0e-6;
+        let late = clock + inserted - counted as f64 / first.rate;
         if late.abs() > latest.0.abs() {
             latest = (late, record);
         }
@@ -269,8 +291,11 @@ fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionE
     }
     let total = channel.iter().map(|r| r.count).sum();
     let mut samples = Vec::with_capacity(total);
+    let mut longer = None;
     for record in channel {
-        record.decode(source, &mut samples)?;
+        if record.decode(source, &mut samples)? {
+            longer.get_or_insert(record);
+        }
     }
     let unit = match source.options.sensitivity {
         None if in_floats(channel) => DraftUnit::Unstated,
@@ -290,6 +315,12 @@ fn draft(source: &Source<'_>, channel: &[Record]) -> Result<Draft, GroundMotionE
             record.at,
             bound(record.rate),
             bound(record.nominal)
+        ));
+    }
+    if let Some(record) = longer {
+        draft.warnings.push(format!(
+            "data stand behind the {} samples that the header of the record at byte {} counts: they were passed over",
+            record.count, record.at
         ));
     }
     let (late, record) = latest;

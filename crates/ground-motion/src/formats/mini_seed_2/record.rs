@@ -55,6 +55,8 @@ pub(super) struct Record {
     pub rate: f64,
     /// The same by the fixed header; not positive where that does not say.
     pub nominal: f64,
+    /// Seconds that were inserted into its minute, or left out (negative), while it lasted.
+    pub leap_seconds: i64,
     data: usize,
     encoding: u8,
     big: bool,
@@ -163,6 +165,7 @@ impl Record {
             count,
             rate,
             nominal,
+            leap_seconds: leap_seconds(bytes[36]),
             data,
             encoding: blockettes.encoding,
             big: blockettes.big,
@@ -235,12 +238,13 @@ impl Record {
         matches!(self.instrument(), b'H' | b'L')
     }
 
-    /// Appends the record's samples.
+    /// Appends the record's samples; whether more data stand behind them, which its header does
+    /// not count.
     pub(super) fn decode(
         &self,
         source: &Source<'_>,
         samples: &mut Vec<f64>,
-    ) -> Result<(), GroundMotionError> {
+    ) -> Result<bool, GroundMotionError> {
         let from = self.at + self.data;
         let bytes = &source.bytes[from..self.at + self.length];
         let error = |offset: usize, message: String| source.binary_error(from + offset, message);
@@ -254,7 +258,18 @@ impl Record {
                 return steim::decode(bytes, self.big, version, self.count, samples)
                     .map_err(|(offset, message)| error(offset, message));
             }
-            other => return Err(error(0, format!("encoding {other} is not supported"))),
+            other => {
+                let name = encoding_name(other).map_or(String::new(), |name| format!(", {name},"));
+                return Err(GroundMotionError::Unsupported {
+                    file: source.file.to_owned(),
+                    what: format!(
+                        "the record at byte {} of {} is in encoding {other}{name} which is not read",
+                        self.at,
+                        self.label()
+                    ),
+                    remedy: "write it in integers, floats, Steim-1 or Steim-2 with a program that reads it, such as ObsPy",
+                });
+            }
         };
         if bytes.len() / width < self.count {
             return Err(error(
@@ -273,8 +288,32 @@ impl Record {
             }
             samples.push(value);
         }
-        Ok(())
+        Ok(bytes[self.count * width..].iter().any(|b| *b != 0))
     }
+}
+
+/// Names of encodings that are not read (SEED manual, blockette 1000, field 3).
+fn encoding_name(encoding: u8) -> Option<&'static str> {
+    Some(match encoding {
+        0 => "text",
+        12 => "GEOSCOPE of 24 bits",
+        13 | 14 => "GEOSCOPE of 16 bits with steps of gain",
+        15 => "U.S. National Network",
+        16 => "CDSN of 16 bits with steps of gain",
+        17 => "Graefenberg",
+        18 => "IPG Strasbourg",
+        19 => "Steim-3",
+        30 => "SRO",
+        31 => "HGLP",
+        32 => "DWWSSN",
+        33 => "RSTN",
+        _ => return None,
+    })
+}
+
+/// What bits 4 and 5 of the activity flags say.
+fn leap_seconds(activity: u8) -> i64 {
+    i64::from(activity >> 4 & 1) - i64::from(activity >> 5 & 1)
 }
 
 /// A number that is not compressed.

@@ -30,14 +30,15 @@ fn in_file_order(word: u32, bits: u32, big: bool) -> u32 {
     }
 }
 
-/// Appends `count` samples; the error is the offset in `bytes` and what is wrong.
+/// Appends `count` samples; whether words behind them hold more. The error is the offset in
+/// `bytes` and what is wrong.
 pub(super) fn decode(
     bytes: &[u8],
     big: bool,
     version: u8,
     count: usize,
     samples: &mut Vec<f64>,
-) -> Result<(), (usize, String)> {
+) -> Result<bool, (usize, String)> {
     let word = |at: usize| -> u32 {
         let mut four = [0; 4];
         four.copy_from_slice(&bytes[at..at + 4]);
@@ -53,6 +54,7 @@ pub(super) fn decode(
     let (first, last) = (word(4) as i32, word(8) as i32);
     let mut value = first;
     let mut done = 0;
+    let mut more = false;
     'frames: for frame in 0..bytes.len() / FRAME {
         let codes = word(frame * FRAME);
         for k in 1..16 {
@@ -60,6 +62,10 @@ pub(super) fn decode(
             let code = codes >> (2 * (15 - k)) & 3;
             if code == 0 || frame == 0 && k < 3 {
                 continue;
+            }
+            if done == count {
+                more = true;
+                break 'frames;
             }
             let at = frame * FRAME + 4 * k;
             let packed = word(at);
@@ -79,7 +85,7 @@ pub(super) fn decode(
                 samples.push(f64::from(value));
                 done += 1;
                 if done == count {
-                    break 'frames;
+                    break;
                 }
             }
         }
@@ -96,5 +102,5 @@ pub(super) fn decode(
             format!("the last sample is {value}, the record says {last}: its data are damaged"),
         ));
     }
-    Ok(())
+    Ok(more)
 }

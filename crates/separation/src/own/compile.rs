@@ -24,6 +24,7 @@ const MOST_NESTED: usize = 100;
 const DEEPEST: usize = 32;
 /// Stack of the parser (bytes): some ten times what so many brackets take of it, without
 /// optimisation.
+#[cfg(not(target_family = "wasm"))]
 const STACK: usize = 64 << 20;
 /// Most inputs, tables or definitions of a rule.
 const MOST_NAMES: usize = 50;
@@ -651,6 +652,10 @@ fn unreadable(text: &Text<'_>, errors: &ParseErrors) -> CaseError {
     let message = message.split(" expecting {").next().unwrap_or(message);
     if message.contains("'<EOF>'") && at.is_empty() {
         return text.error(at, "it ends too early", "complete it");
+    }
+    if message.starts_with("invalid int literal") {
+        let message = "the whole number has too many digits";
+        return text.error(at, message, "write it with an exponent, such as 1.0e20");
     }
     // The parser's own words for a part that it could not complete.
     if message.starts_with("No `") {

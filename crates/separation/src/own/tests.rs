@@ -208,6 +208,12 @@ fn wrong_ones_are_refused_with_their_place() {
         ("u_left / 0", NONE, 26, "this divides by zero"),
         ("mine + u_left", NONE, 17, "a rule cannot need itself"),
         ("u_left +", NONE, 25, "it ends too early"),
+        (
+            "u_left * 12345678901234567890123456789",
+            NONE,
+            26,
+            "the whole number has too many digits",
+        ),
         ("max(u_left, u_right", NONE, 36, "it ends too early"),
         (
             "pow(u_left, R_left)",

@@ -230,6 +230,37 @@ fn a_history_that_begins_in_contact_is_warned_of() {
     assert!(!warned(-12, Some(-0.006)));
 }
 
+/// A force that rises like a power of time and whose first samples are missing: the line through the first that are
+/// there meets zero several samples before them, and is followed for as
+/// long as the force takes to double. The same beside noise before the contact is refused, and says why.
+#[test]
+fn a_history_cut_shortly_after_its_first_contact() {
+    let force = |t: f64| match t > 0.0 && t < 0.02 {
+        true => 1.0e6 * (std::f64::consts::PI * t / 0.02).sin().powf(1.5),
+        false => 0.0,
+    };
+    let rows = |from: i32| -> Vec<(f64, f64)> {
+        let times = (from..=250).map(|i| f64::from(i) * 1.0e-4);
+        times.map(|t| (t, force(t))).collect()
+    };
+    let align = |rows: &[(f64, f64)]| MeasuredForce::align("m".to_owned(), rows, 0.01, None);
+    for from in [10, 15, 20, 40] {
+        let cut = align(&rows(from)).unwrap();
+        assert!(cut.warnings[0].contains("begins in contact"));
+        let first_contact = cut.first_contact_of(1.5);
+        let missing = f64::from(from) * 1.0e-4;
+        // By no more than the force takes to double.
+        let allowed = -0.05 * missing..0.6 * missing;
+        assert!(allowed.contains(&first_contact), "{from}: {first_contact}");
+    }
+    let mut noisy = rows(-200);
+    for (i, (_, f)) in noisy.iter_mut().enumerate().take(180) {
+        *f = [3.0e4, -2.0e4, 2.6e4, 4.0e4][i % 4];
+    }
+    let error = align(&noisy).unwrap_err();
+    assert!(error.help().contains("--threshold"), "{error}");
+}
+
 /// At 1e-160 m/s squares of velocities leave the range of numbers: refused, where a collision at the
 /// least velocity returns what it is asked for.
 #[test]

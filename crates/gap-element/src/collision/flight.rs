@@ -23,6 +23,12 @@ const PLACES: usize = 8;
 /// back have arrived.
 const CREEP: f64 = 1.0e-9;
 
+/// Steps after which a body under a lasting force that has not turned back may be one that creeps to
+/// where that force is balanced.
+const CREEPING_STEPS: usize = 2_000;
+/// Part of the pressing acceleration that is left to a body that creeps: the rest is balanced.
+const UNBALANCED: f64 = 1.0e-3;
+
 /// How a contact ends.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
@@ -97,7 +103,7 @@ impl<'a> Flight<'a> {
             .copied()
             .filter(|_| self.read_at == Some(0.0));
         let mut changes = 0;
-        for _ in 0..MAXIMUM_STEPS {
+        for count in 0..MAXIMUM_STEPS {
             if changes > MAXIMUM_CHANGES {
                 break;
             }
@@ -125,7 +131,9 @@ impl<'a> Flight<'a> {
                     changes += 1;
                     self.change_phase(index)
                 }
-                None => self.rests().then_some(End::AtRest),
+                None if self.rests() => Some(End::AtRest),
+                None if count >= CREEPING_STEPS => self.creeps_to_rest().then_some(End::AtRest),
+                None => None,
             };
             self.record();
             if reads && event.is_none() {
@@ -162,19 +170,64 @@ impl<'a> Flight<'a> {
         if velocity > CREEP * self.collision.approach_velocity {
             return false;
         }
+        // Without a pressing force too slow a parting is none: a damping at or above the critical
+        // one lets them creep apart without end.
+        let creep = CREEP * self.collision.approach_velocity;
+        let least = match pressing > 0.0 {
+            true => mass * pressing * delta,
+            false => 0.5 * mass * creep * creep,
+        };
+        !self.is_unread() && self.energy() < least
+    }
+
+    /// Whether a reading is still to come.
+    fn is_unread(&self) -> bool {
+        self.read_at.is_some_and(|t| t > self.time)
+    }
+
+    /// Kinetic energy and what the spring would give back (J).
+    fn energy(&self) -> f64 {
+        let [delta, velocity, _] = self.state;
         let stored = self
             .model
             .stored_energy(&self.collision, &self.memory, self.phase, delta);
-        let unread = self.read_at.is_some_and(|t| t > self.time);
-        let least = if pressing > 0.0 {
-            mass * pressing * delta
-        } else {
-            // Without a pressing force too slow a parting is none: a damping at or above the critical
-            // one lets them creep apart without end.
-            let creep = CREEP * self.collision.approach_velocity;
-            0.5 * mass * creep * creep
-        };
-        !unread && 0.5 * mass * velocity * velocity + stored < least
+        0.5 * self.collision.effective_mass * velocity * velocity + stored
+    }
+
+    /// Whether a body whose damping leaves it no more inertia creeps on, ever more slowly, to the
+    /// penetration at which the spring bears the lasting force: without the energy to part it stays
+    /// there, and goes no deeper. Explicit steps, held short by the damping, would not arrive. Takes
+    /// that penetration as a peak.
+    fn creeps_to_rest(&mut self) -> bool {
+        let [delta, velocity, _] = self.state;
+        let holding = self.collision.effective_mass * self.pressing;
+        let left = holding - self.force(delta, velocity).value;
+        let creeps = velocity > 0.0
+            && left.abs() <= UNBALANCED * holding
+            && self.energy() < holding * delta
+            && !self.is_unread();
+        if !creeps {
+            return false;
+        }
+        let bears = |delta: f64| self.force(delta, 0.0).value >= holding;
+        let (mut low, mut high) = (delta, 2.0 * delta);
+        while !bears(high) {
+            if !high.is_finite() {
+                return false;
+            }
+            (low, high) = (high, 2.0 * high);
+        }
+        for _ in 0..100 {
+            let middle = 0.5 * (low + high);
+            match bears(middle) {
+                true => high = middle,
+                false => low = middle,
+            }
+        }
+        if high > self.peak_penetration.0 {
+            self.peak_penetration = (high, self.time);
+        }
+        true
     }
 
     /// Changes the phase at a located transition; tells if that ends the contact.

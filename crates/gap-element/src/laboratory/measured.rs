@@ -63,6 +63,8 @@ pub enum MeasuredForceError {
         first_contact: f64,
         /// Time of the peak (s).
         peak: f64,
+        /// Whether it was given, and not found in the history.
+        given: bool,
     },
 }
 
@@ -73,8 +75,11 @@ impl MeasuredForceError {
         match self {
             Self::Threshold { .. } => "it is a part of the measured peak: \"1 %\" is usual",
             Self::NoForce { .. } => "give a force that pushes the bodies apart as positive",
-            Self::FirstContact { .. } => {
+            Self::FirstContact { given: true, .. } => {
                 "--shift is the time of first contact in the measured history"
+            }
+            Self::FirstContact { given: false, .. } => {
+                "raise --threshold above the noise before the contact, such as \"20 %\"; or give the time of first contact as --shift"
             }
         }
     }
@@ -124,11 +129,15 @@ impl MeasuredForce {
         let first = raw.iter().position(|(_, f)| *f > level).unwrap_or(top);
         let first_contact = shift.unwrap_or_else(|| closure(raw, (first, top), 1.0));
         let step = raw.get(1).map_or(0.0, |second| second.0 - raw[0].0);
-        if !(first_contact >= raw[0].0 - step && first_contact <= raw[top].0) {
+        // What begins in contact, and not in noise, began before.
+        let noisy = raw[first..top].iter().any(|(_, f)| *f <= level);
+        let cut = first == 0 && !noisy && shift.is_none() && first_contact.is_finite();
+        if !(first_contact >= raw[0].0 - step || cut) || !(first_contact <= raw[top].0) {
             return Err(MeasuredForceError::FirstContact {
                 name,
                 first_contact,
                 peak: raw[top].0,
+                given: shift.is_some(),
             });
         }
         let mut warnings = Vec::new();
@@ -150,8 +159,8 @@ impl MeasuredForce {
                 raw[raw.len() - 1].0
             }
         };
-        if raw[first..top].iter().any(|(_, f)| *f <= level) {
-            warnings.push(format!("the measured force falls below {percent} % of its peak and rises again: more than one contact, or noise"));
+        if noisy {
+            warnings.push(format!("the measured force falls below {percent} % of its peak and rises again: more than one contact, or noise, above which --threshold is to be raised"));
         }
         let start = if shift.is_some() {
             interpolate(raw, first_contact)

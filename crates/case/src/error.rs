@@ -72,10 +72,11 @@ impl CaseError {
         }
     }
 
-    /// One error of all that are wrong in a file: the first, with the others in the order of
-    /// their places. `None` of no errors.
+    /// One error of all that are wrong in a file, those that others bring too: the first, with the
+    /// others in the order of their places. `None` of no errors.
     #[must_use]
-    pub fn of_all(mut errors: Vec<Self>) -> Option<Self> {
+    pub fn of_all(errors: Vec<Self>) -> Option<Self> {
+        let mut errors: Vec<Self> = errors.into_iter().flat_map(Self::each).collect();
         errors.sort_by_key(|e| e.span.start);
         let mut distinct: Vec<Self> = Vec::new();
         for error in errors {

@@ -17,7 +17,7 @@ pub fn is_name(text: &str) -> bool {
     text.trim() == text
         && !matches!(text, "" | "." | "..")
         && text.chars().nth(LONGEST).is_none()
-        && !text.contains(|c: char| c == '/' || c.is_control() || turns_text(c))
+        && !text.contains(|c: char| c == '/' || c.is_control() || is_unseen(c))
 }
 
 /// A name that cannot stand in messages and results.
@@ -71,9 +71,14 @@ pub fn check_names<'n>(
     Ok(())
 }
 
-/// Whether a character turns the direction of the text around it, numbers included.
-fn turns_text(c: char) -> bool {
-    matches!(c, '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+/// Whether a character cannot be seen: it turns the direction of the text around it, numbers included,
+/// or has no width, so that two names look alike. The joiners between letters of some scripts are
+/// none of those.
+fn is_unseen(c: char) -> bool {
+    matches!(
+        c,
+        '\u{ad}' | '\u{200b}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2060}'..='\u{206f}' | '\u{feff}'
+    )
 }
 
 #[cfg(test)]

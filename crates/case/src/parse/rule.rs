@@ -135,7 +135,18 @@ pub(super) fn read_all(reader: &Reader<'_>, rules: Tables<RuleTable>) -> Vec<Rul
 
 impl RuleTable {
     fn read(self, reader: &Reader<'_>, (file, source): (Arc<str>, Arc<str>)) -> Option<RuleText> {
-        let text = |given: Optional<String>| given.value().unwrap_or_default();
+        // In one line of messages and tables.
+        let of_a_line = |text: Located<String>| {
+            if text.value.contains(char::is_control) {
+                let message = format!("{:?} breaks a line or a table", text.value);
+                return reader.refuse(text.span, message, "write it without control characters");
+            }
+            Some(text)
+        };
+        let text = |given: Optional<String>| {
+            let text = given.located().and_then(of_a_line);
+            text.map_or_else(String::new, |text| text.value)
+        };
         let inputs = self.inputs.value().map_or_else(Vec::new, |t| t.all.0);
         let definitions = self.definitions.value().map_or_else(Vec::new, |t| t.all.0);
         let tables = self.tables.value().map_or_else(Vec::new, |t| t.all.0);
@@ -152,7 +163,7 @@ impl RuleTable {
             .into_iter()
             .map(|(name, text)| Some((name, text.located()?)));
         let definitions: Option<Vec<_>> = whole.collect();
-        let name = self.name.located();
+        let name = self.name.located().and_then(of_a_line);
         if let Some(name) = name.as_ref().filter(|name| name.value.trim().is_empty()) {
             return reader.refuse(name.span.clone(), "a rule needs a name", "write one");
         }

@@ -19,8 +19,8 @@ use pounding_catalogue::suggestion;
 const MOST_CHARACTERS: usize = 2000;
 /// Most operations below one another, counted through definitions.
 const MOST_NESTED: usize = 100;
-/// Most brackets, `?` and parts of a chain of `.` within one another: the parser calls itself for
-/// each, and each takes much of its stack.
+/// Most brackets and `?` within one another: the parser calls itself for each, and each takes much of
+/// its stack.
 const DEEPEST: usize = 32;
 /// Stack of the parser (bytes): some ten times what so many brackets take of it, without
 /// optimisation.
@@ -29,12 +29,45 @@ const STACK: usize = 64 << 20;
 /// Most inputs, tables or definitions of a rule.
 const MOST_NAMES: usize = 50;
 
+/// Words of the Common Expression Language that are no names there, in its specification.
+const RESERVED: [&str; 21] = [
+    "as",
+    "break",
+    "const",
+    "continue",
+    "else",
+    "false",
+    "for",
+    "function",
+    "if",
+    "import",
+    "in",
+    "let",
+    "loop",
+    "namespace",
+    "null",
+    "package",
+    "return",
+    "true",
+    "var",
+    "void",
+    "while",
+];
+
 /// A rule with all that is checked of it.
 pub(super) fn compile(text: &RuleText) -> Result<OwnRule, CaseError> {
     let mut compiler = Compiler::of(text)?;
     let mut whole = Text::of(&text.expression, "expression", text);
-    let expression = compiler.whole(&mut whole, 0)?;
-    let unused = compiler.unused()?;
+    let expression = compiler.whole(&mut whole, 0);
+    let unused = compiler.unused();
+    let (expression, unused) = match (expression, unused) {
+        (Ok(expression), Ok(unused)) => (expression, unused),
+        (expression, unused) => {
+            let errors = [expression.err(), unused.err()];
+            let all = CaseError::of_all(errors.into_iter().flatten().collect());
+            return Err(all.unwrap_or_else(|| whole.error(0..0, "this is no rule", NAME_PARTS)));
+        }
+    };
     match expression.kind {
         Kind::Zero => {}
         Kind::Number(dimension) if dimension == Dimension::LENGTH => {}
@@ -193,13 +226,15 @@ pub(super) fn shortened(text: &str) -> String {
 }
 
 /// Whether a definition has been compiled.
-#[derive(Clone, Copy, PartialEq)]
+#[derive(Clone, PartialEq)]
 enum State {
     Untouched,
     /// Something that it needs is being compiled.
     Open,
     /// Its place among those that are compiled.
     Done(usize),
+    /// What is wrong in it.
+    Wrong(CaseError),
 }
 
 struct Compiler<'t> {
@@ -229,6 +264,10 @@ impl<'t> Compiler<'t> {
             if !(begins && word.chars().all(letters)) {
                 let message = format!("\"{}\" cannot be a name", shortened(word));
                 return refuse(message, "letters, digits and `_`, a letter first");
+            }
+            if RESERVED.contains(&word) {
+                let message = format!("\"{word}\" is a word of the language of expressions");
+                return refuse(message, "choose another name");
             }
             let taken = names::all(true)
                 .iter()
@@ -278,12 +317,16 @@ impl<'t> Compiler<'t> {
         let (needs, kept) = (self.needs.clone(), self.definitions.len());
         let states = self.states.clone();
         let mut unused: Vec<String> = Vec::new();
+        let mut errors = Vec::new();
         for (i, (name, _)) in text.definitions.iter().enumerate() {
             if states[i] == State::Untouched {
                 let whole = Text::of(&text.expression, "expression", text);
-                self.definition(&whole, i, &(0..0), 0)?;
+                errors.extend(self.definition(&whole, i, &(0..0), 0).err());
                 unused.push(name.value.clone());
             }
+        }
+        if let Some(error) = CaseError::of_all(errors) {
+            return Err(error);
         }
         self.needs = needs;
         self.definitions.truncate(kept);
@@ -362,9 +405,16 @@ impl<'t> Compiler<'t> {
         here: Range<usize>,
         level: usize,
     ) -> Result<Part, CaseError> {
-        let arguments = call.args.iter();
-        let arguments = arguments.map(|a| self.part(text, a, level + 1));
-        let arguments = arguments.collect::<Result<Vec<_>, CaseError>>()?;
+        let (mut arguments, mut errors) = (Vec::new(), Vec::new());
+        for argument in &call.args {
+            match self.part(text, argument, level + 1) {
+                Ok(part) => arguments.push(part),
+                Err(error) => errors.push(error),
+            }
+        }
+        if let Some(error) = CaseError::of_all(errors) {
+            return Err(error);
+        }
         match call.func_name.as_str() {
             operators::CONDITIONAL => choice(text, arguments, here),
             operators::NEGATE => unary(text, "-", arguments, here),
@@ -450,8 +500,9 @@ impl<'t> Compiler<'t> {
         level: usize,
     ) -> Result<usize, CaseError> {
         let (name, written) = &self.text.definitions[i];
-        match self.states[i] {
-            State::Done(place) => return Ok(place),
+        match &self.states[i] {
+            State::Done(place) => return Ok(*place),
+            State::Wrong(error) => return Err(error.clone()),
             State::Open => {
                 return Err(from.error(
                     at.clone(),
@@ -464,10 +515,14 @@ impl<'t> Compiler<'t> {
         self.states[i] = State::Open;
         let what = format!("definition \"{}\"", name.value);
         let mut text = Text::of(written, &what, self.text);
-        let made = self.whole(&mut text, level + 1)?;
-        if made.kind == Kind::Word {
-            return Err(text.error(made.at, "a definition is no word", "compare it, with =="));
-        }
+        let made = self.whole(&mut text, level + 1);
+        let made = made.and_then(|made| match made.kind {
+            Kind::Word => {
+                Err(text.error(made.at, "a definition is no word", "compare it, with =="))
+            }
+            _ => Ok(made),
+        });
+        let made = made.inspect_err(|error| self.states[i] = State::Wrong(error.clone()))?;
         let place = self.definitions.len();
         self.definitions.push((name.value.clone(), made));
         self.states[i] = State::Done(place);
@@ -512,6 +567,14 @@ impl<'t> Compiler<'t> {
                 Node::Table(i, Box::new(one)),
                 Kind::Number(value),
                 whole,
+            ));
+        }
+        if !name.starts_with(|c: char| c.is_ascii_alphabetic()) {
+            // What the language calls an index, among others.
+            return Err(text.error(
+                at,
+                "this cannot stand in an expression",
+                "use names, numbers, operators and functions",
             ));
         }
         let Some(function) = Function::of(name) else {
@@ -599,7 +662,7 @@ fn parsed(text: &mut Text<'_>) -> Result<IdedExpr, CaseError> {
         return Err(text.error(at..at + 1, message, "write pow(x, 2) for a power"));
     }
     if let Some(at) = deepest(source) {
-        let message = format!("more than {DEEPEST} brackets, `?` or `.` nest in one another");
+        let message = format!("more than {DEEPEST} brackets or `?` nest in one another");
         return Err(text.error(at..at + 1, message, NAME_PARTS));
     }
     let owned = source.clone();
@@ -624,17 +687,27 @@ fn parsed(text: &mut Text<'_>) -> Result<IdedExpr, CaseError> {
     Ok(tree)
 }
 
-/// Where brackets and the like nest more deeply than is allowed.
+/// Where brackets and `?` nest more deeply than is allowed. Those of a bracket that is closed, or of
+/// an argument that is complete, nest in nothing that follows.
 fn deepest(source: &str) -> Option<usize> {
-    let (mut open, mut others) = (0_usize, 0_usize);
+    // The `?` of the text and of every bracket that is open, and those of all together.
+    let mut open = vec![0_usize];
+    let mut choices = 0;
     for (at, byte) in source.bytes().enumerate() {
+        let brackets = open.len() - 1;
         match byte {
-            b'(' | b'[' | b'{' => open += 1,
-            b')' | b']' | b'}' => open = open.saturating_sub(1),
-            b'?' => others += 1,
+            b'(' | b'[' | b'{' => open.push(0),
+            b')' | b']' | b'}' if brackets > 0 => choices -= open.pop().unwrap_or(0),
+            b',' => choices -= open.last_mut().map_or(0, std::mem::take),
+            b'?' => {
+                if let Some(of) = open.last_mut() {
+                    *of += 1;
+                }
+                choices += 1;
+            }
             _ => {}
         }
-        if open + others > DEEPEST {
+        if open.len() - 1 + choices > DEEPEST {
             return Some(at);
         }
     }
@@ -674,7 +747,10 @@ fn word_of(text: &Text<'_>, word: &str, at: Range<usize>) -> Result<Part, CaseEr
                 "write a number without quotes, as {}",
                 shortened(word.trim())
             ),
-            Err(_) => format!("known ones are {}", known.join(", ")),
+            Err(_) => format!(
+                "known ones are {}; a soil zone is a number, 1, 2 or 3",
+                known.join(", ")
+            ),
         };
         return Err(text.error(at, message, &help));
     }

@@ -36,6 +36,9 @@ struct Evaluation<'g> {
     text: (&'g str, String),
 }
 
+/// Width (m) that is taken for none.
+const ROUND_OFF: f64 = 1.0e-9;
+
 /// The width (m) that a rule asks for.
 pub(super) fn width(
     rule: &OwnRule,
@@ -50,6 +53,10 @@ pub(super) fn width(
         text: (&rule.text.expression.value, "expression".to_owned()),
     };
     let width = evaluation.number(&rule.expression)?;
+    // Differences of equal lengths leave round-off.
+    if width < 0.0 && width >= -ROUND_OFF {
+        return Ok(0.0);
+    }
     if width < 0.0 {
         let message = format!("the width is negative ({:.3} mm)", width * 1e3);
         return Err(evaluation.refused(&rule.expression, message));

@@ -283,6 +283,64 @@ fn wrong_ones_are_refused_with_their_place() {
     }
 }
 
+/// All that is wrong in a rule is told, each once: in the expression, in definitions that it takes, and in those that it
+/// does not.
+#[test]
+fn all_that_is_wrong_in_a_rule_is_told() {
+    let definitions =
+        "definitions = { b = \"baz * u_left\", c = \"1 +\", d = \"bar(1)\", e = \"u_left\" }";
+    let error = compiled(&file(
+        "between",
+        "foo + u_left * b + b + d + e",
+        definitions,
+    ))
+    .unwrap_err();
+    let told: Vec<String> = error.each().map(|e| e.to_string()).collect();
+    for part in ["foo", "baz", "it ends too early", "bar"] {
+        let count = told.iter().filter(|t| t.contains(part)).count();
+        assert_eq!(count, 1, "{part}: {told:#?}");
+    }
+    assert_eq!(told.len(), 4, "{told:#?}");
+}
+
+/// Choices beside one another nest in nothing: 50 of them are as many terms.
+#[test]
+fn many_choices_beside_one_another() {
+    let terms = vec!["(R_left > 1 ? u_left : u_right)"; 50].join(" + ");
+    assert!(compiled(&file("between", &terms, "")).is_ok());
+    let arguments = vec!["R_left > 1 ? u_left : u_right"; 50].join(", ");
+    assert!(compiled(&file("between", &format!("max({arguments})"), "")).is_ok());
+}
+
+/// A difference of equal lengths is zero, whichever sign its round-off has.
+#[test]
+fn a_width_of_round_off_is_none() {
+    for expression in [
+        "0.3 * u_left - 0.1 * u_left * 3",
+        "0.1 * u_left * 3 - 0.3 * u_left",
+    ] {
+        assert!(between(expression, "").unwrap().width.abs() < 1e-15);
+    }
+    assert!(between("0.3 * u_left - 0.31 * u_left", "").is_err());
+}
+
+/// Words of the language are refused where they are to be names, and names that break a line.
+#[test]
+fn names_that_cannot_stand_in_an_expression() {
+    for word in ["in", "true", "null", "as", "for"] {
+        let inputs = format!("inputs = {{ {word} = \"3 mm\" }}");
+        let error = compiled(&file("between", "u_left", &inputs)).unwrap_err();
+        assert!(
+            error.to_string().contains("a word of the language"),
+            "{error}"
+        );
+    }
+    let edition = "edition = \"one\\ntwo\"";
+    let text = file("between", "u_left", edition);
+    let error = RuleText::parse_all(&text, "rules.toml").unwrap_err();
+    assert!(error.to_string().contains("breaks a line"), "{error}");
+}
+
 /// What the errors of a width without its unit propose is right: 100 mm, and 180 mm at 18 m.
 #[test]
 fn a_number_for_a_width_is_told_how_it_is_written() {

@@ -378,13 +378,16 @@ fn own_rules(separation: &Separation) -> Result<Vec<Provision>, Vec<CaseError>> 
             let beginning = name.split([' ', '(']).next();
             beginning == Some(rule.name()) || rule.abbreviation() == Some(name)
         };
-        let known = codes().iter().any(|c| c.name == name || c.family == name)
+        // In small letters, as all names of ours are: one that differs by its letters alone would be
+        // taken for ours.
+        let small = name.to_lowercase();
+        let known = codes().iter().any(|c| c.name == small || c.family == small)
             || CombinationRule::ALL.iter().any(of_rule);
         let refuse = |message: String| {
             let help = Some("give the rule another name".to_owned());
             text.error(text.name.span.clone(), message, help)
         };
-        if known || find(name).is_ok() {
+        if known || find(&small).is_ok() {
             errors.push(refuse(format!(
                 "\"{name}\" is a provision, a code or a combination rule already"
             )));

@@ -150,7 +150,7 @@ fn nothing_follows_from_an_error() {
         // One mistake of TOML.
         ("\"25 t\"", "25 t", 5, 8, "this is not TOML"),
         ("\"25 t\"", "\"25 t", 5, 13, "this is not TOML"),
-        ("duration", "duration = 1\nduration", 25, 1, "duplicate key"),
+        ("duration", "duration = 1\nduration", 25, 1, "given twice"),
     ] {
         hold(&[(from, to)], &[(line, column, says)]);
     }

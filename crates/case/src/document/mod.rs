@@ -109,15 +109,28 @@ impl Reader<'_> {
             }
             false => help,
         };
+        let mut of_second_table = 0..0;
         for e in wrong {
             let span = e.span().unwrap_or(0..0);
             let line = self.line(&span);
-            // What follows in the same line is mostly of the parser's own making.
-            if !lines.contains(&line) {
-                lines.push(line);
-                let message = format!("this is not TOML: {}", e.message());
-                self.errors.record(self.error(span, message, help));
+            // What follows in the same line is mostly of the parser's own making, and so are the keys
+            // of a table that is given twice.
+            if lines.contains(&line) || of_second_table.contains(&span.start) {
+                continue;
             }
+            lines.push(line);
+            let written = match e.message() {
+                DUPLICATE => Twice::at(self.source, &span),
+                _ => None,
+            };
+            let error = match written {
+                Some(twice) => {
+                    of_second_table = twice.keys;
+                    self.error(span, twice.message, twice.help)
+                }
+                None => self.error(span, format!("this is not TOML: {}", e.message()), help),
+            };
+            self.errors.record(error);
         }
         if !lines.is_empty() {
             return None;
@@ -134,5 +147,48 @@ impl Reader<'_> {
         value: &Spanned<DeValue<'_>>,
     ) -> Option<T> {
         deserializer::read(*self, key, value)
+    }
+}
+
+/// What the parser says of a key or a table that stands twice.
+const DUPLICATE: &str = "duplicate key";
+
+/// A key or a table that stands twice where it can stand once.
+struct Twice {
+    message: String,
+    help: &'static str,
+    /// Where the keys of a table stand that is not read.
+    keys: Range<usize>,
+}
+
+impl Twice {
+    fn at(source: &str, span: &Range<usize>) -> Option<Self> {
+        let key = source.get(span.clone())?;
+        let line = source[..span.start].rfind('\n').map_or(0, |end| end + 1);
+        let before = source[line..span.start].trim();
+        let (message, help) = if before.starts_with("[[") {
+            (
+                format!("[[{key}]] stands beside [{key}]"),
+                "write double brackets at each of them",
+            )
+        } else if before.starts_with('[') {
+            (
+                format!("[{key}] stands twice"),
+                "put all its keys below the first one; several of a kind, such as buildings, have double brackets each",
+            )
+        } else {
+            return Some(Self {
+                message: format!("`{key}` is given twice"),
+                help: "remove one of them",
+                keys: 0..0,
+            });
+        };
+        let next = source[span.end..].find("\n[");
+        let keys = span.end..next.map_or(source.len(), |next| span.end + next);
+        Some(Self {
+            message,
+            help,
+            keys,
+        })
     }
 }

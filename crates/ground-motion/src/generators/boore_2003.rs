@@ -26,6 +26,12 @@ const PEAK_AT: f64 = 0.2;
 const AT_END: f64 = 0.05;
 /// Length of the window over the duration of the motion.
 const WINDOW_LENGTH: f64 = 2.0;
+/// Time that the motion is given before the window, and at least after it, in periods of the corner
+/// frequency: the amplitudes are given to the noise without a shift of phase, so that each sample
+/// spreads to both sides by `exp(-2 pi fc t)`, and without what lies before the window the ground
+/// would keep a velocity. SMSIM shifts its windows alike.
+const BEFORE: f64 = 1.5;
+const AFTER: f64 = 0.5;
 /// Duration from the path (s/m).
 const PATH_DURATION: f64 = 0.05e-3;
 /// Amplification of generic rock at frequencies (Hz): Boore and Joyner (1997), Bull.
@@ -220,24 +226,34 @@ impl Boore2003 {
         Ok(())
     }
 
+    /// Time (s) before the window: one and a half periods of the corner frequency, in which the motion
+    /// sets in.
+    #[must_use]
+    pub fn time_before_window(&self) -> f64 {
+        BEFORE / self.corner_frequency()
+    }
+
     /// The motion of a seed. The transform is taken over twice the duration at least;
-    /// the window, twice the motion's duration long, starts at time zero.
+    /// the window, twice the motion's duration long, starts after
+    /// [`Self::time_before_window`].
     ///
     /// # Errors
-    /// Parameters out of range, or a duration shorter than the window.
+    /// Parameters out of range, or a duration that has no room for the window, the time before it,
+    /// and half a period of the corner frequency after it.
     pub fn generate(&self, grid: TimeGrid, seed: u64) -> Result<Generated, GroundMotionError> {
         self.check()?;
         let count = grid.count()?;
         let window = WINDOW_LENGTH * self.duration();
         let longest = grid.time_step * 1.0e7;
-        within(STEP, "duration", grid.duration, window, longest)?;
+        let least = self.time_before_window() + window + AFTER / self.corner_frequency();
+        within(STEP, "duration", grid.duration, least, longest)?;
         let h = grid.time_step;
         let length = (2 * count).next_power_of_two();
         let mut noise = Noise::new(seed);
-        let filled = ((window / h) as usize + 1).min(count);
-        let windowed: Vec<f64> = (0..filled)
-            .map(|i| noise.normal() * self.window(i as f64 * h))
-            .collect();
+        let before = (self.time_before_window() / h).ceil() as usize;
+        let filled = ((window / h) as usize + 1).min(count.saturating_sub(before));
+        let mut windowed = vec![0.0; before];
+        windowed.extend((0..filled).map(|i| noise.normal() * self.window(i as f64 * h)));
         let mut coefficients = transform(&windowed, length);
         let inner = 1..length / 2;
         let square = coefficients[inner.clone()]
@@ -262,6 +278,7 @@ impl Boore2003 {
             .number("moment", self.moment(), "N m")
             .number("corner frequency", self.corner_frequency(), "Hz")
             .number("duration of the motion", self.duration(), "s")
+            .number("time before the window", before as f64 * h, "s")
             .remark(format!("seed {seed}, {}", self.diminution));
         grid.finish(samples, step)
     }

@@ -4,10 +4,10 @@
 
 use std::sync::Arc;
 
-use pounding_time_history::{GridRecorder, MethodChoice, Outcome, RunOptions, System, run};
+use pounding_time_history::{Floor, GridRecorder, MethodChoice, Outcome, RunOptions, System, run};
 use verification::{
     constant_ground, free_bodies, reference_cases, reference_system, reference_system_with, rigid,
-    synthetic_motion,
+    single_storey, synthetic_motion,
 };
 
 fn go(system: &System, step: f64, duration: f64) -> Outcome {
@@ -190,11 +190,7 @@ fn floors_that_stay_together() {
             let held = rows.force.iter().zip(&rows.penetration);
             let open = held.filter(|(_, gap)| **gap < -1.0e-4);
             let across = open.fold(0.0_f64, |m, (force, _)| m.max(force.abs()));
-            let largest = exact.force.iter().fold(0.0_f64, |m, x| m.max(*x));
-            assert!(
-                across == 0.0 && pulls >= -1e-2 * largest,
-                "{name}: {across} {pulls}"
-            );
+            assert!(across == 0.0 && pulls >= 0.0, "{name}: {across} {pulls}");
             let error = apart(&rows.displacement, &exact.displacement);
             println!(
                 "{name} {step}: {error:e}, {} times together, {}",
@@ -208,6 +204,58 @@ fn floors_that_stay_together() {
             "{name}: {errors:?}"
         );
     }
+}
+
+/// A wall and two floors that touch, whose impacts come in groups of steps: forces that are recorded stand inside impacts,
+/// and push; so do their peaks.
+#[test]
+fn recorded_forces_stand_inside_impacts() {
+    let ground = synthetic_motion().unwrap();
+    let bodies = [("a", 5.0e4, 2.0e7), ("b", 9.0e4, 6.0e7)];
+    let bodies = bodies.map(|(name, mass, stiffness)| single_storey(name, mass, stiffness));
+    let mut system = System::new(bodies.to_vec(), ground);
+    for (name, sides, left, right) in [
+        ("wall-a", ["wall", "a"], Floor::Wall, Floor::Storey(0, 0)),
+        ("a-b", ["a", "b"], Floor::Storey(0, 0), Floor::Storey(1, 0)),
+    ] {
+        let pair = (left, right, 0.0, rigid(0.5));
+        let sides = sides.map(str::to_owned);
+        system.add_gap(name, sides, vec![pair]).unwrap();
+    }
+    let options = RunOptions {
+        method: MethodChoice::MoreauJean {
+            step: 2.0e-4,
+            theta: 0.5,
+        },
+        duration: Some(10.0),
+        energy_tolerance: None,
+    };
+    let mut recorder = GridRecorder::new(1.0e-4).unwrap();
+    let outcome = run(&system, &options, &mut [&mut recorder], &mut |_| {}).unwrap();
+    let rows = recorder.responses;
+    assert!(outcome.impacts.len() > 50, "{}", outcome.impacts.len());
+    for impact in &outcome.impacts {
+        let time = impact.peak_force.time;
+        let open = impact.time_opened;
+        assert!(time >= impact.time_closed && !(time > open), "{impact:?}");
+    }
+    let mut pushing = 0;
+    for (forces, time) in rows.force.chunks_exact(2).zip(&rows.time) {
+        for (gap, force) in forces.iter().enumerate() {
+            assert!(*force >= 0.0, "{force} N at {time} s");
+            if *force == 0.0 {
+                continue;
+            }
+            pushing += 1;
+            // Rows at the ends of an impact have them but for round-off.
+            let inside = (outcome.impacts.iter()).any(|i| {
+                let closed = i.time_closed <= *time + 1e-9;
+                i.gap == gap && closed && !(i.time_opened < *time - 1e-9)
+            });
+            assert!(inside, "{force} N at {time} s in gap {gap}");
+        }
+    }
+    assert!(pushing > 1000, "{pushing}");
 }
 
 #[test]

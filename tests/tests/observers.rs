@@ -3,9 +3,13 @@
 #![allow(clippy::unwrap_used)]
 
 use pounding_time_history::{
-    GridRecorder, History, MethodChoice, Outcome, RelativeDisplacement, RunOptions, System, run,
+    FloorForce, ForceHistory, GridRecorder, History, MethodChoice, Outcome, RelativeDisplacement,
+    RunOptions, System, run,
 };
-use verification::{REFERENCE_MODELS, reference_cases, reference_system, synthetic_motion};
+use verification::{
+    REFERENCE_MODELS, constant_ground, reference_cases, reference_system, single_storey,
+    synthetic_motion,
+};
 
 /// A grid that is no multiple of the ground motion's time step, so that most of its points lie
 /// inside samples, and one that is.
@@ -125,4 +129,60 @@ fn observers_see_the_motion() {
             check(name, system, grid);
         }
     });
+}
+
+/// Where a force jumps at a row, the row has the acceleration and the force of before the jump, whatever round-off the time of
+/// the row has beside that of the jump: mass times acceleration and stiffness times displacement are the force in every row.
+#[test]
+fn rows_at_jumps_of_a_force_are_of_one_side() {
+    let (mass, stiffness, force) = (1.0e5, 4.0e7, 1.0e5);
+    let methods = [
+        MethodChoice::EventDriven {
+            relative_tolerance: 1e-10,
+        },
+        MethodChoice::Adaptive {
+            relative_tolerance: 1e-10,
+        },
+        MethodChoice::Newmark {
+            step: 1e-3,
+            beta: 0.25,
+            gamma: 0.5,
+        },
+        MethodChoice::RungeKutta4 { step: 1e-3 },
+    ];
+    for hundredths in [7, 12, 14, 17, 28, 30, 34, 56, 57, 58, 69, 70] {
+        let begin = f64::from(hundredths) / 100.0;
+        let points: Vec<_> = [(0.0, 0.0), (0.0, force), (1.0, force), (1.0, 0.0)]
+            .iter()
+            .map(|(time, force)| (begin + time, *force))
+            .collect();
+        let history = ForceHistory::new(&points, true).unwrap();
+        let push = FloorForce {
+            building: 0,
+            storey: 0,
+            history: history.clone(),
+            origin: String::new(),
+        };
+        let building = single_storey("p", mass, stiffness);
+        let system = System::new(vec![building], constant_ground(0.0, 2.0));
+        let system = system.with_forces(vec![push]).unwrap();
+        for method in methods {
+            let options = RunOptions {
+                method,
+                duration: Some(2.0),
+                energy_tolerance: None,
+            };
+            let mut recorder = GridRecorder::new(0.01).unwrap();
+            run(&system, &options, &mut [&mut recorder], &mut |_| {}).unwrap();
+            let rows = recorder.responses;
+            let motion = rows.acceleration_absolute.iter().zip(&rows.displacement);
+            for ((a, u), time) in motion.zip(&rows.time) {
+                let left = mass * a + stiffness * u - history.before(*time);
+                assert!(
+                    left.abs() < 1e-3 * force,
+                    "{method:?}, {begin} s: {left} N at {time} s"
+                );
+            }
+        }
+    }
 }

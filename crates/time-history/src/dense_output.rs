@@ -27,7 +27,7 @@ pub(crate) const AT_ONCE: usize = 4;
 /// Displacement, velocity and absolute acceleration.
 const QUANTITIES: usize = 3;
 /// Times this much of them apart are one, but for round-off.
-const CLOSE: f64 = 8.0 * f64::EPSILON;
+pub(crate) const CLOSE: f64 = 8.0 * f64::EPSILON;
 
 /// What observers of a run need beside the step: space, and who they are.
 pub(crate) struct Observers<'a, 'b> {
@@ -204,7 +204,7 @@ impl<'a, 'b> Observers<'a, 'b> {
     /// Asks all, once, whether they want a step that ends at this time (s). Returns whether one
     /// does.
     pub(crate) fn ask(&mut self, end: f64) -> bool {
-        let (end, last) = (end * (1.0 + CLOSE), self.is_last(end * (1.0 + CLOSE)));
+        let last = self.is_last(end * (1.0 + CLOSE));
         for (wanted, recorder) in self.wanted.iter_mut().zip(&*self.recorders) {
             *wanted = wants(&**recorder, end, last);
         }

@@ -316,9 +316,12 @@ impl ImpactLog {
         take_larger(&mut impact.peak_force, peaks.force[l]);
         take_larger(&mut impact.peak_penetration, peaks.penetration[l]);
         if let Some((time, separation)) = end {
-            impact.time_opened = time;
-            // Contact may end before the impacts that led to it would have.
-            impact.time_closed = impact.time_closed.min(time);
+            if episode.lasting {
+                // Contact may end before the impacts that led to it would have.
+                impact.time_closed = impact.time_closed.min(time);
+            }
+            // The end of one step and the start of the next differ by round-off.
+            impact.time_opened = time.max(impact.time_closed);
             impact.separation_velocity = separation;
             track.apart_from_start = false;
             track.apart_since = time;
@@ -326,6 +329,11 @@ impl ImpactLog {
         } else {
             impact.time_opened = f64::NAN;
             impact.separation_velocity = f64::NAN;
+        }
+        // Floors are held since an impact shortly before those that are not followed have come to
+        // their end, which is when their contact closes.
+        for peak in [&mut impact.peak_force, &mut impact.peak_penetration] {
+            peak.time = peak.time.max(impact.time_closed);
         }
     }
 

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::dense_output::{AT_ONCE, ModalStep, Workspace};
+use crate::dense_output::{AT_ONCE, CLOSE, ModalStep, Workspace};
 use crate::dynamics::{Dynamics, Instant};
 use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
@@ -261,9 +261,9 @@ pub trait Recorder {
     }
 }
 
-/// Whether a recorder wants something of a step that ends at this time (s).
+/// Whether a recorder wants something of a step that ends at this time (s), but for round-off.
 pub(crate) fn wants(recorder: &dyn Recorder, end: f64, last: bool) -> bool {
-    last || recorder.next_time() <= end
+    last || recorder.next_time() <= end * (1.0 + CLOSE)
 }
 
 /// Responses at many times: one list per quantity, row after row in order of time. A row of
@@ -559,7 +559,9 @@ impl<S: HistorySink> Recorder for GridRecorder<S> {
         } else {
             0.0
         };
-        let end = step.end() + slack;
+        // A row at the end of a step belongs to it whatever round-off its time has: what jumps there
+        // has not jumped yet.
+        let end = step.end() * (1.0 + CLOSE) + slack;
         loop {
             let room = (self.rows - self.block.len()).min(AT_ONCE);
             let mut times = [0.0; AT_ONCE];

@@ -535,6 +535,7 @@ impl<'a> Driver<'a> {
         (cut, last): (bool, bool),
         recorders: &mut [&mut dyn Recorder],
     ) -> Result<(), TimeHistoryError> {
+        self.hold_for_step(segment, tau, step);
         let mut context = Context {
             dynamics: &mut self.dynamics,
             contacts: &self.contacts,

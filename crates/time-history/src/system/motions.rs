@@ -5,6 +5,7 @@ use pounding_shear_building::{Excitation, ShearBuilding};
 use std::sync::Arc;
 
 use super::{GroundAcceleration, System, no_storey};
+use crate::dense_output::CLOSE;
 use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::estimate::short;
@@ -151,11 +152,12 @@ impl ForceHistory {
         self.line(time, time)[0]
     }
 
-    /// Force (N) at an instant (s), before a jump that happens there; at time zero, with which all
-    /// begins, after it.
+    /// Force (N) at an instant (s), before a jump that happens there but for round-off of its time,
+    /// which is how rows of histories are taken; at time zero, with which all begins, after it.
     #[must_use]
     pub fn before(&self, time: f64) -> f64 {
-        let next = self.points.partition_point(|p| p.0 < time);
+        let clearly_before = time * (1.0 - CLOSE);
+        let next = self.points.partition_point(|p| p.0 < clearly_before);
         let before = next.checked_sub(1).map(|k| self.points[k]);
         match (before, self.points.get(next)) {
             _ if time <= 0.0 => self.at(time),

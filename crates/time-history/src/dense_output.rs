@@ -588,9 +588,8 @@ impl ModalStep<'_> {
             cut.shorten(theta);
         }
         cut.end(modes, q, p, absolute);
-        let done = cut.works(modes);
+        let done = cut.account(modes);
         place.works = (done.input, done.viscous);
-        cut.contact_works();
         for touch in &cut.touches {
             place.contacts.push(ContactPlace {
                 level: touch.level,
@@ -676,14 +675,11 @@ impl ModalStep<'_> {
                 continue;
             };
             let width = self.contacts.width(level);
-            let contact = *contact;
-            let touch = Touch {
-                level,
-                contact,
-                width,
-            };
-            let (force, _) = self.force(&touch, place);
-            self.rows.levels[level].add(-force, &mut place.absolute);
+            let row = &self.rows.levels[level];
+            let [closing, rate] = row.dot_two([q, p]);
+            let of_level = &self.system.levels()[level];
+            let force = contact.force(of_level, closing - width, rate).value;
+            row.add(-force, &mut place.absolute);
             let work = 0.0;
             place.contacts.push(ContactPlace { level, force, work });
         }

@@ -2,10 +2,14 @@
 
 use multiversion::multiversion;
 
-use super::rows::{ModalRow, total};
+use super::rows::{LevelRows, ModalRow, total};
 use super::series::{Series, Works};
-use super::tables::{FEW, PARTS, Rule, TERMS, Terms, sample};
-use crate::contact_free::{Lane, ModeLanes, WIDTH};
+use super::tables::{
+    FEW, PARTS, Rule, TERMS, Tables, Terms, sample, sum_and_bend, value_and_slope,
+};
+use super::touch::Touch;
+use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH, lane_by_lane, scale};
+use crate::polynomial::{Polynomial, combine};
 
 /// Terms after which the remainder beside the motion, `x^(k+1) e^x / (k+1)!`, is negligible.
 pub(super) fn last_term((x, negligible): (f64, f64)) -> usize {
@@ -20,13 +24,27 @@ pub(super) fn last_term((x, negligible): (f64, f64)) -> usize {
     k
 }
 
+/// Expands the motion of the modes and of the closed levels, which starts from these displacements
+/// and velocities of the modes, and from this penetration and rate of each of the levels.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
+pub(super) fn expand(
+    series: &mut Series,
+    (modes, levels): (&[ModeLanes], &[ModalRow]),
+    touches: &[Touch],
+    (displacement, velocity): (&[Lane], &[Lane]),
+) {
+    let lanes = series.lanes;
+    copy(displacement, &mut series.displacement[..lanes]);
+    copy(velocity, &mut series.velocity[..lanes]);
+    let all = series.touches.iter_mut().zip(&mut series.powers);
+    for ((series, powers), touch) in all.zip(touches) {
+        series.push(powers, 0, touch.motion);
+    }
     match (series.lanes, series.touches.len()) {
         (1, 0) => expand_in_place::<1, 0>(series, modes, levels),
         (1, 1) => expand_in_place::<1, 1>(series, modes, levels),
@@ -42,6 +60,23 @@ pub(super) fn expand(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRo
         (4, 0) => expand_in_place::<4, 0>(series, modes, levels),
         (4, 1) => expand_in_place::<4, 1>(series, modes, levels),
         _ => expand_many(series, modes, levels),
+    }
+    // What steps of more terms left would count in sums over four terms at once.
+    let (four, count) = (series.last / 4, series.last % 4 + 1);
+    for touch in &mut series.touches {
+        for terms in [&mut touch.delta, &mut touch.rate, &mut touch.force] {
+            for (l, term) in terms.as_chunks_mut::<4>().0[four].iter_mut().enumerate() {
+                *term = if l < count { *term } else { 0.0 };
+            }
+        }
+    }
+}
+
+/// Few lanes, without a call.
+#[inline(always)]
+fn copy(from: &[Lane], to: &mut [Lane]) {
+    for (to, from) in to.iter_mut().zip(from) {
+        *to = *from;
     }
 }
 
@@ -189,75 +224,231 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
     }
 }
 
-/// Multiplies the terms of the modes by these factors, from the second on.
+/// Powers of the place at which a series is cut.
+fn factors_of(theta: f64, last: usize) -> Terms {
+    let mut factors = [1.0; TERMS];
+    for k in 1..=last {
+        factors[k] = factors[k - 1] * theta;
+    }
+    factors
+}
+
+/// Cuts the step at `theta`.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn shorten(series: &mut Series, factors: &Terms) {
-    let lanes = series.lanes;
-    let terms = lanes..(series.last + 1) * lanes;
-    let displacement = series.displacement[terms.clone()].chunks_exact_mut(lanes);
-    let velocity = series.velocity[terms].chunks_exact_mut(lanes);
-    for ((displacement, velocity), factor) in displacement.zip(velocity).zip(&factors[1..]) {
-        for (x, v) in displacement.iter_mut().zip(velocity) {
-            for l in 0..WIDTH {
-                x[l] *= factor;
-                v[l] *= factor;
+pub(super) fn shorten(series: &mut Series, theta: f64) {
+    shorten_here(series, theta);
+}
+
+#[inline(always)]
+fn shorten_here(series: &mut Series, theta: f64) {
+    let factors = factors_of(theta, series.last);
+    match series.lanes {
+        1 => shorten_modes::<1>(series, &factors),
+        2 => shorten_modes::<2>(series, &factors),
+        3 => shorten_modes::<3>(series, &factors),
+        4 => shorten_modes::<4>(series, &factors),
+        lanes => {
+            let terms = ..(series.last + 1) * lanes;
+            let displacement = series.displacement[terms].chunks_exact_mut(lanes);
+            let velocity = series.velocity[terms].chunks_exact_mut(lanes);
+            for (k, (displacement, velocity)) in displacement.zip(velocity).enumerate() {
+                shorten_term(displacement, velocity, factors[k]);
+            }
+        }
+    }
+    for touch in &mut series.touches {
+        for terms in [&mut touch.delta, &mut touch.rate, &mut touch.force] {
+            // What stands beyond the last one is multiplied by one.
+            for (term, factor) in terms.iter_mut().zip(&factors) {
+                *term *= factor;
+            }
+        }
+    }
+    for (bend, snap) in series.bend.iter_mut().zip(&mut series.snap) {
+        lane_by_lane();
+        let square = theta * theta;
+        (*bend, *snap) = (scale(square, *bend), scale(square, *snap));
+    }
+    series.step *= theta;
+}
+
+/// Multiplies the terms of a few lanes of modes.
+#[inline(always)]
+fn shorten_modes<const LANES: usize>(series: &mut Series, factors: &Terms) {
+    let count = ..=series.last;
+    let displacement = &mut series.displacement.as_chunks_mut::<LANES>().0[count];
+    let velocity = &mut series.velocity.as_chunks_mut::<LANES>().0[count];
+    for ((displacement, velocity), factor) in displacement.iter_mut().zip(velocity).zip(factors) {
+        shorten_term(displacement, velocity, *factor);
+    }
+}
+
+#[inline(always)]
+fn shorten_term(displacement: &mut [Lane], velocity: &mut [Lane], factor: f64) {
+    for (x, v) in displacement.iter_mut().zip(velocity) {
+        lane_by_lane();
+        (*x, *v) = (scale(factor, *x), scale(factor, *v));
+    }
+}
+
+/// What a series is evaluated with at its end: constants, rows of all levels, and those of them
+/// whose closings are wanted.
+#[derive(Clone, Copy)]
+pub(crate) struct Places<'a> {
+    pub constants: &'a ContactFree,
+    pub rows: &'a LevelRows,
+    pub levels: &'a [usize],
+}
+
+/// Where the motion at the end goes to: displacements, velocities and absolute accelerations of
+/// the modes, and the closings (m) of all levels.
+pub(crate) struct EndOfStep<'a> {
+    pub displacement: &'a mut [Lane],
+    pub velocity: &'a mut [Lane],
+    pub absolute: &'a mut [Lane],
+    pub closings: &'a mut [f64],
+}
+
+/// Works out the end of the step, of the modes and of the levels.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn finish(series: &mut Series, places: Places<'_>, end: &mut EndOfStep<'_>) {
+    finish_here(series, places, end);
+}
+
+/// The same of a step that is cut at `theta` before.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn cut(series: &mut Series, theta: f64, places: Places<'_>, end: &mut EndOfStep<'_>) {
+    shorten_here(series, theta);
+    finish_here(series, places, end);
+}
+
+#[inline(always)]
+fn finish_here(series: &mut Series, places: Places<'_>, end: &mut EndOfStep<'_>) {
+    let (constants, rows) = (places.constants, &places.rows.levels);
+    let modal = [&mut *end.displacement, end.velocity, end.absolute];
+    end_here(series, &constants.modes, modal);
+    for l in places.levels {
+        end.closings[*l] = rows[*l].dot(end.displacement);
+    }
+    for touch in &mut series.touches {
+        touch.rate_end = rows[touch.level].dot(end.velocity);
+        touch.delta_end = end_and_bend(&touch.delta, series.last);
+    }
+    series.over = 0.125 * constants.rows.bound(&series.bend);
+}
+
+/// Value of a scalar series at the end, and the bound of the distance from the chord.
+#[inline(always)]
+pub(super) fn end_and_bend(terms: &Terms, last: usize) -> (f64, f64) {
+    let (end, bend) = sum_and_bend(terms, last);
+    (end, 0.125 * bend)
+}
+
+/// Displacements, velocities and absolute accelerations of the modes at the end.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn end(series: &Series, modes: &[ModeLanes], out: [&mut [Lane]; 3]) {
+    end_here(series, modes, out);
+}
+
+#[inline(always)]
+fn end_here(series: &Series, modes: &[ModeLanes], mut out: [&mut [Lane]; 3]) {
+    match series.lanes {
+        1 => end_of_few::<1>(series, modes, &mut out),
+        2 => end_of_few::<2>(series, modes, &mut out),
+        3 => end_of_few::<3>(series, modes, &mut out),
+        4 => end_of_few::<4>(series, modes, &mut out),
+        lanes => {
+            // A few lanes at once: their sums do not wait for each other.
+            let mut first = 0;
+            while first + 2 <= lanes {
+                end_of::<2>(series, modes, &mut out, first);
+                first += 2;
+            }
+            if first < lanes {
+                end_of::<1>(series, modes, &mut out, first);
             }
         }
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-pub(super) fn end(
-    series: &Series,
-    modes: &[ModeLanes],
-    displacement: &mut [Lane],
-    velocity: &mut [Lane],
-    absolute: &mut [Lane],
-) {
-    let mut out = [displacement, velocity, absolute];
-    let lanes = series.lanes;
-    // A few lanes at once: their sums do not wait for each other.
-    let mut first = 0;
-    while first + 2 <= lanes {
-        end_of::<2>(series, modes, &mut out, first);
-        first += 2;
-    }
-    if first < lanes {
-        end_of::<1>(series, modes, &mut out, first);
+/// Displacement, velocity, and the same of the acceleration before it is divided by the step.
+type Sums = [Lane; 3];
+
+#[inline(always)]
+fn add_term([q, p, slope]: &mut Sums, order: f64, (x, v): (&Lane, &Lane)) {
+    for l in 0..WIDTH {
+        q[l] += x[l];
+        p[l] += v[l];
+        slope[l] += order * v[l];
     }
 }
 
 #[inline(always)]
+fn end_of_few<const LANES: usize>(
+    series: &Series,
+    modes: &[ModeLanes],
+    out: &mut [&mut [Lane]; 3],
+) {
+    let count = ..=series.last;
+    let displacement = &series.displacement.as_chunks::<LANES>().0[count];
+    let velocity = &series.velocity.as_chunks::<LANES>().0[count];
+    let mut sums = [[Lane::ZERO; 3]; LANES];
+    for (k, (x, v)) in displacement.iter().zip(velocity).enumerate().rev() {
+        for c in 0..LANES {
+            add_term(&mut sums[c], k as f64, (&x[c], &v[c]));
+        }
+    }
+    put_end(series, modes, &sums, out, 0);
+}
+
+/// So many lanes from this one on.
+#[inline(always)]
 fn end_of<const LANES: usize>(
     series: &Series,
     modes: &[ModeLanes],
-    [displacement, velocity, absolute]: &mut [&mut [Lane]; 3],
+    out: &mut [&mut [Lane]; 3],
     first: usize,
 ) {
     let lanes = series.lanes;
     let mut sums = [[Lane::ZERO; 3]; LANES];
     for k in (0..=series.last).rev() {
-        let order = k as f64;
-        for (c, [q, p, slope]) in sums.iter_mut().enumerate() {
+        for (c, sums) in sums.iter_mut().enumerate() {
             let place = k * lanes + first + c;
-            let (x, v) = (series.displacement[place], series.velocity[place]);
-            for l in 0..WIDTH {
-                q[l] += x[l];
-                p[l] += v[l];
-                slope[l] += order * v[l];
-            }
+            let term = (&series.displacement[place], &series.velocity[place]);
+            add_term(sums, k as f64, term);
         }
     }
+    put_end(series, modes, &sums, out, first);
+}
+
+#[inline(always)]
+fn put_end<const LANES: usize>(
+    series: &Series,
+    modes: &[ModeLanes],
+    sums: &[Sums; LANES],
+    [displacement, velocity, absolute]: &mut [&mut [Lane]; 3],
+    first: usize,
+) {
     let ground = series.ground.0 + series.ground.1 * series.step;
     for (c, [q, p, slope]) in sums.iter().enumerate() {
         let c = first + c;
@@ -268,18 +459,33 @@ fn end_of<const LANES: usize>(
     }
 }
 
+/// Works of ground motion and damping over the step; those on the closed levels, and the ends of
+/// their forces, go to their series.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn works(series: &Series, modes: &[ModeLanes]) -> Works {
-    if series.is_slow() {
+pub(super) fn account(series: &mut Series, modes: &[ModeLanes]) -> Works {
+    let works = if series.is_slow() {
         works_by::<FEW>(series, modes, &series.tables.few)
     } else {
         works_by::<WIDTH>(series, modes, &series.tables.rule)
+    };
+    let (rule, last, step) = (&series.tables.rule, series.last, series.step);
+    for touch in &mut series.touches {
+        let force = sample(&touch.force, last, &rule.powers);
+        let rate = sample(&touch.rate, last, &rule.powers);
+        let (mut work, mut impulse) = (Lane::ZERO, Lane::ZERO);
+        for l in 0..WIDTH {
+            impulse[l] = rule.weights[l] * force[l];
+            work[l] = impulse[l] * rate[l];
+        }
+        touch.works = (step * total(&work), step * total(&impulse));
+        touch.force_end = end_and_bend(&touch.force, last);
     }
+    works
 }
 
 #[inline(always)]
@@ -291,17 +497,24 @@ fn works_by<const NODES: usize>(series: &Series, modes: &[ModeLanes], rule: &Rul
     let (mut input, mut viscous) = (Lane::ZERO, Lane::ZERO);
     for (c, m) in modes.iter().enumerate() {
         let mut speeds = [Lane::ZERO; NODES];
-        for k in (0..=last).rev() {
-            let v = series.velocity[k * lanes + c];
+        let terms = series.velocity[..(last + 1) * lanes].chunks_exact(lanes);
+        for (terms, powers) in terms.zip(&rule.powers).rev() {
+            let v = &terms[c];
             for (node, speed) in speeds.iter_mut().enumerate() {
-                let power = rule.powers[k][node];
+                let power = powers[node];
                 for l in 0..WIDTH {
                     speed[l] += power * v[l];
                 }
             }
         }
         let (mut pushed, mut damped) = (Lane::ZERO, Lane::ZERO);
-        for (node, speed) in speeds.iter().enumerate() {
+        for (node, speed) in speeds.into_iter().enumerate() {
+            // Keeps the compiler from taking six vectors before it apart for the sake of the sums;
+            // eight it leaves alone.
+            let speed = match NODES {
+                WIDTH => speed,
+                _ => *std::hint::black_box(&speed),
+            };
             for l in 0..WIDTH {
                 pushed[l] += loads[node] * speed[l];
                 damped[l] += weights[node] * speed[l] * speed[l];
@@ -318,22 +531,44 @@ fn works_by<const NODES: usize>(series: &Series, modes: &[ModeLanes], rule: &Rul
     }
 }
 
+/// The polynomial that fits a scalar series.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn contact_works(series: &mut Series) {
-    let (rule, last, step) = (&series.tables.rule, series.last, series.step);
-    for touch in &mut series.touches {
-        let force = sample(&touch.force, last, &rule.powers);
-        let rate = sample(&touch.rate, last, &rule.powers);
-        let (mut work, mut impulse) = (Lane::ZERO, Lane::ZERO);
-        for l in 0..WIDTH {
-            impulse[l] = rule.weights[l] * force[l];
-            work[l] = impulse[l] * rate[l];
+pub(super) fn fitted(series: &Series, terms: &Terms) -> Polynomial {
+    let Tables { fit, basis, .. } = series.tables;
+    combine(&sample(terms, series.last, fit).0, basis)
+}
+
+/// Corrections of a root at most.
+const CORRECTIONS: usize = 12;
+
+/// Where a scalar series has this value, by Newton's method from a place that is nearly right;
+/// with value and derivative there.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(super) fn polished(terms: &Terms, last: usize, theta: f64, target: f64) -> (f64, (f64, f64)) {
+    let mut x = theta;
+    for _ in 0..CORRECTIONS {
+        let (value, slope) = value_and_slope(terms, last, x);
+        let step = (value - target) / slope;
+        if !step.is_finite() {
+            x = theta;
+            break;
         }
-        touch.works = (step * total(&work), step * total(&impulse));
+        let next = (x - step).clamp(0.5 * x, 1.0_f64.min(1.5 * x));
+        let close = (next - x).abs() <= 2.0 * f64::EPSILON * x;
+        x = next;
+        if close {
+            break;
+        }
     }
+    (x, value_and_slope(terms, last, x))
 }

@@ -24,6 +24,7 @@ mod touch;
 mod touch_series;
 
 pub(crate) use clock::Clock;
+pub(crate) use expansion::{EndOfStep, Places};
 pub(crate) use pair::{Pair, Scene};
 pub(crate) use peaks::{
     Rates, Tracks, begin_acceleration, note_floors_of_series, note_floors_of_span,

@@ -7,7 +7,8 @@ use super::rows::{FloorRows, ModalRow};
 use super::series::Series;
 use super::span::Span;
 use crate::contact_free::{
-    ContactFree, Lane, Track, WIDTH, add, drifts, raise, raise_now, scale, to_floors, transform,
+    ContactFree, Lane, Track, WIDTH, add, drifts, lane_by_lane, raise, raise_now, scale,
+    sums_of_row, transform,
 };
 use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, fit_nodes, value};
 
@@ -30,6 +31,7 @@ impl Tracks<'_> {
         };
         let ends = self.displacement.now.iter().zip(&self.displacement.next);
         for (c, (now, next)) in ends.enumerate() {
+            lane_by_lane();
             let (low, high) = (&mut least[c], &mut greatest[c]);
             for l in 0..WIDTH {
                 let (a, b) = (now[l], next[l]);
@@ -62,7 +64,7 @@ pub(crate) fn note_floors_of_series(
     tracks: &mut Tracks<'_>,
     start: f64,
 ) {
-    let loud = values(constants, series, (displacement, absolute), tracks);
+    let loud = values(constants, series, [displacement, absolute], tracks);
     let (rows, end) = (&constants.rows, start + series.step());
     for (which, track) in [
         &mut *tracks.displacement,
@@ -110,7 +112,7 @@ pub(crate) fn note_sections_of_series(
             continue;
         }
         let terms = series.row(row);
-        let fitted = fit(&series.at_nodes(&terms));
+        let fitted = series.fitted(&terms);
         if let Some((theta, _)) = absolute_maximum(&fitted, track.peak[c][l]) {
             let value = series.at(&terms, theta).0.abs();
             take(track, i, value, start + theta * series.step());
@@ -147,14 +149,11 @@ pub(crate) fn note_sections_of_span(
 fn values(
     constants: &ContactFree,
     series: &Series,
-    (displacement, absolute): (&[Lane], &[Lane]),
+    modal: [&[Lane]; 2],
     tracks: &mut Tracks<'_>,
 ) -> [bool; 3] {
-    let shapes = &constants.shapes;
-    to_floors(shapes, displacement, &mut tracks.displacement.next);
-    drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
-    to_floors(shapes, absolute, &mut tracks.acceleration.next);
-    let bend = 0.125 * constants.rows.bound(&series.bend);
+    floors_at_end(constants, modal, tracks);
+    let bend = series.over;
     let snap = 0.125 * constants.rows.bound(&series.snap);
     tracks.extend(bend);
     // A drift is a difference of two floors.
@@ -163,6 +162,29 @@ fn values(
         exceeds(tracks.drift, 2.0 * bend),
         exceeds(tracks.acceleration, snap),
     ]
+}
+
+/// Floors' displacements, drifts and absolute accelerations at the end of a step from displacements
+/// and absolute accelerations of the modes, in one pass over the floors.
+#[inline(always)]
+fn floors_at_end(constants: &ContactFree, modal: [&[Lane]; 2], tracks: &mut Tracks<'_>) {
+    let count = constants.floor_rows.len();
+    let above = &constants.above[..count];
+    let displacement = &mut tracks.displacement.next[..count];
+    let drift = &mut tracks.drift.next[..count];
+    let acceleration = &mut tracks.acceleration.next[..count];
+    // The floor below the first one of a lane is in the lane before.
+    let mut last = 0.0;
+    for (c, row) in constants.floor_rows.iter().enumerate() {
+        let [u, w] = sums_of_row(row, modal);
+        let mut below = [last; WIDTH];
+        below[1..].copy_from_slice(&u.0[..WIDTH - 1]);
+        last = u[WIDTH - 1];
+        for l in 0..WIDTH {
+            drift[c][l] = u[l] - above[c][l] * below[l];
+        }
+        (displacement[c], acceleration[c]) = (u, w);
+    }
 }
 
 /// The same at the end of a step of the pair, for which `modal` is work space.
@@ -179,16 +201,13 @@ fn values_of_span(
     tracks: &mut Tracks<'_>,
 ) -> [bool; 3] {
     let (constants, rows) = (scene.constants, &scene.constants.rows);
-    let shapes = &constants.shapes;
     let length = span.clock.offset(1.0);
     let ground = scene.ground.0 + scene.ground.1 * length;
-    to_floors(shapes, &span.end.motion[0], &mut tracks.displacement.next);
-    drifts(shapes, &tracks.displacement.next, &mut tracks.drift.next);
     let accelerations = span.end.motion[2].iter().zip(&constants.modes);
     for (out, (a, m)) in modal.iter_mut().zip(accelerations) {
         *out = add(*a, scale(ground, m.participation));
     }
-    to_floors(shapes, modal, &mut tracks.acceleration.next);
+    floors_at_end(constants, [&span.end.motion[0], modal], tracks);
     let bend = |k: usize| {
         let [a, b] = [span.start, span.end].map(|p| rows.bound(&p.motion[k]));
         a.max(b)
@@ -208,8 +227,9 @@ fn values_of_span(
 #[inline(always)]
 fn exceeds(track: &Track, over: f64) -> bool {
     let mut any = false;
-    for c in 0..track.now.len() {
-        let (a, b, peak) = (track.now[c], track.next[c], track.peak[c]);
+    let ends = track.now.iter().zip(&track.next);
+    for ((a, b), peak) in ends.zip(&track.peak) {
+        lane_by_lane();
         for l in 0..WIDTH {
             let (a, b) = (a[l].abs(), b[l].abs());
             any |= (if a > b { a } else { b }) + over > peak[l];
@@ -245,7 +265,7 @@ fn look_inside(
         1 => series.row(&rows.drifts[i]),
         _ => series.row_acceleration(&rows.floors[i], 1.0),
     };
-    let fitted = fit(&series.at_nodes(&terms));
+    let fitted = series.fitted(&terms);
     let (c, l) = (i / WIDTH, i % WIDTH);
     if let Some((theta, _)) = absolute_maximum(&fitted, track.peak[c][l]) {
         let value = series.at(&terms, theta).0.abs();

@@ -4,7 +4,7 @@ use pounding_gap_element::{Direction, Guard, Phase, Transition};
 
 use super::pair::Scene;
 use super::rows::{LevelRows, ModalRow};
-use super::series::{LEADING, Series};
+use super::series::{LEADING, Series, stays_positive};
 use super::span::Span;
 use super::tables::{TERMS, Terms};
 use super::touch::Touch;
@@ -12,13 +12,13 @@ use super::touch_series::TouchSeries;
 use crate::bernstein::first_rise_of_series;
 use crate::contact::{Contact, Contacts};
 use crate::events::{Candidate, EventKind};
-use crate::polynomial::{Polynomial, first_rise_near, first_rise_of, fit, negated, value};
+use crate::polynomial::{Polynomial, first_rise_near, first_rise_of, negated, value};
 use crate::system::System;
 
 /// A function that passes its root by less than this part of its size only touches it: as
 /// much round-off has the motion gathered by then.
 const ROUND_OFF: f64 = 1.0e-13;
-/// Corrections of a root at most.
+/// Secants at most.
 const CORRECTIONS: usize = 12;
 
 /// Precision (of theta) of a root that only leads near the event.
@@ -112,9 +112,9 @@ pub(crate) fn in_series(
         let mut first = None;
         if let Some((touch, motion)) = closed.next_if(|(t, _)| t.level == l) {
             let row = &rows.levels[l];
-            if !series.stays_positive(&motion.delta) {
+            if !stays_positive(motion.delta[0], motion.delta_end) {
                 let zeros = series.leading_zeros((row, DISPLACEMENT), &motion.delta, touch.width);
-                let open = fall(series, &motion.delta, zeros);
+                let open = fall(series, (&motion.delta, motion.delta_end), zeros);
                 keep(&mut first, open, (l, EventKind::Open), &muted);
             }
             for (index, transition) in transitions(system, touch).iter().enumerate() {
@@ -160,7 +160,7 @@ fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
         // It only rises: where the chord has its root is near enough.
         rest[0] / (rest[0] - after)
     } else {
-        let mut fitted = fit(&series.at_nodes(&rest));
+        let mut fitted = series.fitted(&rest);
         fitted[0] = rest[0];
         // The function is nowhere above this.
         let mut above = fitted;
@@ -174,12 +174,8 @@ fn rise(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
         }
     };
     let target = target_of(&rest);
-    let root = polish(theta, |x| {
-        let (value, slope) = series.at(&rest, x);
-        (value - target) / slope
-    });
+    let (root, (value, slope)) = series.polished(&rest, theta, target);
     let noise = noise_of(&rest);
-    let (value, slope) = series.at(&rest, root);
     // Beyond a root it rises at least this far.
     let clear = slope * slope > 16.0 * bend * noise;
     if (value - target).abs() <= noise && slope > 0.0 && clear {
@@ -196,11 +192,7 @@ fn certain_rise(series: &Series, terms: &Terms, count: usize) -> Option<f64> {
     lower[0] -= noise + target;
     let theta = first_rise_of_series(&lower[..count])?;
     // That is where it has risen so far; the event is where it begins to.
-    let root = polish(theta, |x| {
-        let (value, slope) = series.at(terms, x);
-        (value - target) / slope
-    });
-    let (value, slope) = series.at(terms, root);
+    let (root, (value, slope)) = series.polished(terms, theta, target);
     let is_root = (value - target).abs() <= noise && slope > 0.0;
     Some(if is_root { root } else { theta })
 }
@@ -229,10 +221,14 @@ fn error_of_fit(terms: &[f64]) -> f64 {
     sum / f64::from(1 << 14)
 }
 
-/// First passage to negative values.
-fn fall(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
+/// First passage to negative values, of a series with its end and the bound of the distance from the
+/// chord.
+fn fall(
+    series: &Series,
+    (terms, (after, bend)): (&Terms, (f64, f64)),
+    zeros: usize,
+) -> Option<f64> {
     let first = terms[zeros.min(TERMS - 1)];
-    let (after, bend) = series.end_and_bend(terms);
     if zeros == 0 && terms[0].min(after) - bend > 0.0 {
         return None;
     }
@@ -241,23 +237,6 @@ fn fall(series: &Series, terms: &Terms, zeros: usize) -> Option<f64> {
         return None;
     }
     rise(series, &negated(*terms), zeros)
-}
-
-/// Newton's method from a root that is nearly right.
-fn polish(theta: f64, correction: impl Fn(f64) -> f64) -> f64 {
-    let mut x = theta;
-    for _ in 0..CORRECTIONS {
-        let step = correction(x);
-        if !step.is_finite() {
-            return theta;
-        }
-        let next = (x - step).clamp(0.5 * x, 1.0_f64.min(1.5 * x));
-        if (next - x).abs() <= 2.0 * f64::EPSILON * x {
-            return next;
-        }
-        x = next;
-    }
-    x
 }
 
 /// First time at which a transition fires.
@@ -270,7 +249,10 @@ fn passage(
     let zeros = || series.leading_zeros((row, VELOCITY), &motion.rate, 0.0);
     match (transition.guard, transition.direction) {
         (Guard::Velocity, Direction::Rising) => rise(series, &motion.rate, zeros()),
-        (Guard::Velocity, Direction::Falling) => fall(series, &motion.rate, zeros()),
+        (Guard::Velocity, Direction::Falling) => {
+            let ends = series.end_and_bend(&motion.rate);
+            fall(series, (&motion.rate, ends), zeros())
+        }
         _ => {
             let Contact {
                 phase, collision, ..

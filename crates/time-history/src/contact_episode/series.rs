@@ -1,13 +1,13 @@
 //! Taylor series of the modes and of contacts with affine laws, summed to round-off.
 
-use super::expansion;
+use super::expansion::{self, EndOfStep, Places, end_and_bend};
 use super::powers::{Law, Powers};
 use super::rows::{LevelRows, ModalRow};
-use super::tables::{TERMS, Tables, Terms, maximum, sample, sum_and_bend, value_and_slope};
+use super::tables::{TERMS, Tables, Terms, maximum, value_and_slope};
 use super::touch::Touch;
 use super::touch_series::TouchSeries;
 use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH};
-use crate::polynomial::{fit, maximum_above};
+use crate::polynomial::{Polynomial, maximum_above};
 use crate::system::System;
 
 /// Product of rate and step up to which Gauss's rule with six nodes is exact to round-off: over the
@@ -89,6 +89,8 @@ pub(crate) struct Series {
     /// the second derivatives with respect to theta.
     pub bend: Vec<Lane>,
     pub snap: Vec<Lane>,
+    /// Bound (m) of what any floor's displacement exceeds both ends of the step by.
+    pub over: f64,
     pub(super) tables: &'static Tables,
 }
 
@@ -117,6 +119,7 @@ impl Series {
             next_rates: vec![0.0; levels],
             bend: vec![Lane::ZERO; lanes],
             snap: vec![Lane::ZERO; lanes],
+            over: 0.0,
             tables: Tables::all(),
         }
     }
@@ -186,7 +189,6 @@ impl Series {
         touches: &[Touch],
         from: &SeriesStep<'_>,
     ) {
-        let lanes = self.lanes;
         self.step = from.step;
         self.ground = from.ground;
         let product = (from.rate * from.step, from.negligible);
@@ -195,24 +197,9 @@ impl Series {
             (self.product, self.enough) = (product, expansion::last_term(product));
         }
         self.last = self.enough.max(from.terms);
-        self.displacement[..lanes].copy_from_slice(from.displacement);
-        self.velocity[..lanes].copy_from_slice(from.velocity);
-        let all = self.touches.iter_mut().zip(&mut self.powers);
-        for ((series, powers), touch) in all.zip(touches) {
-            let row = &rows.levels[touch.level];
-            let delta = row.dot(from.displacement) - touch.width;
-            series.push(powers, 0, (delta, row.dot(from.velocity)));
-        }
-        expansion::expand(self, &constants.modes, &rows.levels);
-        // What steps of more terms left would count in sums over four terms at once.
-        let (four, count) = (self.last / 4, self.last % 4 + 1);
-        for touch in &mut self.touches {
-            for terms in [&mut touch.delta, &mut touch.rate, &mut touch.force] {
-                for (l, term) in terms.as_chunks_mut::<4>().0[four].iter_mut().enumerate() {
-                    *term = if l < count { *term } else { 0.0 };
-                }
-            }
-        }
+        let places = (&constants.modes[..], &rows.levels[..]);
+        let motion = (from.displacement, from.velocity);
+        expansion::expand(self, places, touches, motion);
     }
 
     /// Part of the step over which the series of all levels end in terms below `allowed`
@@ -246,25 +233,17 @@ impl Series {
 
     /// Cuts the step at `theta`.
     pub(crate) fn shorten(&mut self, theta: f64) {
-        let mut factors = [1.0; TERMS];
-        for k in 1..=self.last {
-            factors[k] = factors[k - 1] * theta;
-        }
-        expansion::shorten(self, &factors);
-        for touch in &mut self.touches {
-            for (k, factor) in factors.iter().enumerate().take(self.last + 1).skip(1) {
-                touch.delta[k] *= factor;
-                touch.rate[k] *= factor;
-                touch.force[k] *= factor;
-            }
-        }
-        for (bend, snap) in self.bend.iter_mut().zip(&mut self.snap) {
-            for l in 0..WIDTH {
-                bend[l] *= theta * theta;
-                snap[l] *= theta * theta;
-            }
-        }
-        self.step *= theta;
+        expansion::shorten(self, theta);
+    }
+
+    /// Cuts the step at `theta` and works out its end anew.
+    pub(crate) fn cut(&mut self, theta: f64, places: Places<'_>, end: &mut EndOfStep<'_>) {
+        expansion::cut(self, theta, places, end);
+    }
+
+    /// Works out the end of the step.
+    pub(crate) fn finish(&mut self, places: Places<'_>, end: &mut EndOfStep<'_>) {
+        expansion::finish(self, places, end);
     }
 
     /// Displacements, velocities and absolute accelerations of the modes at the end.
@@ -275,7 +254,7 @@ impl Series {
         velocity: &mut [Lane],
         absolute: &mut [Lane],
     ) {
-        expansion::end(self, modes, displacement, velocity, absolute);
+        expansion::end(self, modes, [displacement, velocity, absolute]);
     }
 
     /// Absolute accelerations of the modes at the start.
@@ -317,23 +296,19 @@ impl Series {
         for (term, less) in terms.iter_mut().zip(less) {
             *term -= less;
         }
-        self.maximum(&terms, floor)
+        self.maximum(&terms, self.end_and_bend(&terms), floor)
     }
 
-    /// Works of ground motion and damping over the step.
-    pub(crate) fn works(&self, modes: &[ModeLanes]) -> Works {
-        expansion::works(self, modes)
+    /// Works of ground motion and damping over the step, and [`TouchSeries::works`] of all closed
+    /// levels with the ends of their forces.
+    pub(crate) fn account(&mut self, modes: &[ModeLanes]) -> Works {
+        expansion::account(self, modes)
     }
 
     /// Whether a rule of few nodes errs by round-off alone.
     pub(super) fn is_slow(&self) -> bool {
         let affine = |touch: &TouchSeries| matches!(touch.law, Law::Affine { .. });
         self.product.0 <= SLOW && self.touches.iter().all(affine)
-    }
-
-    /// Works out [`TouchSeries::works`] of all closed levels.
-    pub(crate) fn contact_works(&mut self) {
-        expansion::contact_works(self);
     }
 
     /// A row's function of theta.
@@ -402,18 +377,9 @@ impl Series {
         leading
     }
 
-    /// Whether a series stays clear of zero and positive, so that its start is no root either.
-    pub(crate) fn stays_positive(&self, terms: &Terms) -> bool {
-        if terms[0] <= CLEAR_OF_ZERO {
-            return false;
-        }
-        let (after, bend) = self.end_and_bend(terms);
-        terms[0].min(after) - bend > 0.0
-    }
-
-    /// A scalar series at the nodes of a fit.
-    pub(crate) fn at_nodes(&self, terms: &Terms) -> [f64; WIDTH] {
-        sample(terms, self.last, &self.tables.fit).0
+    /// The polynomial that fits a scalar series.
+    pub(crate) fn fitted(&self, terms: &Terms) -> Polynomial {
+        expansion::fitted(self, terms)
     }
 
     /// Value and derivative with respect to theta.
@@ -421,9 +387,21 @@ impl Series {
         value_and_slope(terms, self.last, theta)
     }
 
-    /// Maximum value above `floor`, with its theta.
-    pub(crate) fn maximum(&self, terms: &Terms, floor: f64) -> Option<(f64, f64)> {
-        let (after, bend) = self.end_and_bend(terms);
+    /// Where a scalar series has this value, from a place that is nearly right; with value and
+    /// derivative there.
+    pub(super) fn polished(&self, terms: &Terms, theta: f64, target: f64) -> (f64, (f64, f64)) {
+        expansion::polished(terms, self.last, theta, target)
+    }
+
+    /// Maximum value above `floor`, with its theta, of a scalar series with its end and the bound
+    /// of the distance from the chord.
+    #[inline]
+    pub(crate) fn maximum(
+        &self,
+        terms: &Terms,
+        (after, bend): (f64, f64),
+        floor: f64,
+    ) -> Option<(f64, f64)> {
         if terms[0].max(after) + bend <= floor {
             return None;
         }
@@ -435,15 +413,20 @@ impl Series {
         if (after - terms[0]).abs() > 4.0 * bend {
             return (ends.1 > floor).then_some(ends);
         }
-        let (theta, _) = maximum_above(&fit(&self.at_nodes(terms)), floor)?;
+        let (theta, _) = maximum_above(&self.fitted(terms), floor)?;
         Some((theta, self.at(terms, theta).0))
     }
 
     /// Value at the end, and the bound of the distance from the chord.
     pub(crate) fn end_and_bend(&self, terms: &Terms) -> (f64, f64) {
-        let (end, bend) = sum_and_bend(terms, self.last);
-        (end, 0.125 * bend)
+        end_and_bend(terms, self.last)
     }
+}
+
+/// Whether a series that starts from `first` stays clear of zero and positive, so that its start is
+/// no root either, by its end and the bound of the distance from the chord.
+pub(super) fn stays_positive(first: f64, (after, bend): (f64, f64)) -> bool {
+    !(first <= CLEAR_OF_ZERO) && first.min(after) - bend > 0.0
 }
 
 /// Bound of the rate (1/s) of so many closed levels with these stiffnesses (N/m) and dashpots

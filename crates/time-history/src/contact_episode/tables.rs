@@ -3,7 +3,7 @@
 use std::sync::OnceLock;
 
 use crate::contact_free::{Lane, WIDTH};
-use crate::polynomial::{GAUSS as GAUSS_OF_SIX, fit_nodes};
+use crate::polynomial::{COEFFICIENTS, GAUSS as GAUSS_OF_SIX, Polynomial, fit_basis, fit_nodes};
 
 /// Terms of a series at most, that of order zero included.
 pub(super) const TERMS: usize = 28;
@@ -46,10 +46,11 @@ pub(super) struct Rule {
     pub weights: Lane,
 }
 
-/// Powers of the nodes of a fit, and rules of eight nodes and of [`FEW`].
+/// Powers of the nodes of a fit, with the polynomials it is made of, and rules of eight nodes and of [`FEW`].
 #[derive(Debug, Clone)]
 pub(super) struct Tables {
     pub fit: [Lane; TERMS],
+    pub basis: [Polynomial; COEFFICIENTS],
     pub rule: Rule,
     pub few: Rule,
 }
@@ -76,6 +77,7 @@ impl Tables {
         };
         Self {
             fit: powers(Lane(fit_nodes())),
+            basis: *fit_basis(),
             rule: rule(&GAUSS),
             few: rule(&GAUSS_OF_SIX),
         }

@@ -1,6 +1,8 @@
 //! A closed level while its phase is held.
 
+use super::rows::LevelRows;
 use crate::contact::{Contact, Contacts};
+use crate::contact_free::Lane;
 use crate::system::System;
 
 /// A closed level: its contact, and where it stands.
@@ -10,11 +12,19 @@ pub(crate) struct Touch {
     pub contact: Contact,
     /// Present width of the gap (m).
     pub width: f64,
+    /// Penetration (m) and its rate of change (m/s) at the start of the next step, as the modes
+    /// have them.
+    pub motion: (f64, f64),
 }
 
-/// Lists the closed ones of these levels. Returns false if one of them is stuck, which the
-/// equations of the modes do not cover.
-pub(crate) fn list(contacts: &Contacts, levels: &[usize], out: &mut Vec<Touch>) -> bool {
+/// Lists the closed ones of these levels at these displacements and velocities of the modes. Returns
+/// false if one of them is stuck, which the equations of the modes do not cover.
+pub(crate) fn list(
+    contacts: &Contacts,
+    levels: &[usize],
+    (rows, motion): (&LevelRows, [&[Lane]; 2]),
+    out: &mut Vec<Touch>,
+) -> bool {
     out.clear();
     for &level in contacts.closed() {
         if levels.binary_search(&level).is_err() {
@@ -26,10 +36,12 @@ pub(crate) fn list(contacts: &Contacts, levels: &[usize], out: &mut Vec<Touch>) 
         if contact.is_stuck() {
             return false;
         }
+        let ([closing, rate], width) = (rows.levels[level].dot_two(motion), contacts.width(level));
         out.push(Touch {
             level,
             contact: *contact,
-            width: contacts.width(level),
+            width,
+            motion: (closing - width, rate),
         });
     }
     true

@@ -11,6 +11,11 @@ pub(crate) struct TouchSeries {
     pub rate: Terms,
     pub force: Terms,
     pub(super) law: Law,
+    /// Of penetration and force: values at the end, and bounds of the distance from the chord.
+    pub delta_end: (f64, f64),
+    pub force_end: (f64, f64),
+    /// Rate of the penetration (m/s) at the end, as the modes have it.
+    pub rate_end: f64,
     /// Work on the contact over the step (J), and its impulse (N s).
     pub works: (f64, f64),
 }
@@ -23,6 +28,9 @@ impl TouchSeries {
             rate: [0.0; TERMS],
             force: [0.0; TERMS],
             law,
+            delta_end: (0.0, 0.0),
+            force_end: (0.0, 0.0),
+            rate_end: 0.0,
             works: (0.0, 0.0),
         }
     }

@@ -39,7 +39,7 @@ pub(crate) struct ContactFree {
     pub drift_magnitudes: Vec<Shapes>,
     /// Building of every degree of freedom.
     pub building: Vec<usize>,
-    /// Floors from modes, for blocks.
+    /// Floors from modes, lane by lane.
     pub floor_rows: Vec<Rows>,
     /// Forces in sections from modes, for blocks.
     pub section_rows: Vec<Rows>,
@@ -197,8 +197,8 @@ impl ContactFree {
         0.125 * self.step * self.step
     }
 
-    /// What blocks need: every floor is a sum over the modes of its building.
-    fn add_rows(&mut self) {
+    /// Every floor is a sum over the modes of its building.
+    pub(super) fn add_rows(&mut self) {
         let dofs = self.building.len();
         let rows = (0..self.modes.len()).map(|lane| {
             let floors = lane * WIDTH..dofs.min((lane + 1) * WIDTH);

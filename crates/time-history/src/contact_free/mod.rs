@@ -32,12 +32,11 @@ pub(crate) use block_step::Loads;
 pub(crate) use constants::ContactFree;
 pub(crate) use free_sample::FreeSample;
 pub(crate) use lanes::{
-    Ground, Lane, ModeLanes, Track, WIDTH, add, at, drifts, gather, mul, raise, raise_now, restore,
-    restoring, scale, spread, sum,
+    Ground, Lane, ModeLanes, Track, WIDTH, add, at, drifts, gather, lane_by_lane, mul, raise,
+    raise_now, restore, restoring, scale, spread, sum,
 };
 pub(crate) use part::{put_part, take_part};
 pub(crate) use phase::{BlockMotion, ContactFreePhase, EnergyAccounts, SampleMotion, SampleRange};
 pub(crate) use transform::{
-    Floors, Four, STRIP, sums_of_row, to_floors, transform, transform_fours, transform_free,
-    transform_three,
+    Floors, Four, STRIP, sums_of_row, transform, transform_fours, transform_free, transform_three,
 };

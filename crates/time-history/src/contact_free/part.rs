@@ -40,7 +40,10 @@ impl ContactFree {
             let all = all[dofs.clone()].iter();
             all.map(|row| row.of_part(first, count)).collect()
         };
-        Self {
+        let own = self.building[dofs.clone()]
+            .iter()
+            .map(|b| b - buildings.start);
+        let mut part = Self {
             step: self.step,
             fastest: self.fastest,
             swings: self.swings,
@@ -58,15 +61,17 @@ impl ContactFree {
             inverse: Vec::new(),
             magnitudes: shapes(&self.magnitudes),
             drift_magnitudes: shapes(&self.drift_magnitudes),
-            building: self.building[dofs].to_vec(),
+            building: own.collect(),
             floor_rows: Vec::new(),
             section_rows: Vec::new(),
-            above: Vec::new(),
+            above: vec![Lane::ZERO; count.div_ceil(WIDTH)],
             bands: None,
             single_precision: None,
             block_step: None,
             fine: Fine::default(),
-        }
+        };
+        part.add_rows();
+        part
     }
 }
 

@@ -17,7 +17,7 @@ pub(crate) fn transform(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) 
 }
 
 #[inline(always)]
-pub(crate) fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) {
+pub(super) fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) {
     for lane in floors.iter_mut() {
         *lane = Lane::ZERO;
     }

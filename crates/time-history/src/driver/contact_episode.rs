@@ -237,7 +237,9 @@ impl Driver<'_> {
         while tau < segment.length {
             let e = &mut open.contact_episode;
             if !e.listed {
-                if !list(&self.contacts, &e.levels, &mut e.touches) {
+                let [q, p, ..] = &e.pair.start.motion;
+                let motion = (&e.rows, [&q[..], &p[..]]);
+                if !list(&self.contacts, &e.levels, motion, &mut e.touches) {
                     return Ok(Some(tau));
                 }
                 e.affine = are_affine(&e.touches, self.system);
@@ -263,11 +265,9 @@ impl Driver<'_> {
             let series = if e.affine {
                 Some(longest)
             } else if e.powers {
-                let p = &e.pair.start.motion[1];
-                let touches = e.touches.iter().map(|t| {
-                    let rate = e.rows.levels[t.level].dot(p);
-                    (open.phase.penetration[t.level], rate)
-                });
+                let penetrations = &open.phase.penetration;
+                let touches = e.touches.iter();
+                let touches = touches.map(|t| (penetrations[t.level], t.motion.1));
                 e.lengths.of_series(touches, longest)
             } else {
                 None
@@ -360,7 +360,7 @@ impl Driver<'_> {
         let layout = self.dynamics.layout;
         let [q, p, ..] = &contact_episode.pair.start.motion;
         self.statistics.steps += 1;
-        let (rows, levels) = (&contact_episode.rows.levels, &contact_episode.levels);
+        let levels = &contact_episode.levels;
         if step > SIMULTANEOUS {
             if self.eventful {
                 for l in levels {
@@ -385,8 +385,7 @@ impl Driver<'_> {
         }
         for touch in &contact_episode.touches {
             let l = touch.level;
-            let motion = (phase.penetration[l], rows[l].dot(p));
-            self.contacts.commit_level(self.system, l, motion);
+            self.contacts.commit_level(self.system, l, touch.motion);
         }
         if !contact_episode.affine {
             refresh(&self.contacts, &mut contact_episode.touches);

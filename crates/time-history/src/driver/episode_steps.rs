@@ -3,9 +3,9 @@
 use super::contact_episode::Open;
 use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP};
 use crate::contact_episode::{
-    Clock, NEAR, Pair, Proposal, Scene, Series, SeriesEnd, SeriesStep, Span, StepLength, Works,
-    begin_acceleration, closings, in_series, in_span, note_floors_of_series, note_floors_of_span,
-    note_sections_of_series, note_sections_of_span, soon_after,
+    Clock, EndOfStep, NEAR, Pair, Places, Proposal, Scene, Series, SeriesEnd, SeriesStep, Span,
+    StepLength, Works, begin_acceleration, closings, in_series, in_span, note_floors_of_series,
+    note_floors_of_span, note_sections_of_series, note_sections_of_span, soon_after,
 };
 use crate::contact_free::{ContactFree, ContactFreePhase, Lane, add, scale};
 use crate::dense_output::{ModalStep, Motion, Observers};
@@ -91,17 +91,25 @@ impl Driver<'_> {
                 whole *= reach;
             }
         }
-        let modes = &constants.modes;
-        let [q, p, ..] = &mut e.pair.end.motion;
-        e.series.end(modes, q, p, &mut e.absolute);
-        closings(&e.rows, &e.levels, q, &mut e.closings);
-        let over = 0.125 * constants.rows.bound(&e.series.bend);
+        let places = Places {
+            constants,
+            rows: &e.rows,
+            levels: &e.levels,
+        };
+        let [displacement, velocity, ..] = &mut e.pair.end.motion;
+        let mut end = EndOfStep {
+            displacement,
+            velocity,
+            absolute: &mut e.absolute,
+            closings: &mut e.closings,
+        };
+        e.series.finish(places, &mut end);
         let (mute, at_once) = (&self.mute, &self.at_once);
         let event = in_series(
             (self.system, &self.contacts, &e.rows),
             &e.levels,
             (&e.series, &e.touches),
-            (&e.closings, over, &phase.penetration),
+            (end.closings, e.series.over, &phase.penetration),
             &mut self.finder.candidates,
             |level, theta| mute[level].hides(theta * whole, at_once[level]),
         );
@@ -113,13 +121,10 @@ impl Driver<'_> {
             }
             if event.theta < 1.0 {
                 step = event.theta * whole;
-                e.series.shorten(event.theta);
-                e.series.end(modes, q, p, &mut e.absolute);
-                closings(&e.rows, &e.levels, q, &mut e.closings);
+                e.series.cut(event.theta, places, &mut end);
             }
         }
-        let works = e.series.works(modes);
-        e.series.contact_works();
+        let works = e.series.account(&constants.modes);
         if !observers.is_empty() {
             let [displacement, velocity, ..] = &e.pair.end.motion;
             let end = SeriesEnd {
@@ -142,6 +147,9 @@ impl Driver<'_> {
         self.note_series(open, start, works);
         let e = &mut open.contact_episode;
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
+        for (touch, series) in e.touches.iter_mut().zip(&e.series.touches) {
+            touch.motion = (e.closings[touch.level] - touch.width, series.rate_end);
+        }
         e.derived = false;
         if !e.affine {
             e.lengths.accept_series(step);
@@ -177,11 +185,17 @@ impl Driver<'_> {
             self.state[layout.work(touch.level)] += work;
             self.state[layout.impulse(touch.level)] += impulse;
             let peaks = [
-                (&touch.delta, &mut self.peaks.penetration[touch.level]),
-                (&touch.force, &mut self.peaks.force[touch.level]),
+                (
+                    (&touch.delta, touch.delta_end),
+                    &mut self.peaks.penetration[touch.level],
+                ),
+                (
+                    (&touch.force, touch.force_end),
+                    &mut self.peaks.force[touch.level],
+                ),
             ];
-            for (terms, peak) in peaks {
-                if let Some((theta, top)) = e.series.maximum(terms, peak.value) {
+            for ((terms, ends), peak) in peaks {
+                if let Some((theta, top)) = e.series.maximum(terms, ends, peak.value) {
                     peak.raise(top, start + theta * e.series.step());
                 }
             }
@@ -266,6 +280,9 @@ impl Driver<'_> {
         note_sections_of_span(&constants.rows.sections, &span, phase.sections(), start);
         self.note_contacts(&scene, &trial.clock, &mut e.pair, start);
         closings(&e.rows, &e.levels, &e.pair.end.motion[0], &mut e.closings);
+        for (touch, end) in e.touches.iter_mut().zip(&e.pair.end.touches) {
+            touch.motion = (end.motion[0], end.motion[1]);
+        }
         std::mem::swap(&mut e.pair.start, &mut e.pair.end);
         *taken = (step, event);
         Ok(())

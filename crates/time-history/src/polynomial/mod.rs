@@ -13,7 +13,7 @@ mod through;
 
 pub(crate) use remainder::hermite_range;
 pub(crate) use sampled::first_rise_of;
-pub(crate) use through::{fit, fit_nodes, hermite, septic};
+pub(crate) use through::{combine, fit, fit_basis, fit_nodes, hermite, septic};
 
 /// Number of power-basis coefficients (degree 7).
 pub(crate) const COEFFICIENTS: usize = 8;

@@ -58,10 +58,24 @@ static FIT: LazyLock<[Polynomial; COEFFICIENTS]> = LazyLock::new(|| {
     })
 });
 
+/// [`FIT`], for tables.
+pub(crate) fn fit_basis() -> &'static [Polynomial; COEFFICIENTS] {
+    &FIT
+}
+
 /// The polynomial through samples at [`fit_nodes`].
 pub(crate) fn fit(samples: &[f64; COEFFICIENTS]) -> Polynomial {
+    combine(samples, &FIT)
+}
+
+/// The polynomial through samples, from those of a [`fit_basis`].
+#[inline(always)]
+pub(crate) fn combine(
+    samples: &[f64; COEFFICIENTS],
+    basis: &[Polynomial; COEFFICIENTS],
+) -> Polynomial {
     let mut p = [0.0; COEFFICIENTS];
-    for (sample, basis) in samples.iter().zip(&*FIT) {
+    for (sample, basis) in samples.iter().zip(basis) {
         for (c, b) in p.iter_mut().zip(basis) {
             *c += sample * b;
         }

@@ -142,6 +142,9 @@ impl Series {
         (rows, fastest): (&LevelRows, f64),
         touches: &[Touch],
     ) {
+        let known = self.touches.iter().map(|touch| touch.level);
+        // From phase to phase of a contact the levels are the same.
+        let others = !known.eq(touches.iter().map(|touch| touch.level));
         for (index, touch) in touches.iter().enumerate() {
             let level = &system.levels()[touch.level];
             let (collision, phase) = (&touch.contact.collision, touch.contact.phase);
@@ -164,11 +167,13 @@ impl Series {
             }
         }
         self.touches.truncate(touches.len());
-        self.mobility.clear();
-        for a in touches {
-            let row = &rows.levels[a.level];
-            let others = touches.iter().map(|b| row.product(&rows.levels[b.level]));
-            self.mobility.extend(others);
+        if others {
+            self.mobility.clear();
+            for a in touches {
+                let row = &rows.levels[a.level];
+                let all = touches.iter().map(|b| row.product(&rows.levels[b.level]));
+                self.mobility.extend(all);
+            }
         }
         let touches = &self.touches;
         let rate = contact_rate(&self.mobility, touches.len(), |l| match touches[l].law {

@@ -149,7 +149,7 @@ impl Driver<'_> {
         observers: &mut Observers<'_, '_>,
     ) -> Result<Left, TimeHistoryError> {
         let mut sample = first;
-        if (0..self.system.levels().len()).any(|l| self.is_rigid(l)) {
+        if self.any_rigid {
             self.leave(open, sample as f64 * self.system.ground().time_step)?;
             return Ok(Left::Within(sample, 0.0));
         }

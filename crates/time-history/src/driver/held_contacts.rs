@@ -52,6 +52,9 @@ impl Driver<'_> {
         segment: &Segment,
         tau: f64,
     ) -> Result<(), TimeHistoryError> {
+        if !self.any_rigid {
+            return Ok(());
+        }
         let mut work = std::mem::take(&mut self.held);
         let rigid = self.list_at_rest(&mut work);
         let solved = rigid == 0 || self.choose_held(&mut work, rigid, segment, tau);
@@ -169,6 +172,9 @@ impl Driver<'_> {
     /// Takes from held floors what round-off gave them of a relative velocity: forces keep
     /// their relative acceleration zero, and a sum over many steps is not zero to the last bit.
     pub(super) fn bring_to_rest(&mut self) {
+        if !self.any_rigid {
+            return;
+        }
         let n = self.dynamics.layout.dofs;
         let mut work = std::mem::take(&mut self.held);
         work.levels.clear();

@@ -190,6 +190,8 @@ struct Driver<'a> {
     quiet: Vec<f64>,
     stalled: usize,
     last_ground: Option<Grounds>,
+    /// Whether any level is rigid.
+    any_rigid: bool,
     rigid: RigidImpacts,
     held: HeldContacts,
     /// Exact contact-free motion, where the method and the buildings allow it.
@@ -243,6 +245,10 @@ impl<'a> Driver<'a> {
             quiet: vec![PROGRESS_STEP; layout.levels],
             stalled: 0,
             last_ground: None,
+            any_rigid: system
+                .levels()
+                .iter()
+                .any(|level| level.model.rigid_restitution().is_some()),
             rigid: RigidImpacts::default(),
             held: HeldContacts::default(),
             open: None,

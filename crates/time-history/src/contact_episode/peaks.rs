@@ -208,18 +208,18 @@ fn values_of_span(
         *out = add(*a, scale(ground, m.participation));
     }
     floors_at_end(constants, [&span.end.motion[0], modal], tracks);
-    let bend = |k: usize| {
-        let [a, b] = [span.start, span.end].map(|p| rows.bound(&p.motion[k]));
-        a.max(b)
-    };
+    let [.., a, j] = &span.start.motion;
+    let (bend, snap) = (rows.bound(a), rows.bound(j));
+    let [.., a, j] = &span.end.motion;
+    let (bend, snap) = (bend.max(rows.bound(a)), snap.max(rows.bound(j)));
     // What lies between can differ from the chord by this much, and half as much again for
     // safety.
-    let over = 0.1875 * length * length * bend(2);
+    let over = 0.1875 * length * length * bend;
     tracks.extend(over);
     [
         exceeds(tracks.displacement, over),
         exceeds(tracks.drift, 2.0 * over),
-        exceeds(tracks.acceleration, 0.75 * length * bend(3)),
+        exceeds(tracks.acceleration, 0.75 * length * snap),
     ]
 }
 
@@ -312,6 +312,8 @@ pub(crate) struct Rates {
     /// the end.
     ends: [[Vec<Lane>; 2]; 3],
     modal: Vec<Lane>,
+    /// One for every floor that may exceed its peak.
+    open: Vec<Lane>,
     /// Absolute accelerations of the modes at the nodes of a fit.
     nodes: [Vec<Lane>; COEFFICIENTS],
 }
@@ -325,6 +327,7 @@ impl Rates {
         Self {
             ends: std::array::from_fn(|_| [zeros(), zeros()]),
             modal: zeros(),
+            open: zeros(),
             nodes: std::array::from_fn(|_| zeros()),
         }
     }
@@ -384,8 +387,14 @@ pub(crate) fn note_floors_of_span(
             std::mem::swap(&mut track.now, &mut track.next);
             continue;
         }
+        may_exceed(
+            track,
+            &rates.ends[which],
+            (scales, MARGIN[which]),
+            &mut rates.open,
+        );
         for i in 0..rows.floors.len() {
-            if !may_exceed(track, &rates.ends[which], scales, MARGIN[which], i) {
+            if rates.open[i / WIDTH][i % WIDTH] == 0.0 {
                 continue;
             }
             let function = match which {
@@ -419,23 +428,39 @@ pub(crate) fn note_floors_of_span(
     }
 }
 
-/// Whether the hull of the cubic through both ends exceeds the peak.
+/// Of which floors the hull of the cubic through both ends exceeds the peak: ones in `open`, where
+/// zeros are not.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
 fn may_exceed(
     track: &Track,
-    rates: &[Vec<Lane>; 2],
-    scales: [f64; 2],
-    margin: f64,
-    floor: usize,
-) -> bool {
-    let (c, l) = (floor / WIDTH, floor % WIDTH);
-    let (a, b) = (track.now[c][l], track.next[c][l]);
-    let inner = [
-        a + rates[0][c][l] * scales[0] / 3.0,
-        b - rates[1][c][l] * scales[1] / 3.0,
-    ];
-    let ends = a.abs().max(b.abs());
-    let hull = inner[0].abs().max(inner[1].abs()).max(ends);
-    hull > track.peak[c][l] * (1.0 - margin) && hull > ends
+    [first, last]: &[Vec<Lane>; 2],
+    (scales, margin): ([f64; 2], f64),
+    open: &mut [Lane],
+) {
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let ends = track.now.iter().zip(&track.next).zip(&track.peak);
+    let rates = first.iter().zip(last);
+    for ((((a, b), peak), (first, last)), open) in ends.zip(rates).zip(open) {
+        lane_by_lane();
+        let mut above = Lane::ZERO;
+        for l in 0..WIDTH {
+            let (a, b) = (a[l], b[l]);
+            let inner = [
+                (a + first[l] * scales[0] / 3.0).abs(),
+                (b - last[l] * scales[1] / 3.0).abs(),
+            ];
+            let ends = larger(a.abs(), b.abs());
+            let hull = larger(larger(inner[0], inner[1]), ends);
+            let is_open = (hull > peak[l] * (1.0 - margin)) & (hull > ends);
+            above[l] = if is_open { 1.0 } else { 0.0 };
+        }
+        *open = above;
+    }
 }
 
 /// Absolute accelerations of the modes at the inner nodes of a fit.

@@ -4,7 +4,7 @@ use multiversion::multiversion;
 
 use super::rows::LevelRows;
 use super::touch::Touch;
-use crate::contact_free::{ContactFree, Lane, WIDTH};
+use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH, lane_by_lane};
 use crate::system::System;
 
 /// A closed level at one time: penetration (m) and three derivatives, force (N) and its
@@ -56,6 +56,22 @@ impl Point {
     }
 }
 
+/// The next derivative of the motion of the modes without contacts, from two derivatives, the lower
+/// one first, and that of the ground.
+#[inline(always)]
+fn differentiate(modes: &[ModeLanes], (q, p): (&[Lane], &[Lane]), ground: f64, out: &mut [Lane]) {
+    for (((out, q), p), m) in out.iter_mut().zip(q).zip(p).zip(modes) {
+        lane_by_lane();
+        let (q, p) = (*q, *p);
+        let mut next = Lane::ZERO;
+        for l in 0..WIDTH {
+            let omega = m.circular_frequency[l];
+            next[l] = -(m.damping[l] * p[l] + omega * omega * q[l]) - m.participation[l] * ground;
+        }
+        *out = next;
+    }
+}
+
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
     "x86_64+avx2",
@@ -70,13 +86,7 @@ fn derive(
     ground: (f64, f64),
 ) {
     let [q, p, a, j] = &mut point.motion;
-    for (c, m) in constants.modes.iter().enumerate() {
-        for l in 0..WIDTH {
-            let omega = m.circular_frequency[l];
-            a[c][l] =
-                -(m.damping[l] * p[c][l] + omega * omega * q[c][l]) - m.participation[l] * ground.0;
-        }
-    }
+    differentiate(&constants.modes, (q, p), ground.0, a);
     point.touches.clear();
     let mut laws = [(0.0, 0.0); 16];
     for (k, touch) in touches.iter().enumerate() {
@@ -95,13 +105,7 @@ fn derive(
             force_rate: 0.0,
         });
     }
-    for (c, m) in constants.modes.iter().enumerate() {
-        for l in 0..WIDTH {
-            let omega = m.circular_frequency[l];
-            j[c][l] =
-                -(m.damping[l] * a[c][l] + omega * omega * p[c][l]) - m.participation[l] * ground.1;
-        }
-    }
+    differentiate(&constants.modes, (p, a), ground.1, j);
     for (k, touch) in touches.iter().enumerate() {
         let row = &rows.levels[touch.level];
         let now = &mut point.touches[k];

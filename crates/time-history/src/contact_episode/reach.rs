@@ -78,7 +78,7 @@ impl Pair {
             Some(k) => self.end.touches[k].motion,
             None => {
                 let row = &scene.rows.levels[level];
-                let mut motion: [f64; 4] = std::array::from_fn(|k| row.dot(&self.end.motion[k]));
+                let mut motion = row.dot_motion(&self.end.motion);
                 motion[0] -= contacts.width(level);
                 motion
             }

@@ -116,9 +116,20 @@ impl ModalRow {
         dot_all(self, x, lanes, out);
     }
 
+    /// Its values for displacements, velocities, accelerations and jerks, with the bits of
+    /// [`ModalRow::dot`].
+    pub(crate) fn dot_motion(&self, motion: &[Vec<Lane>; 4]) -> [f64; 4] {
+        dot_motion(self, motion)
+    }
+
     /// Two values, with the bits of [`ModalRow::dot`].
     pub(crate) fn dot_two(&self, x: [&[Lane]; 2]) -> [f64; 2] {
         dot_two(self, x)
+    }
+
+    /// Three values, with the bits of [`ModalRow::dot`].
+    pub(crate) fn dot_three(&self, x: [&[Lane]; 3]) -> [f64; 3] {
+        dot_three(self, x)
     }
 
     /// Four values in the time of one, with the bits of [`ModalRow::dot`].
@@ -197,6 +208,17 @@ pub(crate) fn total(x: &Lane) -> f64 {
     quarter[0] + quarter[1]
 }
 
+/// Four values of a row.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn dot_motion(row: &ModalRow, [q, p, a, j]: &[Vec<Lane>; 4]) -> [f64; 4] {
+    row.dot_four([q, p, a, j])
+}
+
 /// Two values of a row.
 #[multiversion(targets(
     "x86_64+avx512f+avx512vl+avx512dq",
@@ -206,6 +228,17 @@ pub(crate) fn total(x: &Lane) -> f64 {
 ))]
 fn dot_two(row: &ModalRow, x: [&[Lane]; 2]) -> [f64; 2] {
     x.map(|x| row.dot(x))
+}
+
+/// Three values of a row.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn dot_three(row: &ModalRow, [a, b, c]: [&[Lane]; 3]) -> [f64; 3] {
+    [row.dot(a), row.dot(b), row.dot(c)]
 }
 
 /// Values of a row for displacements that stand one after another.

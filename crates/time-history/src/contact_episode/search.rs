@@ -352,9 +352,10 @@ pub(crate) fn in_span(
             }
         } else {
             let row = &scene.rows.levels[l];
-            let after = row.dot(&span.end.motion[0]) - contacts.width(l);
-            let speed = [span.start, span.end].map(|p| row.dot(&p.motion[1]).abs());
-            if penetration[l].max(after) + length * speed[0].max(speed[1]) > 0.0 {
+            let [q, p, ..] = &span.end.motion;
+            let [closing, from, to] = row.dot_three([q, &span.start.motion[1], p]);
+            let after = closing - contacts.width(l);
+            if penetration[l].max(after) + length * from.abs().max(to.abs()) > 0.0 {
                 let (a, b) = span.row(row, contacts.width(l));
                 let closes = near(&span.displacement(a, b));
                 keep(&mut first, closes, (l, EventKind::Close), &muted);

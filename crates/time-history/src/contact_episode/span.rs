@@ -39,12 +39,10 @@ impl Span<'_> {
 
     /// A row of the motion at both ends, less `width`.
     pub(crate) fn row(&self, row: &ModalRow, width: f64) -> ([f64; 4], [f64; 4]) {
-        let at = |point: &Point| {
-            let mut motion: [f64; 4] = std::array::from_fn(|k| row.dot(&point.motion[k]));
-            motion[0] -= width;
-            motion
-        };
-        (at(self.start), at(self.end))
+        let [mut start, mut end] = [self.start, self.end].map(|p| row.dot_motion(&p.motion));
+        start[0] -= width;
+        end[0] -= width;
+        (start, end)
     }
 
     /// A closed level at both ends.

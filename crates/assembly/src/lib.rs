@@ -30,6 +30,7 @@ mod dimension;
 mod error;
 mod excitation;
 mod number_file;
+mod schema;
 mod used_parameters;
 
 pub use assemble::{
@@ -43,4 +44,5 @@ pub use excitation::{
     RecordFiles, further_record, process_record, read_record, read_target, scale_record,
     scale_target,
 };
+pub use schema::case_schema;
 pub use used_parameters::{UsedParameter, UsedParameters};

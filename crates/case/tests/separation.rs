@@ -233,7 +233,7 @@ fn mistakes_are_placed() {
             "same_owner = true",
             "fortification_intensity = 10",
             22,
-            "6, 7, 8 or 9",
+            "from 6 to 9",
         ),
         (
             "[\"asce_7_10_between\"]",

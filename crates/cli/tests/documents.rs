@@ -348,6 +348,38 @@ fn fits(value: &Value, schema: &Value) -> bool {
         }
 }
 
+/// Editors complete methods, impact models and laws of a case: all of each stand in its schema, and a method that is
+/// none does not fit.
+#[test]
+fn the_schema_of_a_case_has_its_words() {
+    let schema = printed(pounding().args(["schema", "case"]), "case");
+    let schema: Value = serde_json::from_str(&schema).unwrap();
+    let words = |path: &str, keyword: &str| -> BTreeSet<String> {
+        let list = schema.pointer(path).and_then(|of| of.get(keyword));
+        let list = list.and_then(Value::as_array);
+        let list = list.unwrap_or_else(|| panic!("{path} has no {keyword}"));
+        list.iter()
+            .map(|w| w.as_str().unwrap().to_owned())
+            .collect()
+    };
+    let law = "/properties/building/items/properties/law/anyOf";
+    let methods = words("/properties/analysis/properties/method", "enum");
+    assert!(methods.contains("event_driven") && methods.len() == 6);
+    let models = words("/properties/gap/items/properties/model", "examples");
+    let registered = pounding_gap_element::registry::descriptors();
+    assert_eq!(models.len(), registered.len());
+    let of_links = words("/properties/link/items/properties/model", "examples");
+    assert_eq!(
+        of_links.len(),
+        pounding_hysteresis::registry::descriptors().len()
+    );
+    for form in ["0", "1/items"] {
+        let of_storeys = words(&format!("{law}/{form}/properties/model"), "examples");
+        assert!(of_storeys.contains("bouc_wen") && !of_storeys.contains("gap_hook"));
+        assert!(of_storeys.is_subset(&of_links));
+    }
+}
+
 /// The cases and studies of the examples fit the schemas; with a key misspelt they do not.
 #[test]
 fn the_examples_fit_the_schemas() {

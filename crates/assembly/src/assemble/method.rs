@@ -15,6 +15,11 @@ const METHODS: [(&str, &[&str]); 6] = [
     ("moreau_jean", &["step", "theta"]),
 ];
 
+/// Names of the methods.
+pub(crate) fn method_names() -> impl Iterator<Item = &'static str> {
+    METHODS.iter().map(|(name, _)| *name)
+}
+
 pub(super) fn options(case: &Case) -> Result<RunOptions, CaseError> {
     let analysis = &case.analysis;
     let step = || {

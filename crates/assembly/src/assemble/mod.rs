@@ -13,6 +13,7 @@ mod plan;
 
 pub use again::{assemble_with_record, assemble_without_gaps, regap};
 pub use laws::{parameters_of_link, parameters_of_storeys};
+pub(crate) use method::method_names;
 pub use method::methods_that_take;
 pub use motions::nothing_to_move_across;
 

@@ -33,7 +33,7 @@ pub(super) struct SeparationTable {
     /// Whether no property line lies in the gaps
     same_owner: Optional<bool>,
     /// Fortification intensity of the Chinese code, 6 to 9
-    fortification_intensity: Optional<Count<1>>,
+    fortification_intensity: Optional<Count<6, 9>>,
     /// Zone of Mexico City: I, II or III
     soil_zone: Optional<String>,
     /// a_g S of Eurocode 8 and NTC, Z S g of E.030 of 2026 (m/s2)
@@ -101,13 +101,7 @@ impl SeparationTable {
             let message = "`ductility` lies between 1, which is elastic, and 1000";
             reader.refuse::<()>(span, message, "correct the value, such as ductility = 4");
         }
-        let intensity_at = self.fortification_intensity.span();
         let fortification_intensity = self.fortification_intensity.value().map(|c| c.0);
-        let unknown = fortification_intensity.is_some_and(|i| !(6..=9).contains(&i));
-        if let (Some(span), true) = (intensity_at, unknown) {
-            let message = "`fortification_intensity` is 6, 7, 8 or 9";
-            reader.refuse::<()>(span, message, "correct the value, such as 8");
-        }
         let provisions = self.provisions.value().map(|names| names.into_list());
         for (place, name) in provisions.iter().flatten().enumerate() {
             let before = provisions.iter().flatten().take(place);

@@ -71,7 +71,7 @@ pub fn dispatch(command: Command, files: FileUse) -> Result<(), Failure> {
             report::report(&asked, ida::page_of_result, read_in_this_process, files)
         }
         Command::Schema { file } => print(&pretty(&match file {
-            SchemaOf::Case => pounding_case::schema(),
+            SchemaOf::Case => pounding_assembly::case_schema(),
             SchemaOf::Study => pounding_study::study_schema(),
             SchemaOf::Hazard => pounding_study::hazard_schema(),
         })?),

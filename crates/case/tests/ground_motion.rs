@@ -312,7 +312,12 @@ const WRONG: &[(&str, usize, &str)] = &[
     (
         "process = [{ filter = { low_pass = 5, order = 0 } }]",
         47,
-        "whole number from 1",
+        "`order` must be a whole number from 1 to 12 correct",
+    ),
+    (
+        "process = [{ filter = { low_pass = 5, order = 13 } }]",
+        47,
+        "`order` must be a whole number from 1 to 12 correct",
     ),
     (
         "process = [{ filter = { low_pass = 5, phase = \"minimum\" } }]",
@@ -480,4 +485,29 @@ fn schema_of_the_record() {
         keys["scale"]["anyOf"][1]["oneOf"].as_array().unwrap().len(),
         6
     );
+}
+
+/// The schema bounds the order of a filter as the filter itself does.
+#[test]
+fn the_schema_knows_the_largest_order_of_a_filter() {
+    fn orders(value: &serde_json::Value, found: &mut Vec<serde_json::Value>) {
+        let keys = &value["properties"];
+        if keys["high_pass"].is_object() {
+            found.push(keys["order"].clone());
+        }
+        match value {
+            serde_json::Value::Object(map) => map.values().for_each(|v| orders(v, found)),
+            serde_json::Value::Array(list) => list.iter().for_each(|v| orders(v, found)),
+            _ => {}
+        }
+    }
+    let mut found = Vec::new();
+    orders(&schema(), &mut found);
+    assert!(!found.is_empty());
+    for order in found {
+        assert!(
+            order.to_string().contains("\"maximum\":12,\"minimum\":1"),
+            "{order}"
+        );
+    }
 }

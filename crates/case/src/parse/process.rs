@@ -97,8 +97,8 @@ struct FilterTable {
     high_pass: Option<Positive<Cycles>>,
     /// Low-pass (high-cut) corner (Hz)
     low_pass: Option<Positive<Cycles>>,
-    /// Order of each pass and side, by default 4
-    order: Option<Count<1>>,
+    /// Order of each pass and side, 1 to 12, by default 4
+    order: Option<Count<1, { Butterworth::LARGEST_ORDER }>>,
     /// zero (default: forward and backward) or causal (forward)
     phase: Option<PhaseWord>,
     /// Zero phase: whether the zeros put at both ends stay, by default true

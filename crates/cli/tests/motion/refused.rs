@@ -90,6 +90,13 @@ fn bad_input() {
         "phase=zero",
         &["`high_pass`, `low_pass` or both"],
     );
+    for order in ["0", "13"] {
+        process(
+            "--filter",
+            &format!("high_pass=1 Hz, order={order}"),
+            &["--filter", "`order` must be a whole number from 1 to 12"],
+        );
+    }
     process("--scale", "-1", &["greater than zero"]);
     process(
         "--scale",

@@ -94,6 +94,9 @@ fn sections(order: usize, corner: f64, time_step: f64, side: Side) -> Vec<Sectio
 }
 
 impl Butterworth {
+    /// Largest order that is taken: beyond it a corner is sharper than any record needs.
+    pub const LARGEST_ORDER: usize = 12;
+
     /// Zero-phase, order 4, the customary choice.
     #[must_use]
     pub fn zero_phase(high_pass: Option<f64>, low_pass: Option<f64>) -> Self {
@@ -106,7 +109,13 @@ impl Butterworth {
     }
 
     fn check(&self, record: &Accelerogram) -> Result<(), GroundMotionError> {
-        within(STEP, "order", self.order as f64, 1.0, 12.0)?;
+        within(
+            STEP,
+            "order",
+            self.order as f64,
+            1.0,
+            Self::LARGEST_ORDER as f64,
+        )?;
         let nyquist = 0.5 / record.time_step();
         // A corner below a thousandth of 1/duration would make pads of hours.
         let least = 1.0e-3 / record.duration();

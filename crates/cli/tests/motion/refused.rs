@@ -414,6 +414,10 @@ fn records_too_short_for_a_smoothed_spectrum() {
     let folder = Folder::new();
     let file = folder.name("short.csv");
     std::fs::write(&file, "time_s,acceleration_g\n0,0.1\n0.01,-0.1\n").unwrap();
-    let told = ["the record of 2 samples is too short", "--unsmoothed"];
+    let told = [
+        "the record of 2 samples is too short",
+        "start at 50 Hz, one over the number of samples times the step of 0.01 s",
+        "--unsmoothed",
+    ];
     refused(2, &["spectrum", &file, "--fourier"], &told);
 }

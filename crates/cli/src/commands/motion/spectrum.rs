@@ -243,9 +243,10 @@ fn fourier(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure
         if !is_chosen && first >= FREQUENCIES.1.min(highest) {
             return Err(Failure::input(
                 format!(
-                    "the record of {} is too short for a smoothed spectrum: its frequencies start at {} Hz, one over its duration",
+                    "the record of {} is too short for a smoothed spectrum: its frequencies start at {} Hz, one over the number of samples times the step of {} s",
                     counted(record.samples().len(), "sample"),
-                    six_digits(first)
+                    six_digits(first),
+                    six_digits(record.time_step())
                 ),
                 Some("put zeros behind it, `pounding motion process FILE --pad \"after=10 s\" -o FILE.csv`, or give --unsmoothed".to_owned()),
             ));

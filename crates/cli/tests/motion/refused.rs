@@ -333,6 +333,25 @@ fn conversions_use_every_option() {
         let wanted = [option[0], "a velocity is written as it is"];
         refused(2, &[&velocity[..], option].concat(), &wanted);
     }
+    // The unit was dropped, and the velocity written in m/s.
+    let columns = velocity.map(|word| {
+        if word == "peer_at2" {
+            "plain_columns"
+        } else {
+            word
+        }
+    });
+    text(&columns);
+    for unit in ["g", "cm/s"] {
+        refused(
+            2,
+            &[&columns[..], &["--output-unit", unit]].concat(),
+            &[
+                "--output-unit is of accelerations, and a velocity is written in m/s",
+                "leave it out, or convert the acceleration",
+            ],
+        );
+    }
 }
 
 /// The remedy does not lead into the next error.

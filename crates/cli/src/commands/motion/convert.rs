@@ -56,17 +56,28 @@ pub fn convert(arguments: &ConvertArguments) -> Result<(), Failure> {
     } else {
         Written::of_series(&series)?
     };
-    let unit = arguments
-        .output_unit
-        .as_deref()
-        .map(str::parse::<AccelerationUnit>)
-        .transpose()?;
-    if unit.is_some() && arguments.to != Layout::PlainColumns {
+    if arguments.output_unit.is_some() && arguments.to != Layout::PlainColumns {
         return Err(Failure::input(
             "--output-unit is of plain columns: the other formats have a unit of their own",
             Some("add --to plain_columns, or leave --output-unit out".to_owned()),
         ));
     }
+    // Before the unit is read, as those of velocities are none that it could be.
+    if arguments.output_unit.is_some() && written.quantity != Quantity::Acceleration {
+        return Err(Failure::input(
+            format!(
+                "--output-unit is of accelerations, and a {} is written in {}",
+                written.quantity,
+                written.quantity.si_symbol()
+            ),
+            Some("leave it out, or convert the acceleration".to_owned()),
+        ));
+    }
+    let unit = arguments
+        .output_unit
+        .as_deref()
+        .map(str::parse::<AccelerationUnit>)
+        .transpose()?;
     if arguments.columns.is_some() && arguments.to != Layout::PlainColumns {
         return Err(Failure::input(
             "--columns is of plain columns: the other formats have columns of their own",

@@ -33,6 +33,6 @@ pub enum Evaluation {
     PiecewiseLinear,
     /// At samples alone, integrals by the trapezoid rule, as most programs and
     /// agencies do: peaks of oscillators whose period is a few time steps come out
-    /// low.
+    /// low. Displacements of the ground stay those of the linear acceleration.
     AtSamples,
 }

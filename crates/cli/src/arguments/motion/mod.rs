@@ -97,7 +97,7 @@ pub struct InfoArguments {
     /// Damping ratio of spectral measures
     #[arg(long, default_value = "5 %", allow_hyphen_values = true)]
     pub damping: String,
-    /// Take peaks and integrals at samples alone, as many agencies do
+    /// Take peaks at samples alone, and integrals but displacements by the trapezoid rule, as many agencies do
     #[arg(long)]
     pub at_samples: bool,
     /// Write a row of measures for each series into this CSV file, in SI units

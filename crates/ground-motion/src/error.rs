@@ -221,7 +221,8 @@ pub enum GroundMotionError {
     },
     /// A spectrum that was not reached.
     #[error(
-        "the spectrum is off by {worst:.4} of the target at {period:.4} s after {iterations} iterations, more than {tolerance}"
+        "the spectrum is off by {worst:.4} of the target at {period:.4} s after {iterations} iterations, more than {tolerance}{}",
+        at_a_standstill(*.stalled)
     )]
     NotMatched {
         /// Maximum deviation as a part of the target.
@@ -232,6 +233,8 @@ pub enum GroundMotionError {
         iterations: usize,
         /// Iterations after which it was nearest.
         best_at: usize,
+        /// Whether the method ended by itself: no change that it has brings the motion nearer.
+        stalled: bool,
         /// Deviation asked for.
         tolerance: f64,
     },
@@ -241,6 +244,14 @@ pub enum GroundMotionError {
     /// Values that no accelerogram can have.
     #[error("the accelerogram is not usable: {0}")]
     Invalid(String),
+}
+
+/// What is said of a method that ended before its iterations did.
+fn at_a_standstill(stalled: bool) -> &'static str {
+    match stalled {
+        true => "; the method has stalled: no change that it makes brings the motion nearer",
+        false => "",
+    }
 }
 
 /// `:7` for line 7.
@@ -344,10 +355,10 @@ impl GroundMotionError {
                 "use the components of one recording, resampled to one time step".to_owned()
             }
             Self::NotPossible { remedy, .. } => (*remedy).to_owned(),
-            Self::NotMatched { iterations, best_at, .. } => {
+            Self::NotMatched { iterations, best_at, stalled, .. } => {
                 let mut remedy = "take a record whose own spectrum is nearer the target, or narrow the band".to_owned();
-                // The later half brought nothing: nor would another one.
-                if best_at * 2 >= *iterations {
+                // The later half brought nothing: nor would another one, nor any where the method ended by itself.
+                if !stalled && best_at * 2 >= *iterations {
                     remedy += ", or allow more iterations";
                 }
                 remedy

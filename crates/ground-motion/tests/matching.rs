@@ -10,7 +10,9 @@ use pounding_ground_motion::processing::{Baseline, Butterworth, Phase, Processin
 use pounding_ground_motion::spectra::{
     Evaluation, TargetSpectrum, logarithmic_periods, response_spectrum,
 };
-use pounding_ground_motion::{Accelerogram, GroundMotionError, ReadOptions, read};
+use pounding_ground_motion::{
+    AccelerationUnit, Accelerogram, GroundMotionError, ReadOptions, read,
+};
 
 /// EN 1998-1 (2004), 3.2.2.2: type 1, ground B, ag = 2 m/s2: S = 1.2, TB = 0.15 s,
 /// TC = 0.5 s, TD = 2 s.
@@ -214,4 +216,43 @@ fn what_cannot_be_matched() {
         assert!(match_by_wavelets(&seed, &target, bad).is_err());
         assert!(match_by_fourier_amplitudes(&seed, &target, bad).is_err());
     }
+}
+
+/// A constant acceleration of two seconds: iterations bring nothing more with any periods, and more of them would bring
+/// nothing either, however late the best one was.
+#[test]
+fn a_method_that_stalls_says_so() {
+    let target = target();
+    let unit = AccelerationUnit::MetrePerSecondSquared;
+    let ground = Accelerogram::new(vec![1.0; 100], unit, 0.02).unwrap();
+    let with = |iterations| {
+        let options = MatchOptions {
+            periods: 10,
+            tolerance: 1.0e-3,
+            iterations,
+            ..MatchOptions::band(0.1, 0.5)
+        };
+        match_by_wavelets(&ground, &target, options).unwrap_err()
+    };
+    let error = with(150);
+    let GroundMotionError::NotMatched {
+        iterations,
+        best_at,
+        stalled,
+        ..
+    } = error
+    else {
+        panic!("{error}")
+    };
+    assert!(stalled && iterations < 150, "{error}");
+    // Where that many iterations had been allowed, more of them would have been the remedy.
+    assert!(2 * best_at >= iterations, "{error}");
+    assert!(error.to_string().contains("the method has stalled"));
+    let help = error.help().unwrap();
+    assert!(!help.contains("iterations"), "{help}");
+    assert_eq!(with(1000).to_string(), error.to_string());
+    // One that is cut short may bring more.
+    let cut = with(best_at);
+    assert!(!cut.to_string().contains("stalled"), "{cut}");
+    assert!(cut.help().unwrap().contains("allow more iterations"));
 }

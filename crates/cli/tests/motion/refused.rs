@@ -440,3 +440,28 @@ fn records_too_short_for_a_smoothed_spectrum() {
     ];
     refused(2, &["spectrum", &file, "--fourier"], &told);
 }
+
+/// Two seconds of a constant acceleration, of which no change brings more after ten iterations: more of them would not either.
+#[test]
+fn a_match_that_stalls_does_not_ask_for_more_iterations() {
+    let folder = Folder::new();
+    let rows: String = (0..100)
+        .map(|i| format!("{:.2},1\n", 0.02 * f64::from(i)))
+        .collect();
+    let rows = format!("time_s,acceleration_m_s2\n{rows}");
+    std::fs::write(folder.path("constant.csv"), rows).unwrap();
+    let (file, out) = (folder.name("constant.csv"), folder.name("out.csv"));
+    let code = "eurocode_8_2004, ag=0.25 g, ground_type=B";
+    let call = [
+        "match", &file, "-o", &out, "--code", code, "--from", "0.1 s", "--to", "0.5 s",
+    ];
+    let wanted = [
+        "after 10 iterations, more than 0.05; the method has stalled",
+        "help: take a record whose own spectrum is nearer the target, or narrow the band",
+    ];
+    refused(3, &call, &wanted);
+    let more = [&call[..], &["--iterations", "1000"]].concat();
+    refused(3, &more, &wanted);
+    let error = String::from_utf8(run(&more).stderr).unwrap();
+    assert!(!error.contains("allow more"), "{error}");
+}

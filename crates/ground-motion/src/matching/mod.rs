@@ -164,21 +164,26 @@ fn iterate<A: Adjustment>(
     let mut now = check(&current)?;
     let before = now.misfit;
     let mut best = (current.clone(), before, 0);
-    let mut done = 0;
+    let (mut done, mut stalled) = (0, false);
     while best.1.worst > options.tolerance && done < options.iterations {
         let next = adjustment.improve(&current, target, &periods, &now)?;
         done += 1;
-        if next == current {
-            // Nothing more to be had.
-            break;
+        let changed = next != current;
+        if changed {
+            current = next;
+            now = check(&current)?;
         }
-        current = next;
-        now = check(&current)?;
-        if now.misfit.worst < best.1.worst {
+        if changed && now.misfit.worst < best.1.worst {
             best = (current.clone(), now.misfit, done);
-        } else {
-            // What is furthest off lies between the periods, out of their reach.
-            now.add_to(&mut periods, target.damping());
+            continue;
+        }
+        // What is furthest off lies between the periods, out of their reach.
+        let known = periods.len();
+        now.add_to(&mut periods, target.damping());
+        if !changed && periods.len() == known {
+            // The same motion and periods would give the same again.
+            stalled = true;
+            break;
         }
     }
     let (mut accelerogram, misfit, best_at) = best;
@@ -188,6 +193,7 @@ fn iterate<A: Adjustment>(
             period: misfit.period,
             iterations: done,
             best_at,
+            stalled,
             tolerance: options.tolerance,
         });
     }
@@ -210,4 +216,56 @@ fn iterate<A: Adjustment>(
         misfit,
         steps,
     })
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+    use crate::unit::AccelerationUnit;
+
+    /// Changes nothing at the periods of the start, and has the whole answer at more of them.
+    struct FromMorePeriods {
+        known: usize,
+        answer: Option<Accelerogram>,
+    }
+
+    impl Adjustment for FromMorePeriods {
+        const NAME: &'static str = "matching from more periods";
+
+        fn improve(
+            &mut self,
+            record: &Accelerogram,
+            _: &TargetSpectrum,
+            periods: &[f64],
+            _: &Deviations,
+        ) -> Result<Accelerogram, GroundMotionError> {
+            let more = self.answer.clone().filter(|_| periods.len() > self.known);
+            Ok(more.unwrap_or_else(|| record.clone()))
+        }
+    }
+
+    #[test]
+    fn where_nothing_is_brought_periods_in_between_are_tried() {
+        // An impulse has accelerations that go with one over the period: they are furthest off at the dip, 0.2 s.
+        let periods = vec![0.05, 0.1, 0.2, 0.5, 1.0];
+        let target = TargetSpectrum::new(periods, vec![2.0, 1.0, 0.3, 0.2, 0.1], 0.05).unwrap();
+        let samples = (0..100).map(|i| if i == 50 { 1.0 } else { 0.0 }).collect();
+        let unit = AccelerationUnit::MetrePerSecondSquared;
+        let record = Accelerogram::new(samples, unit, 0.02).unwrap();
+        let options = MatchOptions {
+            periods: 2,
+            ..MatchOptions::band(0.1, 0.5)
+        };
+        let answer = match_by_wavelets(&record, &target, MatchOptions::band(0.1, 0.5));
+        let with = |answer| {
+            let mut adjustment = FromMorePeriods { known: 2, answer };
+            iterate(&record, &target, options, &mut adjustment)
+        };
+        let matched = with(Some(answer.unwrap().accelerogram)).unwrap();
+        assert_eq!(matched.steps[0].get("iterations"), Some(2.0));
+        let error = with(None).unwrap_err();
+        let stalled = matches!(error, GroundMotionError::NotMatched { stalled: true, .. });
+        assert!(stalled, "{error}");
+    }
 }

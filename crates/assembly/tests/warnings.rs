@@ -138,3 +138,173 @@ fn initial_motions_that_displacements_of_the_ground_leave_out_are_told() {
     assert_eq!(told("moving.csv", "again.csv"), [""; 0]);
     assert_eq!(told("still.csv", "still.csv"), [""; 0]);
 }
+
+/// Records of two stations, the second of which begins 1.5 s later, over midnight, and of columns of times that begin 1.5 s
+/// apart.
+#[test]
+fn delays_are_held_against_the_times_of_first_samples() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, head: &str, from: f64, rate: f64| {
+        let rows: String = (0..300)
+            .map(|i| {
+                let t = 0.02 * f64::from(i);
+                format!("{:.2},{:.6}\n", from + t, (rate * t).sin())
+            })
+            .collect();
+        let text = format!("{head}time_s,acceleration_m_s2\n{rows}");
+        std::fs::write(folder.path().join(name), text).unwrap();
+    };
+    write(
+        "first.csv",
+        "# Start: 2012/02/28 23:59:59.5 UTC\n",
+        0.0,
+        3.0,
+    );
+    write("second.csv", "# Start: 2012/02/29 00:00:01 UTC\n", 0.0, 5.0);
+    write("third.csv", "", 5.0, 3.0);
+    write("fourth.csv", "", 6.5, 5.0);
+    let told = |of_case: &str, first: &str, second: &str| {
+        let building = |name: &str, ground: &str| {
+            format!(
+                "[[building]]\nname = \"{name}\"\nmass = 1e5\nstoreys = 1\nheight = 3\nstiffness = 1e8\ndamping = {{ modal = 0.05 }}\n{ground}\n"
+            )
+        };
+        let (a, b) = (building("a", first), building("b", second));
+        let text = format!("{a}{b}[ground_motion]\n{of_case}\n");
+        let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+        let told = assemble(&case).unwrap().warnings();
+        let of_them = told.into_iter().filter(|w| w.contains("begin together"));
+        of_them.collect::<Vec<_>>()
+    };
+    let first = "file = \"first.csv\"";
+    let own = |file: &str, more: &str| format!("ground = {{ file = \"{file}\"{more} }}");
+    let padded = format!("{first}\nprocess = [{{ pad = {{ before = \"1 s\" }} }}]");
+    let filtered = "file = \"third.csv\"\nprocess = [{ filter = { high_pass = \"1 Hz\" } }]";
+    let after = |seconds: &str| format!(", delay = \"{seconds}\"");
+    let wave = ", distance = 60, wave_speed = 460";
+    let cut = ", process = [{ trim = { start = 0, end = 4 } }]";
+    let cut_to_second = format!("{first}\nprocess = [{{ trim = {{ start = 1.5, end = 5 }} }}]");
+    let with = |file: &str, seconds: &str| own(file, &after(seconds));
+
+    for (of_case, under_a, under_b, wanted) in [
+        (
+            first,
+            "",
+            own("second.csv", ""),
+            &[
+                "1.500 s apart; cut",
+                "give `delay = \"1.5 s\"` in `ground` of b",
+            ][..],
+        ),
+        (
+            first,
+            "",
+            with("second.csv", "1 ms"),
+            &[
+                "1.500 s apart",
+                "comes 1.499 s too early",
+                "`delay = \"1.5 s\"`",
+            ],
+        ),
+        (
+            first,
+            "",
+            with("second.csv", "1 s"),
+            &["0.5 s too early", "`delay = \"1.5 s\"`"],
+        ),
+        (
+            first,
+            "",
+            with("second.csv", "100 s"),
+            &["98.5 s too late", "`delay = \"1.5 s\"`"],
+        ),
+        (first, "", with("second.csv", "1.5 s"), &[]),
+        (first, "", with("second.csv", "1.46 s"), &[]),
+        // Zeros before the record of the case.
+        (
+            &padded,
+            "",
+            with("second.csv", "1 s"),
+            &[
+                "with what `process` moved, are 2.500 s apart",
+                "1.5 s too early",
+                "`delay = \"2.5 s\"`",
+            ],
+        ),
+        (&padded, "", with("second.csv", "2.5 s"), &[]),
+        // 3 s of zeros.
+        (filtered, "", with("fourth.csv", "4.5 s"), &[]),
+        (
+            filtered,
+            "",
+            with("fourth.csv", "3 s"),
+            &["4.500 s apart", "1.5 s too early", "`delay = \"4.5 s\"`"],
+        ),
+        (
+            "file = \"third.csv\"",
+            "",
+            with("fourth.csv", "0.2 s"),
+            &["1.3 s too early"],
+        ),
+        ("file = \"third.csv\"", "", with("fourth.csv", "1.5 s"), &[]),
+        // The record of a building begins first: the other buildings move later.
+        (
+            "file = \"second.csv\"",
+            "",
+            own("first.csv", ""),
+            &[
+                "1.500 s apart",
+                "give `ground = { delay = \"1.5 s\" }` to the buildings",
+            ],
+        ),
+        (
+            "file = \"second.csv\"",
+            "ground = { delay = 1.5 }",
+            own("first.csv", ""),
+            &[],
+        ),
+        (
+            "file = \"second.csv\"",
+            "",
+            with("first.csv", "0.5 s"),
+            &["2 s too late", "{ delay = \"2 s\" }"],
+        ),
+        (
+            "file = \"second.csv\"",
+            "ground = { delay = 1.5 }",
+            with("first.csv", "0.5 s"),
+            &["0.5 s too late", "leave `delay` of b out"],
+        ),
+        // Waves: one record under both, records that begin together, and such as are cut to do so.
+        (first, "", with("first.csv", "0.13 s"), &[]),
+        (first, "", "ground = { delay = 0.13 }".to_owned(), &[]),
+        (first, "", own("first.csv", wave), &[]),
+        (first, "", own("second.csv", wave), &[]),
+        ("file = \"third.csv\"", "", with("third.csv", "7 s"), &[]),
+        (
+            &cut_to_second,
+            "",
+            own("second.csv", &format!("{cut}{}", after("0.13 s"))),
+            &[],
+        ),
+        // Steps of the case alone put copies out of step.
+        (
+            &padded,
+            "",
+            with("first.csv", "0.13 s"),
+            &[
+                "`process` moves the start",
+                "0.87 s too early; give both the same",
+                "`delay = \"1 s\"`",
+            ],
+        ),
+        (&padded, "", with("first.csv", "1 s"), &[]),
+    ] {
+        let told = told(of_case, under_a, &under_b);
+        let about = format!("{of_case} {under_a} {under_b}: {told:?}");
+        assert_eq!(told.len(), usize::from(!wanted.is_empty()), "{about}");
+        for words in wanted {
+            assert!(told[0].contains(words), "{words}: {about}");
+        }
+    }
+}

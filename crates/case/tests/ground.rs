@@ -21,10 +21,13 @@ fn the_ground_of_a_building_is_read() {
     };
     assert_eq!(ground("ground = { delay = \"130 ms\" }").delay, 0.13);
     let wave = ground("ground = { distance = \"60 m\", wave_speed = \"500 m/s\" }");
-    assert_eq!((wave.delay, wave.motion), (0.12, None));
+    assert_eq!(
+        (wave.delay, wave.by_wave_speed, wave.motion),
+        (0.12, true, None)
+    );
     let own = ground("ground = { file = \"s.csv\", scale = 1.1, component = \"ew\", delay = 2 }");
     let motion = own.motion.unwrap();
-    assert_eq!(own.delay, 2.0);
+    assert_eq!((own.delay, own.by_wave_speed), (2.0, false));
     assert_eq!(motion.file.value, Path::new("s.csv"));
     assert_eq!(motion.component.as_deref(), Some("ew"));
     assert!(motion.scale.is_some());

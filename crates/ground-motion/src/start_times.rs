@@ -14,14 +14,20 @@ struct Printed {
 /// How far apart two printed times are (s), where both stand in one form that has hours, minutes
 /// and seconds, such as `2011/03/11 14:46:30 JST` or `20110311_144630.005`; days apart are infinite.
 pub(crate) fn apart(first: &str, second: &str) -> Option<f64> {
+    from_to(first, second).map(f64::abs)
+}
+
+/// The seconds from one printed time to another, below zero where the second is the earlier one.
+pub(crate) fn from_to(first: &str, second: &str) -> Option<f64> {
     let (first, second) = (Printed::of(first)?, Printed::of(second)?);
     if first.form != second.form {
         return None;
     }
-    let apart = (first.seconds - second.seconds).abs();
-    Some(match (first.date == second.date, apart > HALF_DAY) {
-        (true, _) => apart,
-        (false, true) => 2.0 * HALF_DAY - apart,
+    let later = second.seconds - first.seconds;
+    Some(match (first.date == second.date, later.abs() > HALF_DAY) {
+        (true, _) => later,
+        // Over midnight.
+        (false, true) => later - (2.0 * HALF_DAY).copysign(later),
         (false, false) => f64::INFINITY,
     })
 }
@@ -340,6 +346,7 @@ mod tests {
             ("14:46", "14:47", None),
             ("at 99:00:00", "at 99:00:01", None),
         ] {
+            assert_eq!(from_to(a, b).map(f64::abs), apart(a, b));
             match (apart(a, b), seconds) {
                 (Some(found), Some(seconds)) => {
                     assert!(

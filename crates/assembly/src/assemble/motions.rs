@@ -2,11 +2,11 @@
 
 use std::sync::Arc;
 
-use pounding_case::{Case, Located};
+use pounding_case::{BuildingGround, Case, Located};
 use pounding_catalogue::numbers::six_digits;
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::processing::{
-    ProcessingStep, across_one_another, is_one_series, start_together, starts_apart,
+    ProcessingStep, across_one_another, is_one_series, start_together, starts_later,
 };
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, LONGEST_DELAY, Support, System};
@@ -283,39 +283,141 @@ fn is_cut_or_padded(record: &Accelerogram) -> bool {
     record.steps().iter().any(|step| moves(&step.step))
 }
 
+/// A building on a record of its own, as its motion is moved in time.
+struct OnItsOwn<'c> {
+    name: &'c str,
+    ground: &'c BuildingGround,
+    /// Delays (s) of the buildings that the record of the case moves; none where there is no such building.
+    of_case: &'c [f64],
+}
+
 /// What is to be said of a motion that does not begin with that of the case, as both were recorded and processed.
+/// A record across the row has no building of its own, and no delay.
 fn begins_apart(
     what: &str,
     ([own, other], whose): ([(&pounding_case::GroundMotion, &Accelerogram); 2], Whose),
-    delay: f64,
+    under: Option<&OnItsOwn<'_>>,
 ) -> Option<String> {
     let known = match whose {
-        Whose::OfCase => starts_apart(own.1, other.1),
+        Whose::OfCase => starts_later(own.1, other.1),
         Whose::Another => None,
     };
+    // Whoever cuts both to the time that they have in common knows where they begin: a delay is then that of a wave.
+    if known == Some(0.0) {
+        return None;
+    }
     let moved = [own, other].map(|(motion, record)| start_moved(motion, record));
     let apart = moved[1] - moved[0];
-    let in_step = apart.abs() <= SAME_TIME || (apart + delay).abs() <= SAME_TIME;
-    match known {
-        // Whoever cuts both to the time that they have in common knows where they begin.
-        Some(0.0) => None,
-        Some(seconds) if in_step && delay == 0.0 && seconds.is_finite() => Some(format!(
-            "the record of the case and {what} do not begin together: the times of their first samples are {seconds:.3} s apart; cut both to the time that they have in common by `trim`, or give `delay`"
-        )),
-        _ if in_step => None,
-        _ => Some(match is_cut_or_padded(own.1) || is_cut_or_padded(other.1) {
-            false => format!(
-                "filters put {:.2} s of zeros before the record of the case, and {:.2} s before {what}: they do not begin together; in the filters `keep_pads = false` leaves the zeros out",
-                moved[0], moved[1]
-            ),
-            true => format!(
-                "`process` moves the start of the record of the case by {:.2} s, and {what} by {:.2} s (less than zero: earlier): they do not begin together; give both the same `pad`, `trim` and zeros of filters",
-                0.0 - moved[0],
-                0.0 - moved[1]
-            ),
-        }),
+    let delay = under.map_or(0.0, |under| under.ground.delay);
+    // Of other days nothing is known, and the time of a wave makes up for nothing.
+    let by_wave = under.is_some_and(|under| under.ground.by_wave_speed && delay != 0.0);
+    let known = known.filter(|later| later.is_finite() && !by_wave);
+    let left = match known {
+        Some(later) => Some(Left::of(later, under)?),
+        None if apart.abs() <= SAME_TIME || (apart + delay).abs() <= SAME_TIME => return None,
+        None => None,
+    };
+    let seconds = left.as_ref().map_or(String::new(), Left::seconds);
+    let remedy = left.as_ref().and_then(|left| left.delay(under));
+    let or_delay = remedy.map_or(String::new(), |remedy| format!(", or {remedy}"));
+    // What is apart by steps of the case alone is put right there.
+    if let Some(left) = &left
+        && (apart.abs() <= SAME_TIME || (left.later + apart).abs() > SAME_TIME)
+    {
+        let processed = match apart.abs() <= SAME_TIME {
+            true => "",
+            false => ", with what `process` moved,",
+        };
+        return Some(format!(
+            "the record of the case and {what} do not begin together: the times of their first samples{processed} are {:.3} s apart{seconds}; cut both to the time that they have in common by `trim`, beside which a delay is that of a wave{or_delay}",
+            left.later.abs()
+        ));
+    }
+    Some(match is_cut_or_padded(own.1) || is_cut_or_padded(other.1) {
+        false => format!(
+            "filters put {:.2} s of zeros before the record of the case, and {:.2} s before {what}: they do not begin together{seconds}; in the filters `keep_pads = false` leaves the zeros out{or_delay}",
+            moved[0], moved[1]
+        ),
+        true => format!(
+            "`process` moves the start of the record of the case by {:.2} s, and {what} by {:.2} s (less than zero: earlier): they do not begin together{seconds}; give both the same `pad`, `trim` and zeros of filters{or_delay}",
+            0.0 - moved[0],
+            0.0 - moved[1]
+        ),
+    })
+}
+
+/// What delays leave of the seconds between first samples.
+struct Left {
+    /// Seconds by which the first sample of a record is later than that of the record of the case.
+    later: f64,
+    /// Delay of the record of the case, under the building that comes nearest.
+    beside: f64,
+    /// Seconds that are left, below zero where the motion comes too late; `None` where nothing is delayed.
+    left: Option<f64>,
+}
+
+impl Left {
+    /// `None` where delays make up for them.
+    fn of(later: f64, under: Option<&OnItsOwn<'_>>) -> Option<Self> {
+        let (delay, of_case) = under.map_or((0.0, &[][..]), |u| (u.ground.delay, u.of_case));
+        if delay == 0.0 && of_case.iter().all(|beside| *beside == 0.0) {
+            return Some(Self {
+                later,
+                beside: 0.0,
+                left: None,
+            });
+        }
+        // A delay of the record of the case may be that of a wave, too.
+        let beside = of_case.iter().copied().chain([0.0]);
+        let left = |beside: f64| later + beside - delay;
+        let nearest = beside.min_by(|a, b| left(*a).abs().total_cmp(&left(*b).abs()))?;
+        // Records that begin together for people may have any delay.
+        let made_up = later.abs() <= SAME_TIME || left(nearest).abs() <= SAME_TIME;
+        (!made_up).then_some(Self {
+            later,
+            beside: nearest,
+            left: Some(left(nearest)),
+        })
+    }
+
+    fn seconds(&self) -> String {
+        let Some(left) = self.left else {
+            return String::new();
+        };
+        let how = if left > 0.0 { "early" } else { "late" };
+        format!(
+            ", and with the delays that are given the second one comes {} s too {how}",
+            six_digits(left.abs())
+        )
+    }
+
+    /// The delay that makes up for what is left.
+    fn delay(&self, under: Option<&OnItsOwn<'_>>) -> Option<String> {
+        let under = under?;
+        let name = under.name;
+        let wanted = self.later + self.beside;
+        if wanted > ROUND_OFF {
+            return Some(format!(
+                "give `delay = \"{} s\"` in `ground` of {name}",
+                six_digits(wanted)
+            ));
+        }
+        if wanted >= -ROUND_OFF {
+            return Some(format!("leave `delay` of {name} out"));
+        }
+        // A motion cannot come sooner: the others come later.
+        let of_others = under.ground.delay - self.later;
+        (!under.of_case.is_empty()).then(|| {
+            format!(
+                "give `ground = {{ delay = \"{} s\" }}` to the buildings that the record of the case moves",
+                six_digits(of_others)
+            )
+        })
     }
 }
+
+/// Seconds that are round-off of times.
+const ROUND_OFF: f64 = 1.0e-6;
 
 /// Motions and forces that are not in step with one another, as they were recorded or since they were processed, in
 /// words.
@@ -326,19 +428,34 @@ fn out_of_step(
 ) -> Vec<String> {
     let mut told = Vec::new();
     let own = (&case.ground_motion, along);
+    let delays = case
+        .buildings
+        .iter()
+        .map(|building| match &building.ground {
+            None => Some(0.0),
+            Some(ground) if ground.value.motion.is_none() => Some(ground.value.delay),
+            Some(_) => None,
+        });
+    let of_case: Vec<f64> = delays.flatten().collect();
     for (building, record) in &further.own {
         let building = &case.buildings[*building];
         if let Some(ground) = &building.ground
             && let Some(motion) = &ground.value.motion
         {
-            let what = format!("that of {}", building.name.value);
+            let name = &building.name.value;
             let pair = [own, (motion, record)];
-            told.extend(begins_apart(&what, (pair, whose), ground.value.delay));
+            let under = OnItsOwn {
+                name,
+                ground: &ground.value,
+                of_case: &of_case,
+            };
+            let what = format!("that of {name}");
+            told.extend(begins_apart(&what, (pair, whose), Some(&under)));
         }
     }
     if let (Some(across), Some(record)) = (&case.ground_motion.across, &further.across) {
         let pair = [own, (&*across.value, record)];
-        told.extend(begins_apart("that across the row", (pair, whose), 0.0));
+        told.extend(begins_apart("that across the row", (pair, whose), None));
         if whose == Whose::OfCase && is_one_series(along, record) {
             told.push(
                 "the record along the row and that across it are one series of one file: the ground moves along one line between both directions; the other horizontal component of the record is chosen by `component` if it is in the same file"

@@ -131,6 +131,7 @@ impl GroundTable {
                 "leave one of them out",
             );
         }
+        let by_wave_speed = by_wave.is_some();
         let delay = match by_wave {
             Some((distance, speed)) => distance / speed,
             None if self.delay.is_some() => self.delay.number()?,
@@ -156,6 +157,7 @@ impl GroundTable {
             }
             return Some(BuildingGround {
                 delay,
+                by_wave_speed,
                 motion: None,
             });
         };
@@ -173,6 +175,7 @@ impl GroundTable {
         };
         Some(BuildingGround {
             delay,
+            by_wave_speed,
             motion: Some(table.read(reader)),
         })
     }
@@ -333,6 +336,7 @@ fn across(
         BuildingGround {
             delay: 0.0,
             motion: Some(motion),
+            ..
         } => Some(Located {
             value: Box::new(motion),
             span,

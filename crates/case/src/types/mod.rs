@@ -226,6 +226,8 @@ pub struct Frame {
 pub struct BuildingGround {
     /// Time (s) by which it is later.
     pub delay: f64,
+    /// Whether the delay is that of waves over a distance.
+    pub by_wave_speed: bool,
     /// A record of its own; `None` is that of the case.
     pub motion: Option<GroundMotion>,
 }

@@ -121,8 +121,8 @@ fn ends_together(
 
 /// What is known of the times of the first samples of two components.
 struct Starts {
-    /// How far apart they are (s); days are infinite.
-    apart: f64,
+    /// Seconds from the first to the second, below zero where the second is earlier; days are infinite.
+    later: f64,
     /// The times as they are printed, and what to do about those of two times.
     shown: [String; 2],
     remedy: &'static str,
@@ -132,9 +132,9 @@ impl Starts {
     /// By the printed dates and times, else by the columns of times.
     fn of(first: &Accelerogram, second: &Accelerogram) -> Option<Self> {
         let (a, b) = (first.origin()?, second.origin()?);
-        if let Some(apart) = start_times::apart(&a.start_time, &b.start_time) {
+        if let Some(later) = start_times::from_to(&a.start_time, &b.start_time) {
             return Some(Self {
-                apart,
+                later,
                 shown: [a.start_time.clone(), b.start_time.clone()],
                 remedy: CUT_BOTH,
             });
@@ -142,7 +142,7 @@ impl Starts {
         let (a, b) = (a.first_time?, b.first_time?);
         let shown = |time: f64| format!("{} s of their times", bound(time));
         Some(Self {
-            apart: (a - b).abs(),
+            later: b - a,
             shown: [shown(a), shown(b)],
             remedy: CUT_OR_COUNT_ANEW,
         })
@@ -153,10 +153,17 @@ impl Starts {
 /// records of different days are infinitely far apart. Half a time step is nothing.
 #[must_use]
 pub fn starts_apart(first: &Accelerogram, second: &Accelerogram) -> Option<f64> {
+    starts_later(first, second).map(f64::abs)
+}
+
+/// By how much (s) the first sample of the second record is later than that of the first, below zero where it is
+/// earlier; otherwise as [`starts_apart`].
+#[must_use]
+pub fn starts_later(first: &Accelerogram, second: &Accelerogram) -> Option<f64> {
     // A millionth: half a step is none, whatever the round-off of the times.
     let most = 0.5 * first.time_step() * (1.0 + 1.0e-6);
-    let apart = Starts::of(first, second)?.apart;
-    Some(if apart > most { apart } else { 0.0 })
+    let later = Starts::of(first, second)?.later;
+    Some(if later.abs() > most { later } else { 0.0 })
 }
 
 /// Refuses components with first samples at different times, as those of instruments

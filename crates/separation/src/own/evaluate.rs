@@ -54,7 +54,7 @@ pub(super) fn width(
     };
     let width = evaluation.number(&rule.expression)?;
     // Differences of equal lengths leave round-off.
-    if width < 0.0 && width >= -ROUND_OFF {
+    if (-ROUND_OFF..0.0).contains(&width) {
         return Ok(0.0);
     }
     if width < 0.0 {

@@ -73,11 +73,24 @@ pub fn fixed(value: f64, decimals: usize) -> String {
 /// than a millionth of their last is round-off.
 #[must_use]
 pub fn rounded_up(value: f64, decimals: usize) -> String {
+    fixed(up(value, decimals), decimals)
+}
+
+/// What is missing of a width that is asked for, with this many decimals, where `rounded_up` shows the width with as
+/// many: together with what is provided, as `provided` shows it, no less than the width that is shown.
+#[must_use]
+pub fn missing(required: f64, provided: &str, decimals: usize) -> String {
+    let provided: f64 = provided.parse().unwrap_or(0.0);
+    rounded_up(up(required, decimals) - provided, decimals)
+}
+
+/// The least number of so many decimals that suffices; itself where there is none.
+fn up(value: f64, decimals: usize) -> f64 {
     let scale = libm::pow(10.0, decimals as f64);
     let up = (value * scale - 1.0e-6).ceil() / scale;
     match up.is_finite() {
-        true => fixed(up, decimals),
-        false => fixed(value, decimals),
+        true => up,
+        false => value,
     }
 }
 
@@ -165,6 +178,19 @@ mod tests {
             (1234.1, 0, "1235"),
         ] {
             assert_eq!(rounded_up(value, decimals), text);
+        }
+    }
+
+    /// 10.0 mm and 150.11 mm are less than the 160.12 mm that are shown of 160.11287 mm.
+    #[test]
+    fn what_is_provided_and_what_is_missing_suffice() {
+        for (required, provided, text) in [
+            (160.112_87, "10.0", "150.12"),
+            (160.113, "10.119", "150.01"),
+            (160.12, "10.0", "150.12"),
+            (117.208_067, "116.125", "1.09"),
+        ] {
+            assert_eq!(missing(required, provided, 2), text);
         }
     }
 

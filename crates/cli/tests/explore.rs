@@ -476,8 +476,8 @@ fn page_shows_the_governing_level() {
     assert_eq!(told[0], json!(["Gap demand at level 2-2", "91.82 mm"]));
     assert_eq!(told[1], json!(["Provided width at level 2-2", "100 mm"]));
     let rows = json!([
-        ["1-1", "60", "49.45", "0"],
-        ["2-2", "100", "91.81", "0"],
+        ["1-1", "60", "49.46", "0"],
+        ["2-2", "100", "91.82", "0"],
         ["3-3", "130", "117.2", "0"],
     ]);
     assert_eq!(told[2], rows);

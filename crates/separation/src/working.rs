@@ -1,5 +1,7 @@
 //! The working of a provision: every factor with its number.
 
+use pounding_catalogue::numbers::rounded_up;
+
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::remedy;
@@ -59,10 +61,10 @@ impl Requirement {
         let (first, rest) = self.readings.split_first()?;
         let rest = rest
             .iter()
-            .map(|r| format!("{:.1} mm by {}", r.width * 1e3, r.text));
+            .map(|r| format!("{} mm by {}", rounded_up(r.width * 1e3, 1), r.text));
         Some(format!(
-            "the texts differ: {:.1} mm by {}, {}; none is chosen",
-            first.width * 1e3,
+            "the texts differ: {} mm by {}, {}; none is chosen",
+            rounded_up(first.width * 1e3, 1),
             first.text,
             rest.collect::<Vec<_>>().join(", ")
         ))
@@ -117,7 +119,8 @@ impl Working {
         }
         width = unsigned_zero(width);
         let factors: Vec<String> = self.factors.iter().map(shown).collect();
-        let mut explanation = format!("{formula}; {}; {:.1} mm", factors.join(", "), width * 1e3);
+        let asked = rounded_up(width * 1e3, 1);
+        let mut explanation = format!("{formula}; {}; {asked} mm", factors.join(", "));
         if let Some(caution) = &caution {
             explanation.push_str(&format!("; not valid: {caution}"));
         }

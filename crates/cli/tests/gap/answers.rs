@@ -174,7 +174,7 @@ fn wide_enough_is_exit_code_zero() {
 #[test]
 fn the_level_of_the_least_margin_governs() {
     for (widths, level, verdict, left) in [
-        ([40, 95, 130], 1, "TOO SMALL", "9.45 mm short"),
+        ([40, 95, 130], 1, "TOO SMALL", "9.46 mm short"),
         ([50, 95, 118], 1, "WIDE ENOUGH", "0.55 mm left"),
         ([60, 92, 118], 2, "WIDE ENOUGH", "0.19 mm left"),
     ] {
@@ -320,4 +320,78 @@ fn rules_are_judged_level_by_level() {
         .unwrap();
     let impacts = &json(&run)["gaps"][0]["levels"][0]["impacts"];
     assert!(impacts.as_u64().unwrap() > 0, "{impacts}");
+}
+
+/// The demand of 160.11287 mm is one number wherever it is asked for: rounded up to the digits that are shown, and with
+/// what is short of it no less when both are added.
+#[test]
+fn a_required_gap_is_rounded_up_everywhere() {
+    let case = r#"
+[[building]]
+name = "a"
+storeys = 2
+mass = "50 t"
+stiffness = "30 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+law = { model = "bilinear", yield_force = "200 kN", hardening_ratio = 0.05 }
+[[building]]
+name = "b"
+storeys = 3
+mass = "80 t"
+stiffness = "200 MN/m"
+height = "3 m"
+damping = { ratio = 0.05, modes = [1, 2] }
+[[gap]]
+between = ["a", "b"]
+width = ["5 mm", "10 mm"]
+model = "anagnostopoulos_2004"
+stiffness = "93.5 MN/m"
+restitution = 0.65
+[ground_motion]
+file = "kobe.csv"
+[analysis]
+duration = "12 s"
+"#;
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("case.toml"), case).unwrap();
+    let record = root().join("ground_motions/kobe_1995_jma_ns.csv");
+    std::fs::copy(record, folder.path().join("kobe.csv")).unwrap();
+    let shown = gap_in(
+        folder.path(),
+        &["--points", "3", "--report", "page.html", "--plot", "w.svg"],
+    );
+    let shown = text(&shown.stdout);
+    let found = json(&gap_in(folder.path(), &["--points", "0", "--json"]));
+    let required = &found["gaps"][0]["required"]["by_count"];
+    close(required, 0.160_112_87, 1e-6);
+    for said in [
+        "required 160.12 mm (the demand of kobe), provided 10.0 mm, 150.12 mm short",
+        "would have to be 160.12 mm by count",
+    ] {
+        assert!(shown.contains(said), "{said}: {shown}");
+    }
+    let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
+    let picture = std::fs::read_to_string(folder.path().join("w.svg")).unwrap();
+    for drawn in [&page, &picture] {
+        assert!(
+            drawn.contains("required by the records 160.2 mm"),
+            "{drawn}"
+        );
+    }
+    assert!(page.contains("value=\"160.2\">160.2</data> mm are required there"));
+    // What a rule asks for suffices as it is shown, too: by the absolute sum, in the table and on the page.
+    let sum = &named(&found["gaps"][0]["combinations"], "rule", "absolute_sum")["width"];
+    let widths = sum[0].as_array().unwrap().iter();
+    let most = widths
+        .map(|w| 1e3 * w.as_f64().unwrap())
+        .fold(0.0, f64::max);
+    let up = format!("{:.1}", (10.0 * most).ceil() / 10.0);
+    assert!(
+        shown.contains(&format!("the widest is {up} mm by absolute_sum")),
+        "{most}: {shown}"
+    );
+    let row = page.split(">absolute_sum</th>").nth(1).unwrap();
+    let row = row.split("</tr>").next().unwrap();
+    assert!(row.contains(&format!("<td>{up}</td>")), "{most}: {row}");
 }

@@ -67,7 +67,7 @@ const resultsOf = (documentation) => {
         "tr",
         {},
         html("th", { scope: "row" }, run.levels[index][i]),
-        ...[shown(1e3 * level.width), shown(1e3 * (run.demand[index][i].peak ?? NaN)), String(level.impacts)].map((text) => html("td", {}, text)),
+        ...[shown(1e3 * level.width), shownAtLeast(1e3 * (run.demand[index][i].peak ?? NaN)), String(level.impacts)].map((text) => html("td", {}, text)),
       ),
     );
     const table = html("table", {}, html("thead", {}, html("tr", {}, ...head)), html("tbody", {}, ...rows));

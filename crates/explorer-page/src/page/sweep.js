@@ -3,7 +3,7 @@
 // for each model beside it. Widths grow from right to left of what is known: the curve is drawn as
 // it comes.
 const sweepOf = (state, background, dashes, actions) => {
-  const { part, html, svg, shown, clean, ticks, save, quoted, counted } = elements;
+  const { part, html, svg, shown, shownAtLeast, clean, ticks, save, quoted, counted } = elements;
   // What a quantity is called, what its unit is in SI, its values, and whether it is of the whole
   // row where one gap of several varies.
   const QUANTITIES = {
@@ -113,7 +113,7 @@ const sweepOf = (state, background, dashes, actions) => {
     drawn.push(fitting(`width of ${nameOf(gap)} (mm)`, width - left - right, { x: (left + width) / 2, y: height - 6, "text-anchor": "middle" }));
     marks.forEach(([x, name, kind]) => {
       const line = svg("path", { ...mark(kind), d: `M${across(x)} ${top}V${bottom}` });
-      drawn.push(svg("g", {}, svg("title", {}, `${name}: ${shown(1e3 * x)} mm`), line));
+      drawn.push(svg("g", {}, svg("title", {}, `${name}: ${shownAtLeast(1e3 * x)} mm`), line));
     });
     lines.forEach(({ columns, values }, i) => {
       let path = "";
@@ -167,7 +167,7 @@ const sweepOf = (state, background, dashes, actions) => {
       return;
     }
     const row = (name, width, note, kind) =>
-      html("tr", {}, html("th", { scope: "row" }, sample(mark(kind)), name), html("td", {}, width === null ? "–" : shown(1e3 * width)), html("td", { class: "words" }, note || ""));
+      html("tr", {}, html("th", { scope: "row" }, sample(mark(kind)), name), html("td", {}, width === null ? "–" : shownAtLeast(1e3 * width)), html("td", { class: "words" }, note || ""));
     const code = (c) => row(`${c.edition || c.name}${c.clause ? `, ${c.clause}` : ""}`, c.width, c.caution || c.refusal || c.formula, "code");
     const known = gap.codes.filter((c) => c.width !== null);
     const others = gap.codes.filter((c) => c.width === null);

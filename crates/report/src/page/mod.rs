@@ -22,6 +22,7 @@ pub use gap::gap;
 pub use html::escaped;
 pub use ida::ida;
 pub use motion::motion;
+pub(crate) use numbers::figures_that_suffice;
 pub use run::page as run;
 pub use sentence::Sentence;
 pub use studies::{Inputs, Picture};

@@ -5,27 +5,37 @@ use pounding_catalogue::numbers::rounded_up;
 /// Parts of the names of numbers that may be as small as they like: round-off leaves none of them.
 const SMALL: [&str; 4] = ["mean_annual_frequency", "/hazard/", "residual", "p_value"];
 
-/// Parts of the names of widths that are asked for: as they are shown they suffice.
-const REQUIRED: [&str; 3] = ["/required", "required/by_count", "required/lognormal/width"];
+/// Parts of the names of widths that are asked for, by records, rules, codes and target frequencies, and how these end.
+const REQUIRED: [(&str, &str); 7] = [
+    ("", "/required"),
+    ("", "/required/by_count"),
+    ("", "/required/lognormal/width"),
+    ("", "/minimum/width"),
+    ("/provisions/", "/records/+/width"),
+    ("/combinations/", "/width/+/+"),
+    ("/readings/", "/width"),
+];
 
 /// Four figures of the number of this name or path, of a width that is asked for at least those; a dash for what is
 /// not known.
 pub(super) fn figures_of(name: &str, x: f64) -> String {
-    let is_required = |part: &str| match part.contains("required/") {
-        true => name.contains(part),
-        false => name.ends_with(part),
-    };
-    if x.is_finite() && x > 0.0 && REQUIRED.iter().any(|part| is_required(part)) {
-        let shown = figures(x);
-        let decimals = shown.split_once('.').map_or(0, |(_, after)| after.len());
-        return match shown.contains('e') {
-            true => shown,
-            false => rounded_up(x, decimals),
-        };
+    let mut required = REQUIRED.iter();
+    if required.any(|(part, end)| name.contains(part) && name.ends_with(end)) {
+        return figures_that_suffice(x);
     }
     match SMALL.iter().any(|part| name.contains(part)) {
         true => figures_above(0.0, x),
         false => figures(x),
+    }
+}
+
+/// Four figures of a width that is asked for: as they are shown they suffice.
+pub(crate) fn figures_that_suffice(x: f64) -> String {
+    let shown = figures(x);
+    let decimals = shown.split_once('.').map_or(0, |(_, after)| after.len());
+    match x.is_finite() && x > 0.0 && !shown.contains('e') {
+        true => rounded_up(x, decimals),
+        false => shown,
     }
 }
 
@@ -113,6 +123,19 @@ mod tests {
         assert_eq!(figures_of("energy_residual", 2.8e-15), "2.800e-15");
         assert_eq!(figures_of("/limits/*/mean_annual_frequency", 0.0), "0");
         assert_eq!(figures_of("peak_force", 2.8e-15), "0");
+        for (name, text) in [
+            ("/gaps/0/governing/required", "160.2"),
+            ("maximum /gaps/0/provisions/*/records/+/width", "160.2"),
+            ("maximum /gaps/0/combinations/*/width/+/+", "160.2"),
+            ("/gaps/0/code/cases/0/levels/1/readings/0/width", "160.2"),
+            ("/gaps/0/minimum/width", "160.2"),
+            // What is provided, and what was tried.
+            ("/gaps/0/levels/*/width", "160.1"),
+            ("/sweep/widths/*", "160.1"),
+        ] {
+            assert_eq!(figures_of(name, 160.112_87), text, "{name}");
+        }
+        assert_eq!(figures_that_suffice(f64::NAN), "\u{2013}");
         assert_eq!(percent(1.0, 8.0), "12.5 %");
         assert_eq!(percent(-2.3e-8, 5.0e7), "0.0 %");
     }

@@ -4,6 +4,7 @@ use pounding_catalogue::STANDARD_GRAVITY as G;
 use pounding_study::gap_check::{Amplification, GapCheck};
 
 use crate::chart::{Axis, Chart, HEIGHT, Limit, LimitPlace, Look, Plot, Series};
+use crate::page::figures_that_suffice;
 
 /// Maximum amplification over storeys and records, over the width of a gap, a panel for each
 /// quantity with a curve for each building; values that are not finite are left out. The
@@ -78,7 +79,7 @@ fn limits(check: &GapCheck, varied: Option<&str>) -> Vec<Limit> {
     };
     let mut add = |name: String, width: f64, dash| {
         limits.push(Limit {
-            name: format!("{name} {:.1} mm", width * 1e3),
+            name,
             at: LimitPlace::Horizontal(width * 1e3),
             look: Look::limit(dash),
         });
@@ -89,20 +90,31 @@ fn limits(check: &GapCheck, varied: Option<&str>) -> Vec<Limit> {
         true => "provided".to_owned(),
         false => format!("provided at level {}:", level.place.label()),
     };
-    add(provided, level.width, "");
+    add(
+        format!("{provided} {:.1} mm", level.width * 1e3),
+        level.width,
+        "",
+    );
+    // As the sentences of the page have it.
+    let required = |by: &str, width: f64| {
+        let shown = figures_that_suffice(width * 1e3);
+        format!("required by {by} {shown} mm")
+    };
     let by_code = gap.code.as_ref().map(|code| {
         let widths = code.deciding().filter_map(|case| case.governing());
         // Readings of a disputed rule are no required width.
-        let required = widths.map(|(_, level)| &level.width.requirement);
-        let widths = required.filter(|r| r.readings.is_empty()).map(|r| r.width);
+        let requirements = widths.map(|(_, level)| &level.width.requirement);
+        let widths = requirements
+            .filter(|r| r.readings.is_empty())
+            .map(|r| r.width);
         (code.code.name.as_str(), widths.reduce(f64::max))
     });
     match by_code {
-        Some((code, Some(width))) => add(format!("required by {code}"), width, "7 3"),
+        Some((code, Some(width))) => add(required(code, width), width, "7 3"),
         Some((_, None)) => {}
         None => {
             if let Some(width) = gap.required.by_count {
-                add("required by the records".to_owned(), width, "7 3");
+                add(required("the records", width), width, "7 3");
             }
         }
     }

@@ -107,7 +107,8 @@ fn twenty_right_ones() {
             "{expression}: {} mm",
             1.0e3 * found.width
         );
-        let shown = format!("{millimetres:.1} mm");
+        let asked = pounding_catalogue::numbers::rounded_up(millimetres, 1);
+        let shown = format!("{asked} mm");
         assert!(found.explanation.ends_with(&shown), "{}", found.explanation);
     }
 }

@@ -1,6 +1,6 @@
 //! The answer for a gap, before everything else.
 
-use pounding_catalogue::numbers::{rounded_up, six_digits};
+use pounding_catalogue::numbers::{missing, rounded_up, six_digits};
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_separation::Requirement;
 use pounding_study::gap_check::{
@@ -96,11 +96,22 @@ fn driven(gap: &GapReport) -> String {
 }
 
 /// A width that is provided (m) in mm: one decimal, or as many as it has.
-fn in_millimetres(provided: f64) -> String {
+pub fn in_millimetres(provided: f64) -> String {
     let (shown, all) = (format!("{:.1}", provided * 1e3), six_digits(provided * 1e3));
     match all.len() > shown.len() {
         true => all,
         false => shown,
+    }
+}
+
+/// What is left of a width that is provided (m), or short of the one that is required.
+pub fn left_or_short(provided: f64, required: f64) -> String {
+    match provided - required {
+        left if left < 0.0 => {
+            let provided = in_millimetres(provided);
+            format!("{} mm short", missing(required * 1e3, &provided, 2))
+        }
+        left => format!("{:.2} mm left", left * 1e3),
     }
 }
 
@@ -110,16 +121,13 @@ fn governing(check: &GapCheck, gap: &GapReport) -> String {
         return String::new();
     }
     let governing = &gap.governing;
-    let left = match governing.margin() * 1e3 {
-        left if left < 0.0 => format!("{:.2} mm short", -left),
-        left => format!("{left:.2} mm left"),
-    };
     format!(
-        "  level {} governs: required {} mm (the demand of {}), provided {} mm, {left}\n",
+        "  level {} governs: required {} mm (the demand of {}), provided {} mm, {}\n",
         gap.levels[governing.level].place.label(),
         rounded_up(governing.required * 1e3, 2),
         check.records[governing.record].name,
         in_millimetres(governing.provided),
+        left_or_short(governing.provided, governing.required),
     )
 }
 
@@ -390,11 +398,11 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
 fn short_anyway(gap: &GapReport, case: &OwnershipAnswer) -> String {
     match case.falls_short_anyway() {
         Some((level, least)) => format!(
-            "  {}too small under any records: {} asks for {:.1} mm at level {}, whatever the displacements are\n",
+            "  {}too small under any records: {} asks for {} mm at level {}, whatever the displacements are\n",
             case.ownership
                 .map_or(String::new(), |o| format!("{}: ", o.name())),
             least.provision.name(),
-            least.width * 1e3,
+            rounded_up(least.width * 1e3, 1),
             gap.levels[level].place.label()
         ),
         None => String::new(),
@@ -441,9 +449,9 @@ fn explained(case: &OwnershipAnswer) -> String {
 /// The width (mm), or that of each reading of a disputed rule.
 fn widths(requirement: &Requirement) -> String {
     let readings = requirement.readings.iter();
-    let readings: Vec<_> = readings.map(|r| format!("{:.1}", r.width * 1e3)).collect();
+    let readings: Vec<_> = readings.map(|r| rounded_up(r.width * 1e3, 1)).collect();
     match readings.is_empty() {
-        true => format!("{:.1}", requirement.width * 1e3),
+        true => rounded_up(requirement.width * 1e3, 1),
         false => readings.join(" or "),
     }
 }

@@ -1,5 +1,6 @@
 //! Widths by codes and by combination rules, in a table.
 
+use pounding_catalogue::numbers::rounded_up;
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_separation::EffectiveProperties;
 use pounding_study::gap_check::{CodeGap, CombinationGap, GapCheck, GapReport, RecordDemand};
@@ -110,10 +111,11 @@ impl Rule {
     /// Width over the records (mm).
     fn range(&self) -> String {
         let (low, high) = self.widths;
+        let [low_shown, high_shown] = [low, high].map(|width| rounded_up(width * 1e3, 1));
         if high - low > 5.0e-5 {
-            format!("{:.1} to {:.1}", low * 1e3, high * 1e3)
+            format!("{low_shown} to {high_shown}")
         } else {
-            format!("{:.1}", high * 1e3)
+            high_shown
         }
     }
 

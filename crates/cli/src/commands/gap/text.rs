@@ -1,6 +1,7 @@
 //! The gap check for people.
 
 use pounding_case::Case;
+use pounding_catalogue::numbers::rounded_up;
 use pounding_catalogue::wording::counted;
 use pounding_shear_building::{OVERTURNING_RATIO, UPLIFT_BEGINS};
 use pounding_study::gap_check::{
@@ -8,7 +9,7 @@ use pounding_study::gap_check::{
 };
 use pounding_time_history::VELOCITY_JUMPS;
 
-use super::answer::answer;
+use super::answer::{answer, in_millimetres, left_or_short};
 use super::rules;
 use super::suite::{suite, target};
 use crate::tables::{against_capacity, collapsed, decimal, links_stay, new_table, warning_lines};
@@ -187,11 +188,6 @@ fn isolation(check: &GapCheck, index: usize) -> String {
         let Some((record, demand)) = demands.max_by(|a, b| a.1.total_cmp(&b.1)) else {
             continue;
         };
-        let (width, demand) = (level.width * 1e3, demand * 1e3);
-        let left = match width - demand {
-            left if left < 0.0 => format!("{:.2} mm short", -left),
-            left => format!("{left:.2} mm left"),
-        };
         let forces = check.records.iter().filter_map(|r| r.peak_force(index, l));
         let force = match forces.fold(0.0, f64::max) {
             0.0 => String::new(),
@@ -201,8 +197,12 @@ fn isolation(check: &GapCheck, index: usize) -> String {
             ),
         };
         text.push_str(&format!(
-            "Level {}: {building} on isolators demands {demand:.2} mm ({}), clearance {width:.1} mm: {left}{force}\n",
-            level.place, record.name
+            "Level {}: {building} on isolators demands {} mm ({}), clearance {} mm: {}{force}\n",
+            level.place,
+            rounded_up(demand * 1e3, 2),
+            record.name,
+            in_millimetres(level.width),
+            left_or_short(level.width, demand),
         ));
     }
     text

@@ -1,5 +1,6 @@
 //! Tables of an incremental dynamic analysis.
 
+use pounding_catalogue::numbers::rounded_up;
 use pounding_catalogue::wording::counted;
 use pounding_study::{
     FitRemark, FragilityFit, FrequencyBounds, IdaReport, IdaSettings, LimitResult, POOR,
@@ -254,11 +255,11 @@ fn widths(
         };
         text.push_str(&match minimum.width {
             Some(width) => format!(
-                "Least gap of {} for a mean annual frequency of {}: {}{:.1} mm, with {frequency}\n",
+                "Least gap of {} for a mean annual frequency of {}: {}{} mm, with {frequency}\n",
                 gap.gap,
                 digits(target),
                 if minimum.is_at_most() { "at most " } else { "" },
-                width * 1e3,
+                rounded_up(width * 1e3, 1),
             ),
             None => format!(
                 "The {} not reach far enough{} to find the gap of {} for a mean annual frequency of {}: even a gap as wide as the maximum demand has {frequency}\n",

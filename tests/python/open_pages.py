@@ -33,6 +33,12 @@ CUT = (
     " return text.right > all.right + 0.5 || text.left < all.left - 0.5; }).map((e) => e.textContent); })()"
 )
 
+# Options of lists whose text is wider than the list.
+CUT_OPTIONS = (
+    "[...document.querySelectorAll('select[size]')].filter((e) => e.scrollWidth > e.clientWidth)"
+    ".map((e) => [e.dataset.part, e.scrollWidth, e.clientWidth])"
+)
+
 
 def bare(text):
     """Without blanks and line ends, and with the letters of ligatures."""
@@ -45,12 +51,14 @@ def looks(page):
     page.value(
         "document.querySelectorAll('main > section').forEach(s => { s.style.contentVisibility = 'visible' })"
     )
-    for width in (1280, 400):
+    for width in (1280, 400, 390):
         for dark in (False, True):
             page.wide(width, dark=dark, touch=width < 500)
             shown = page.value("[document.documentElement.scrollWidth, document.body.scrollWidth]")
             assert max(shown) <= width, (width, shown)
             cut = page.value(CUT)
+            assert cut == [], (width, cut)
+            cut = page.value(CUT_OPTIONS)
             assert cut == [], (width, cut)
             colours = page.value(
                 "['backgroundColor','color'].map(n => getComputedStyle(document.body)[n])"

@@ -465,3 +465,27 @@ fn descriptors_are_no_outputs() {
         }
     }
 }
+
+/// The table of impacts and its dimension are there, of length 0, where floors never touch, as the page of the result file says.
+#[test]
+fn impacts_are_there_where_there_are_none() {
+    let fixture = Fixture::new();
+    let case = std::fs::read_to_string(fixture.path("case.toml")).unwrap();
+    let widths: Vec<&str> = case.lines().filter(|l| l.starts_with("width")).collect();
+    let wide = case.replace(widths[0], "width = \"3 m\"");
+    std::fs::write(fixture.path("wide.toml"), wide).unwrap();
+    let output = fixture.run(&["run", "wide.toml"]);
+    assert!(output.status.success(), "{}", message(&output));
+    let file = hdf5::File::open(fixture.path("wide.h5")).unwrap();
+    let gap = &file.group("gap").unwrap().groups().unwrap()[0];
+    for name in ["impact", "impacts"] {
+        assert_eq!(gap.dataset(name).unwrap().shape(), [0], "{name}");
+    }
+    let page = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../docs/reference/result-file.md"
+    );
+    let page = std::fs::read_to_string(page).unwrap();
+    let said = "number of the impact; of length 0 if there is none";
+    assert!(page.contains(said), "{said}");
+}

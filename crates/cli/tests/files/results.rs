@@ -489,3 +489,34 @@ fn impacts_are_there_where_there_are_none() {
     let said = "number of the impact; of length 0 if there is none";
     assert!(page.contains(said), "{said}");
 }
+
+/// A run is held against the buildings without gaps and links, a study against those without gaps alone: names of peaks say it.
+#[test]
+fn isolated_peaks_say_what_they_are_without() {
+    let fixture = Fixture::new();
+    let output = fixture.run(&["run", "case.toml", "-o", "run.h5"]);
+    assert!(output.status.success(), "{}", message(&output));
+    let study = "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"20 mm\", \"30 mm\"]\n\
+                 [output]\nisolated_peaks = true\n";
+    std::fs::write(fixture.path("peaks.toml"), study).unwrap();
+    let output = fixture.run(&["sweep", "peaks.toml"]);
+    assert!(output.status.success(), "{}", message(&output));
+    let said = |data: &hdf5::Dataset| -> String {
+        let name: hdf5::types::VarLenUnicode =
+            data.attr("long_name").unwrap().read_scalar().unwrap();
+        name.to_string()
+    };
+    let file = hdf5::File::open(fixture.path("run.h5")).unwrap();
+    for building in file.group("building").unwrap().groups().unwrap() {
+        let peaks = building.group("peak").unwrap().datasets().unwrap();
+        let isolated = peaks.iter().filter(|p| p.name().contains("/isolated_"));
+        let names: Vec<String> = isolated.map(said).collect();
+        assert!(names.len() >= 8, "{names:?}");
+        for name in names {
+            assert!(name.ends_with(" without gaps and links"), "{name}");
+        }
+    }
+    let file = hdf5::File::open(fixture.path("peaks.h5")).unwrap();
+    let name = said(&file.dataset("isolated_peak_storey_shear").unwrap());
+    assert!(name.contains(" without gaps, missing where"), "{name}");
+}

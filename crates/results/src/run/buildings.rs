@@ -275,6 +275,6 @@ fn isolators(
 pub(super) fn without(prefix: &str) -> &'static str {
     match prefix {
         "" => "",
-        _ => " without pounding",
+        _ => " without gaps and links",
     }
 }

@@ -155,25 +155,25 @@ const ISOLATED_PEAKS: [Quantity; 4] = [
         Axis::Storey,
         "isolated_peak_displacement",
         "m",
-        "maximum displacement relative to the ground without pounding, missing where the isolated buildings collapse",
+        "maximum displacement relative to the ground without gaps, missing where the isolated buildings collapse",
     ),
     quantity(
         Axis::Storey,
         "isolated_peak_drift_ratio",
         "1",
-        "maximum storey drift over storey height without pounding, missing where the isolated buildings collapse",
+        "maximum storey drift over storey height without gaps, missing where the isolated buildings collapse",
     ),
     quantity(
         Axis::Storey,
         "isolated_peak_storey_shear",
         "N",
-        "maximum storey shear without pounding, missing where the isolated buildings collapse",
+        "maximum storey shear without gaps, missing where the isolated buildings collapse",
     ),
     quantity(
         Axis::Storey,
         "isolated_peak_acceleration_absolute",
         "m s-2",
-        "maximum absolute floor acceleration without pounding, missing where the isolated buildings collapse",
+        "maximum absolute floor acceleration without gaps, missing where the isolated buildings collapse",
     ),
 ];
 
@@ -207,7 +207,7 @@ static YIELDING: [YieldingQuantity; 2] = [
             Axis::Storey,
             "isolated_peak_ductility",
             "1",
-            "maximum ductility without pounding, the drift over that at first yield, missing of storeys without a yield force, and where the isolated buildings collapse",
+            "maximum ductility without gaps, the drift over that at first yield, missing of storeys without a yield force, and where the isolated buildings collapse",
         ),
     },
     YieldingQuantity {
@@ -223,7 +223,7 @@ static YIELDING: [YieldingQuantity; 2] = [
             Axis::Storey,
             "isolated_residual_drift_ratio",
             "1",
-            "residual drift ratio without pounding, the drift at the end less what elastic unloading gives back over storey height, signed, missing where the isolated buildings collapse",
+            "residual drift ratio without gaps, the drift at the end less what elastic unloading gives back over storey height, signed, missing where the isolated buildings collapse",
         ),
     },
 ];

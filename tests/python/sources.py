@@ -2,6 +2,7 @@
 
 import json
 import math
+import pathlib
 import re
 import statistics
 from html.parser import HTMLParser
@@ -12,6 +13,29 @@ import numpy
 NUMBER = re.compile(r"[+-]?\d+(\.\d+)?(e[+-]?\d+)?")
 # Factors of SI units into those that heads of rows name.
 UNITS = {"mm": 1e3, "mrad": 1e3, "cm": 1e2, "cm/s": 1e2, "%": 1e2, "kN": 1e-3, "kN m": 1e-3, "kN s": 1e-3, "kJ": 1e-3, "g": 1 / 9.80665}
+
+PAGES = pathlib.Path(__file__).parents[2] / "docs/reference/pages.md"
+# Words that may stand before a path, as the page says it.
+WORDS = re.findall("`([^`]+)`", re.search(r"^\| (.*) before it \|", PAGES.read_text(encoding="utf-8"), re.M).group(1))
+POINTER = re.compile(r"(/[^/]+)+")
+DATASET = re.compile(
+    r"[^/\[\]@][^\[\]@]*"
+    r"(\[(\w+=(\*|\d+)\+1|(\*|\d+|-1|:)(,(\*|\d+|-1))?)\](\.\w+)?|@\w+)?"
+)
+
+
+def fits(source):
+    """Whether a `data-from` is one of those that the page of pages explains."""
+    for part in source.split(" / "):
+        word, _, path = part.partition(" ")
+        if path and re.fullmatch(r"[\w%]+", word):
+            if word not in WORDS:
+                return False
+        else:
+            path = part
+        if not (POINTER if path.startswith("/") else DATASET).fullmatch(path):
+            return False
+    return True
 
 
 class Tables(HTMLParser):
@@ -127,7 +151,7 @@ class Result:
             above, below = (self.value(part, row) for part in source.split(" / "))
             return above / below if below else math.nan
         word, _, path = source.partition(" ")
-        if path and word in ("count", "known", "sum", "maximum", "minimum", "median", "16%", "84%"):
+        if path and word in WORDS:
             known = [x for x in self.values(path, row) if not math.isnan(x)]
             if word == "count":
                 return len(self.values(path, row))
@@ -203,11 +227,13 @@ def walk(html, result, free=()):
                     numeric = re.fullmatch(r"[-+]?[\d.]+(e[-+]?\d+)?( %)?", text)
                     assert not numeric or head["text"] in free, (head, text)
                     continue
+                assert fits(source), source
                 factor = factor_of(head.get("data-factor"), row["cells"][0]["text"])
                 value = factor * result.value(source, row["index"])
                 assert agrees(text, value, source), (head, row["index"], text, value)
                 seen += 1
     for number in parsed.numbers:
+        assert fits(number["data-from"]), number
         factor = float(number.get("data-factor") or 1)
         value = factor * result.value(number["data-from"], "")
         assert agrees(number["text"], value, number["data-from"]), (number, value)

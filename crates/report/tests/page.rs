@@ -511,3 +511,31 @@ fn files_that_are_no_results() {
         ReportError::Unreadable { .. }
     ));
 }
+
+/// Of an input of 10 kJ elastic laws dissipate nothing but round-off, which is a zero, and what is a little more is shown.
+#[test]
+fn round_off_is_no_energy() {
+    let mut result = result();
+    for (lost, shown) in [(8.913e-6, "0"), (-3.0e-7, "0"), (2.0e-5, "2.000e-8")] {
+        for impact in &mut result.gaps[0].impacts {
+            impact.energy_dissipated = lost;
+        }
+        let html = page(&result, "pair.h5").unwrap();
+        let hardest = html.rsplit("The hardest 3 of 3 impacts").next().unwrap();
+        let row = hardest.split("</tr>").find(|row| row.contains("1271"));
+        let row = row.unwrap();
+        assert!(row.ends_with(&format!("<td>{shown}</td>")), "{row}");
+    }
+}
+
+/// Steps of output are written as `check` and cases write them.
+#[test]
+fn output_steps_are_decimals() {
+    let mut result = result();
+    for (step, shown) in [(0.0005, "0.0005"), (0.02, "0.02"), (1.0 / 3.0, "0.333333")] {
+        result.time = (0..500).map(|i| step * f64::from(i)).collect();
+        let html = page(&result, "pair.h5").unwrap();
+        let said = format!("every {shown} s");
+        assert!(html.matches(&said).count() >= 2, "{said}");
+    }
+}

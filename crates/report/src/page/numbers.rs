@@ -70,6 +70,18 @@ fn figures_above(least: f64, x: f64) -> String {
     format!("{x:.decimals$}")
 }
 
+/// Part of the energy that the ground puts in below which what impacts and links dissipate may be round-off.
+const ROUND_OFF: f64 = 1.0e-9;
+
+/// Energy (J) that something dissipated in a run with this input energy, without the round-off of elastic laws, of
+/// either sign.
+pub(super) fn without_round_off(energy: f64, input: f64) -> f64 {
+    match energy.abs() <= ROUND_OFF * input.abs() {
+        true => 0.0,
+        false => energy,
+    }
+}
+
 /// A ratio with two decimals; a dash where it has none.
 pub(super) fn ratio(with: f64, without: f64) -> String {
     if !(without > 0.0) || !with.is_finite() {
@@ -118,6 +130,10 @@ mod tests {
         assert_eq!(ratio(3.0, 2.0), "1.50");
         assert_eq!(ratio(3.0, 0.0), "\u{2013}");
         assert_eq!(ratio(3.0, 1.0e-28), "3.0e28");
+        // Hertz's law in a run with an input of 112.59 kJ.
+        assert_eq!(without_round_off(8.913e-6, 1.1259e5), 0.0);
+        assert_eq!(without_round_off(-2.0e-4, 1.1259e5), -2.0e-4);
+        assert_eq!(without_round_off(3.0, f64::NAN), 3.0);
         assert_eq!(figures(-1.8e-15), "0");
         assert_eq!(all_figures(-1.8e-15), "-1.800e-15");
         assert_eq!(figures_of("energy_residual", 2.8e-15), "2.800e-15");

@@ -27,6 +27,8 @@ const PARTS: usize = 24;
 const SIZE: (u32, u32) = (718, 230);
 /// Greatest over least value of a variable from which on its axis may be logarithmic.
 const LOGARITHMIC_FROM: f64 = 5.0;
+/// Energies that laws dissipate.
+const DISSIPATED: [&str; 3] = ["energy_dissipated", "energy_hysteretic", "energy_impact"];
 /// Part of a variance from which on it is worth a sentence.
 const WORTH_SAYING: f64 = 0.1;
 /// All rows, column by column.
@@ -146,7 +148,24 @@ fn read(result: &ResultReader) -> Result<Runs, StudyFileError> {
         }
         first = last;
     }
+    leave_out_round_off(result, &mut runs);
     Ok(runs)
+}
+
+/// Takes what round-off leaves of the energy that elastic laws dissipate for zero, where the input energy of runs is stored.
+fn leave_out_round_off(result: &ResultReader, runs: &mut Runs) {
+    let layout = &result.description.layout;
+    let Some(input) = columns(layout, "energy_input").first().copied() else {
+        return;
+    };
+    let input = runs.values[input].clone();
+    for name in DISSIPATED {
+        for column in columns(layout, name) {
+            for (value, input) in runs.values[column].iter_mut().zip(&input) {
+                *value = numbers::without_round_off(*value, *input);
+            }
+        }
+    }
 }
 
 /// How many runs there are, and of what.

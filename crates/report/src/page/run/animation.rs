@@ -2,7 +2,6 @@
 
 use std::collections::BTreeSet;
 
-use pounding_catalogue::numbers::significant;
 use pounding_elevation::{Body, MAGNIFICATIONS, SCRIPT, Scene};
 use serde_json::{Value, json};
 
@@ -130,6 +129,12 @@ fn on_different_grounds(result: &RunResult) -> bool {
     ground.any(|r| r.value.iter().any(|u| *u > 0.0))
 }
 
+/// From one output time to the next (s), as a case states it: without the round-off of their difference.
+fn output_step(result: &RunResult) -> f64 {
+    let step = result.time[1] - result.time[0];
+    format!("{step:.5e}").parse().unwrap_or(step)
+}
+
 fn caption(result: &RunResult, instant: Instant, magnification: f64) -> String {
     format!(
         "Elevation at <span data-part=\"instant\">{:.3}</span> s. Heights are to scale; displacements and \
@@ -150,7 +155,7 @@ fn caption(result: &RunResult, instant: Instant, magnification: f64) -> String {
             true => format!(
                 " A dot marks a level in contact. Between output times, every {} s, displacements are drawn \
                  straight: floors that touch between two of them may not quite meet.",
-                significant(result.time[1] - result.time[0])
+                output_step(result)
             ),
             false => String::new(),
         }
@@ -455,7 +460,7 @@ fn controls(result: &RunResult, magnification: f64) -> String {
 
 /// What the curves pass through.
 fn note(result: &RunResult) -> String {
-    let step = significant(result.time[1] - result.time[0]);
+    let step = output_step(result);
     if result.gaps.iter().all(|gap| gap.impacts.is_empty()) {
         return format!(
             "Values at output times, every {step} s: the extremes of each part of the motion."

@@ -47,7 +47,7 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
         body.push_str(&section_of(["Gap ", &gap.name, ""], &inside));
     }
     for link in &result.links {
-        let mut inside = tables::link(link, &result.time);
+        let mut inside = tables::link(link, &result.time, input);
         inside.push_str(&figures::link(result, link)?);
         body.push_str(&section_of(["Link ", &link.name, ""], &inside));
     }

@@ -3,7 +3,7 @@
 use pounding_catalogue::numbers::shown_unit;
 
 use crate::page::html::{escaped, note};
-use crate::page::numbers::{all_figures, figures, ratio};
+use crate::page::numbers::{all_figures, figures, ratio, without_round_off};
 use crate::page::table::{Column, Row, table};
 use crate::result::{
     BuildingResult, GapResult, ImpactResult, LevelResponses, LinkResult, StoreyPeaks,
@@ -174,14 +174,6 @@ pub(super) fn responses(building: &BuildingResult) -> String {
         Column::of("ratio", format!("{peaks}/* / {peaks}/isolated_*"), 1.0),
     ];
     table("Responses", &columns, rows)
-}
-
-/// Energy (J) without what round-off leaves of the largest input energy, of either sign.
-fn without_round_off(energy: f64, input: f64) -> f64 {
-    match energy.abs() <= 1.0e-12 * input {
-        true => 0.0,
-        false => energy,
-    }
 }
 
 /// What the levels of a gap bear beside contact forces, the top first; nothing if that is
@@ -434,7 +426,7 @@ pub(super) fn direction(link: &LinkResult, times: &[f64], level: usize) -> Optio
 }
 
 /// The levels of a link, the top first.
-pub(super) fn link(link: &LinkResult, times: &[f64]) -> String {
+pub(super) fn link(link: &LinkResult, times: &[f64], input: f64) -> String {
     let [(length, length_unit), (force, force_unit)] =
         [&link.units[0], &link.units[1]].map(|unit| shown_unit(unit));
     let of = ["force", "moment"][usize::from(link.turns())];
@@ -472,7 +464,7 @@ pub(super) fn link(link: &LinkResult, times: &[f64]) -> String {
             figures(force * at(&link.force)),
             figures(at(&link.force_time)),
             direction(link, times, l).unwrap_or("-").to_owned(),
-            figures(1.0e-3 * at(&link.energy_dissipated)),
+            figures(1.0e-3 * without_round_off(at(&link.energy_dissipated), input)),
         ];
         Row::new(l, cells)
     });

@@ -23,23 +23,27 @@ pub struct Input<'r> {
 /// Analysis, 2008, eq. 1.10), which are Pearson's correlation ratios (1905).
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sensitivity {
-    /// The part (-) of the variance that each input explains by itself; NaN for one that has a single value, and
-    /// where it has about as many as there are runs.
+    /// The part (-) of the variance that each input explains by itself; NaN for one that has a single value,
+    /// where it has about as many as there are runs, and for all where a grid lacks values.
     pub first_order: Vec<f64>,
     /// What chance alone explains of an estimate at most, with a probability of 95 %; zero where nothing is estimated.
     pub by_chance: Vec<f64>,
     /// Whether runs are all combinations of their inputs.
     pub is_grid: bool,
+    /// Whether those of them that have a value are not. Inputs go together in what is left, so that the parts that they
+    /// explain overlap, and no part is known.
+    pub lacks_values: bool,
     /// Values that are not finite and left out.
     pub left_out: usize,
-    /// The part (-) that none explains by itself, where runs are all combinations and all have a value.
+    /// The part (-) that none explains by itself, where runs with a value are all combinations.
     pub combinations: Option<f64>,
 }
 
 /// The sensitivity of values to inputs; values that are not finite are left out. `None` for fewer than 40 others that
 /// are not all combinations, for values that are all one, and for a single input, which explains all.
 ///
-/// Runs of all combinations give the indices of their inputs exactly. Those of samples are estimated from a mean that
+/// Runs of all combinations give the indices of their inputs exactly; where some have no value, only if the others are all
+/// combinations of what is left of the inputs. Those of samples are estimated from a mean that
 /// is linear between quantiles of the input (of an input of few values, from the mean of each), less what chance alone
 /// explains (Ezekiel, J. Am. Stat. Assoc. 24 (1929) 99; Kelley, Proc. Natl. Acad. Sci. 21 (1935) 554). Where the same random
 /// numbers stand in every combination of other inputs, those of the numbers are estimated from the means over the
@@ -65,6 +69,16 @@ pub fn sensitivity(values: &[f64], inputs: &[Input<'_>]) -> Option<Sensitivity> 
     let is_grid = is_grid(inputs, &rows);
     if !is_grid && known.len() < LEAST_RUNS || is_one || varying.count() < 2 {
         return None;
+    }
+    if is_grid && known.len() < values.len() && !self::is_grid(inputs, &known) {
+        return Some(Sensitivity {
+            first_order: vec![f64::NAN; inputs.len()],
+            by_chance: vec![0.0; inputs.len()],
+            is_grid,
+            lacks_values: true,
+            left_out: values.len() - known.len(),
+            combinations: None,
+        });
     }
     let sets = match is_grid {
         true => None,
@@ -94,12 +108,12 @@ pub fn sensitivity(values: &[f64], inputs: &[Input<'_>]) -> Option<Sensitivity> 
     });
     let (first_order, by_chance): (Vec<f64>, Vec<f64>) = explained.unzip();
     let explained: f64 = first_order.iter().filter(|part| part.is_finite()).sum();
-    let is_whole = is_grid && known.len() == values.len();
     Some(Sensitivity {
-        combinations: is_whole.then(|| (1.0 - explained).max(0.0)),
+        combinations: is_grid.then(|| (1.0 - explained).max(0.0)),
         first_order,
         by_chance,
         is_grid,
+        lacks_values: false,
         left_out: values.len() - known.len(),
     })
 }
@@ -205,11 +219,12 @@ fn is_grid(inputs: &[Input<'_>], runs: &[usize]) -> bool {
     if product > runs.len() {
         return false;
     }
+    let last = runs.iter().copied().max().unwrap_or(0);
     // Runs with the same value, for every input and run.
     let equal: Vec<Vec<usize>> = groups
         .iter()
         .map(|groups| {
-            let mut equal = vec![0; runs.len()];
+            let mut equal = vec![0; last + 1];
             for group in groups {
                 group.iter().for_each(|run| equal[*run] = group.len());
             }
@@ -478,7 +493,7 @@ mod tests {
         }
     }
 
-    /// A value that stands twice counts twice, and runs without a value leave a grid what it is.
+    /// A value that stands twice counts twice, and a grid without all runs of one value is a grid.
     #[test]
     fn grids_with_a_value_twice_and_with_gaps() {
         let (mut a, mut b) = (Vec::new(), Vec::new());
@@ -503,8 +518,36 @@ mod tests {
             }
         }
         let found = sensitivity(&gaps, &inputs).unwrap();
-        assert!(found.is_grid && found.combinations.is_none());
+        assert!(found.is_grid && !found.lacks_values && found.left_out == 10);
         assert!((found.first_order[1] - 1.0).abs() < 1e-14, "{found:?}");
+        assert!(found.combinations.unwrap() < 1e-14);
+    }
+
+    /// Three of nine runs stand: greatest and least of one input at the greatest of the other. Means over what is left would
+    /// explain 96 and 44 % of the variance, more than there is.
+    #[test]
+    fn a_grid_that_lacks_values_tells_no_parts() {
+        let (mut a, mut b) = (Vec::new(), Vec::new());
+        for x in 0..3 {
+            for y in 0..3 {
+                a.push(f64::from(x));
+                b.push(f64::from(y));
+            }
+        }
+        let mut values = vec![f64::NAN; 9];
+        (values[3], values[6], values[7]) = (824.4, 1040.0, 1867.0);
+        let inputs = [number(&a), number(&b)];
+        let found = sensitivity(&values, &inputs).unwrap();
+        assert!(found.is_grid && found.lacks_values);
+        assert!(
+            found.first_order.iter().all(|part| part.is_nan()),
+            "{found:?}"
+        );
+        assert_eq!((found.left_out, found.combinations), (6, None));
+        // With one run missing among many as well.
+        let mut most: Vec<f64> = a.iter().zip(&b).map(|(a, b)| a + 2.0 * b).collect();
+        most[4] = f64::INFINITY;
+        assert!(sensitivity(&most, &inputs).unwrap().lacks_values);
     }
 
     #[test]

@@ -375,3 +375,69 @@ fn a_page_says_what_collapses_leave_out() {
     assert!(page.contains("No run stood: peaks and impacts are not known."));
     assert!(!page.contains("NaN"));
 }
+
+/// Three of nine runs stand: no part of the variance is told of a grid that lacks values, and why. With the weakest frame left
+/// out all stand but those of one intensity, and what is left is a grid. The spring of the contact is elastic: it dissipates
+/// nothing, and not what round-off leaves.
+#[test]
+fn a_grid_with_collapses_tells_no_parts() {
+    let study = |forces: &str, most: &str| {
+        format!(
+            r#"
+case = "case.toml"
+[[variable]]
+name = "fy"
+path = "building.frame.law.yield_force"
+values = [{forces}]
+[[variable]]
+name = "pga"
+intensity = "peak_ground_acceleration"
+values = ["0.1 g", "0.4 g", "{most}"]
+"#
+        )
+    };
+    let bench = Bench::new(&study(r#""60 kN", "150 kN", "400 kN""#, "0.9 g"));
+    let motions = concat!(env!("CARGO_MANIFEST_DIR"), "/../../ground_motions");
+    let case = r#"
+[[building]]
+name = "frame"
+storeys = 2
+mass = "100 t"
+stiffness = "8 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.03 }
+p_delta = true
+law = { model = "elastic_perfectly_plastic", yield_force = "60 kN" }
+[[gap]]
+between = ["frame", "wall"]
+levels = [2]
+width = "10 mm"
+model = "linear_elastic"
+stiffness = "93.5 MN/m"
+[ground_motion]
+file = "MOTIONS/kobe_1995_jma_ns.csv"
+[analysis]
+duration = "20 s"
+"#;
+    std::fs::write(bench.path("case.toml"), case.replace("MOTIONS", motions)).unwrap();
+    let page = |bench: &Bench| {
+        bench.text("sweep study.toml -o out.h5 --report page.html");
+        std::fs::read_to_string(bench.path("page.html")).unwrap()
+    };
+    let lacks = page(&bench);
+    assert!(lacks.contains("6 collapsed"), "{lacks}");
+    assert!(!lacks.contains("of its variance"), "{lacks}");
+    assert!(
+        lacks.contains("No parts are told of number of impacts, of maximum contact force, of "),
+        "{lacks}"
+    );
+    let energy = lacks
+        .split("energy dissipated in contacts (kJ)</th>")
+        .nth(1);
+    let energy = energy.unwrap().split("</tr>").next().unwrap();
+    assert!(energy.starts_with(&"<td>0</td>".repeat(5)), "{energy}");
+    bench.study(&study(r#""400 kN", "600 kN""#, "9 g"));
+    let whole = page(&bench);
+    assert!(whole.contains(" collapsed"), "{whole}");
+    assert!(!whole.contains("No parts are told of"), "{whole}");
+}

@@ -430,22 +430,34 @@ fn dependences(result: &ResultReader, found: &[(&str, Sensitivity)]) -> String {
         Row::new(&coordinate.name, cells.collect())
     };
     let mut rows: Vec<Row> = d.coordinates.iter().enumerate().map(of_variable).collect();
-    let of_combinations: Option<Vec<f64>> = found.iter().map(|(_, s)| s.combinations).collect();
     let is_grid = found.iter().all(|(_, s)| s.is_grid);
-    let how = match of_combinations {
-        Some(parts) => {
-            let parts = parts.into_iter().map(|part| percent(part, 0.0));
+    let how = match is_grid {
+        true => {
+            let parts = found.iter().map(|(_, s)| s.combinations);
+            let parts = parts.map(|part| percent(part.unwrap_or(f64::NAN), 0.0));
             let cells = std::iter::once("combinations of them".to_owned()).chain(parts);
             rows.push(Row::new("combinations", cells.collect()));
             "exact for these runs, which are all combinations; what no variable explains by itself is of combinations"
         }
-        None if is_grid => {
-            "by the means over all combinations but those of runs without a value, which are left out"
-        }
-        None => {
+        false => {
             "estimated from the runs, by a mean that is linear between quantiles of the variable, less what chance explains; \"below\" stands where chance alone may give as much (5 % of variables without influence have more). What is missing to 100 % is of combinations, of variables that go together, and of what is finer than so few runs show"
         }
     };
+    let lacking: Vec<&str> = found
+        .iter()
+        .filter(|(_, s)| s.lacks_values)
+        .map(|(heading, _)| *heading)
+        .collect();
+    let overlaps = match lacking.is_empty() {
+        true => String::new(),
+        false => note(&format!(
+            "No parts are told of {}: runs have no value of it, so that those that have one are not all combinations, the variables go together in them, and the parts that they explain overlap.",
+            lacking.join(", of ")
+        )),
+    };
+    if lacking.len() == found.len() {
+        return overlaps;
+    }
     let headings = found.iter().map(|(heading, _)| *heading);
     let headings = std::iter::once("variable").chain(headings);
     let columns: Vec<Column> = headings.map(Column::new).collect();
@@ -453,6 +465,7 @@ fn dependences(result: &ResultReader, found: &[(&str, Sensitivity)]) -> String {
         + &note(&format!(
             "How much of the variance of the greatest value of a run each variable explains by itself (first-order sensitivity index): {how}. It holds for the ranges that varied here."
         ))
+        + &overlaps
 }
 
 /// Fractiles of the greatest value of a run over each variable.

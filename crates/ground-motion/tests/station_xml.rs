@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use crate::common::binary::{Seed, record};
 use pounding_ground_motion::processing::rotate;
 use pounding_ground_motion::{
-    GroundMotionError, Quantity, ReadOptions, read, read_all, read_all_bytes, read_bytes,
-    responses_beside,
+    AccelerationUnit, GroundMotionError, Quantity, ReadOptions, read, read_all, read_all_bytes,
+    read_bytes, responses_beside,
 };
 
 const COUNTS: [i32; 5] = [100, -250, 400, 0, -50];
@@ -661,4 +661,81 @@ fn damaged_metadata() {
     latin[at] = 0xfc;
     let file = write(folder.path(), "latin.xml", latin);
     read_all(&record, &with(&file)).unwrap();
+}
+
+/// Floats that a program has brought to a unit are not divided by a sensitivity that happens to lie
+/// beside the record, where the user says their unit; where nobody does, that is said.
+#[test]
+fn floats_beside_metadata() {
+    let values = [1.5_f32, -0.25, 0.75];
+    let floats = record(&Seed {
+        channel: b"HNE",
+        encoding: 4,
+        big: true,
+        start: 5000,
+        count: 3,
+        data: values.iter().flat_map(|v| v.to_be_bytes()).collect(),
+    });
+    let folder = tempfile::tempdir().unwrap();
+    let path = write(folder.path(), "floats.mseed", floats);
+    let file = write(folder.path(), "XX.XXXXX.xml", station(&[HNE]));
+    for (unit, factor) in [
+        (AccelerationUnit::Gal, 0.01),
+        (AccelerationUnit::MetrePerSecondSquared, 1.0),
+    ] {
+        let in_unit = ReadOptions {
+            unit: Some(unit),
+            ..ReadOptions::default()
+        };
+        let found = read_all(&path, &in_unit).unwrap();
+        let series = &found.series[0];
+        for (a, value) in series.samples.iter().zip(values) {
+            assert!((a - factor * f64::from(value)).abs() < 1.0e-15, "{a}");
+        }
+        assert_eq!(series.origin.response, None);
+        let said = |w: &String| w.contains("XX.XXXXX.xml is not applied");
+        let warnings = &series.origin.warnings;
+        assert!(warnings.iter().any(said), "{warnings:?}");
+        // Integers are counts, and so is what a named file gives the sensitivity of.
+        let counts = write(folder.path(), "counts.mseed", seed(b"HNE"));
+        let named = ReadOptions {
+            unit: Some(unit),
+            ..with(&file)
+        };
+        for (record, options, words) in [
+            (&counts, &in_unit, "they are integers, which are counts"),
+            (&counts, &named, "they are integers, which are counts"),
+            (
+                &path,
+                &named,
+                "by the file of response that is given they are counts",
+            ),
+        ] {
+            let error = read_all(record, options).unwrap_err();
+            let shown = error.to_string();
+            assert!(shown.contains(words), "{shown}");
+            assert_eq!(error.option(), Some("unit"));
+        }
+    }
+    // Files that contradict one another are of no matter to values in a unit.
+    let other = Epoch {
+        value: "300000",
+        ..HNE
+    };
+    let other = write(folder.path(), "other.XXXXX.xml", station(&[other]));
+    let in_gal = ReadOptions {
+        unit: Some(AccelerationUnit::Gal),
+        ..ReadOptions::default()
+    };
+    read_all(&path, &in_gal).unwrap();
+    std::fs::remove_file(other).unwrap();
+    let counted = read_all(&path, &ReadOptions::default()).unwrap();
+    let series = &counted.series[0];
+    assert_eq!(series.samples[0], 1.5 * (1.0 / 2.5e5));
+    let said = |w: &String| w.contains("XX.XXXXX.xml") && w.contains("`unit` says which");
+    let warnings = &series.origin.warnings;
+    assert!(warnings.iter().any(said), "{warnings:?}");
+    // A file that is named says by itself that there are counts.
+    let named = read_all(&path, &with(&file)).unwrap();
+    assert_eq!(named.series[0].origin.warnings, Vec::<String>::new());
 }

@@ -62,17 +62,29 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut number = 0;
     for channel in &channels {
         let first = &channel[0];
+        let is_given = matches!(responses, Some(Responses::Given(_)));
+        // Values that a program has brought to a unit are written as floats; the user knows which.
+        let is_in_unit = source.options.unit.is_some()
+            && source.options.sensitivity.is_none()
+            && !is_given
+            && in_floats(channel);
+        let mut unused = None;
         let known = match &responses {
             Some(responses) => {
                 let mut name = first.channel_name();
                 let ends = channel.iter().map(Record::end);
                 name.end = ends.max().unwrap_or(name.end);
-                Some(responses.of(source.file, &name)?)
+                match (responses.of(source.file, &name), is_in_unit) {
+                    (found, false) => Some(found?),
+                    (found, true) => {
+                        unused = found.ok().and_then(Result::ok);
+                        None
+                    }
+                }
             }
             // The user gives the sensitivity.
             None => None,
         };
-        let is_given = matches!(responses, Some(Responses::Given(_)));
         if !matches!(known, Some(Ok(_))) && first.is_velocity() && !is_given {
             let label = first.label();
             source.warn(&format!(
@@ -96,8 +108,6 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         let name = component(first, &channels);
         let known = match known {
             Some(Ok(known)) => Some(known),
-            // Values that a program has brought to a unit are written as floats; the user knows which.
-            Some(Err(_)) if source.options.unit.is_some() && in_floats(channel) => None,
             Some(Err(error)) => {
                 without.push((name, first.label(), error));
                 continue;
@@ -108,7 +118,23 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         draft.component = name;
         draft.channel = number;
         let mut response = None;
+        if let (Some(given), Some(unused)) = (source.options.unit, unused) {
+            draft.warnings.push(format!(
+                "the values are floats, taken to be in {}, which is given: the sensitivity in {} is not applied",
+                given.symbol(),
+                unused.file
+            ));
+        }
         if let Some(known) = known {
+            if let Some(given) = source.options.unit {
+                return Err(counts_in_unit(source, first, given.symbol(), &known.file));
+            }
+            if !is_given && in_floats(channel) {
+                draft.warnings.push(format!(
+                    "the values are floats, which a program may have brought to a unit already; they are taken for counts, and divided by the sensitivity in {}: where they are in a unit, `unit` says which, and the sensitivity is not applied",
+                    known.file
+                ));
+            }
             draft.unit = unit(&known);
             draft.orientation = known.orientation;
             draft.warnings.extend(known.warnings);
@@ -166,6 +192,28 @@ fn is_filled_up(source: &Source<'_>, at: usize) -> bool {
         rest.len()
     ));
     true
+}
+
+/// What to say of a unit that is given for values which the sensitivity of a file brings to one.
+fn counts_in_unit(
+    source: &Source<'_>,
+    channel: &Record,
+    unit: &str,
+    file: &str,
+) -> GroundMotionError {
+    let what = match channel.is_of_floats() {
+        true => "by the file of response that is given they are counts",
+        false => "they are integers, which are counts",
+    };
+    GroundMotionError::Unsupported {
+        file: source.file.to_owned(),
+        what: format!(
+            "the unit {unit} is given for the values of {}, but {what}: {file} has their sensitivity, with its unit",
+            channel.label()
+        ),
+        remedy: "leave `unit` out: it is for floats that a program has brought to a unit, and then without `response`",
+    }
+    .of_option("unit")
 }
 
 /// Whether all samples of a channel are floats, which instruments do not count in.

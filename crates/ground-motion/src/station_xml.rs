@@ -1,6 +1,7 @@
 //! StationXML (Federation of Digital Seismograph Networks, versions 1.0 to 1.2): the sensitivity
 //! of a channel, with the unit of the ground motion that it counts.
 
+use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node, ParsingOptions};
@@ -22,6 +23,8 @@ const MOST_NODES: u32 = 4_000_000;
 /// Bytes in which the root element must stand, and files of a folder that are looked into.
 const HEAD: usize = 4096;
 const MOST_FILES: usize = 256;
+/// Reasons why files have no sensitivity that one message names.
+const MOST_REASONS: usize = 3;
 /// Part by which the stages' gains may differ from the whole sensitivity.
 const GAIN_TOLERANCE: f64 = 0.05;
 
@@ -79,8 +82,39 @@ pub struct ResponseFile {
 pub(crate) enum Responses {
     /// The file that the user names.
     Given(StationFile),
-    /// What lies beside the record, and why others there were passed over.
-    Beside(Vec<StationFile>, Vec<String>),
+    /// What lies beside the record.
+    Beside(Beside),
+}
+
+/// The files that lie beside a record.
+pub(crate) struct Beside {
+    /// Those with the code of a station in their name, which go before the others.
+    named: Read,
+    /// The others, which are read where those have no sensitivity.
+    others: Vec<PathBuf>,
+    read: OnceCell<Read>,
+    /// Files that are too many to be looked into.
+    left: usize,
+}
+
+/// Files that were read, and why others could not be.
+#[derive(Default)]
+struct Read {
+    files: Vec<StationFile>,
+    wrong: Vec<String>,
+}
+
+impl Read {
+    fn of(paths: &[PathBuf]) -> Self {
+        let mut read = Self::default();
+        for path in paths {
+            match StationFile::read(path) {
+                Ok(file) => read.files.push(file),
+                Err(error) => read.wrong.push(error.to_string()),
+            }
+        }
+        read
+    }
 }
 
 /// A StationXML file that was read.
@@ -90,12 +124,22 @@ pub(crate) struct StationFile {
     text: String,
 }
 
-/// The files of a folder that may be StationXML: what ends in `.xml` and has its root element.
+/// The files of a folder that may be StationXML: what ends in `.xml` and has its root element; behind
+/// the first 256 that end so, which are looked into, all that do.
 ///
 /// A record whose header does not state its sensitivity is held against these; whoever writes
 /// files must not write over them.
 #[must_use]
 pub fn responses_beside(record: &Path) -> Vec<PathBuf> {
+    let paths = xml_beside(record).into_iter().enumerate();
+    paths
+        .filter(|(i, path)| *i >= MOST_FILES || is_station_xml(path))
+        .map(|(_, path)| path)
+        .collect()
+}
+
+/// What ends in `.xml` in the folder of a record, in the order of the names.
+fn xml_beside(record: &Path) -> Vec<PathBuf> {
     let folder = match record.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -111,12 +155,8 @@ pub fn responses_beside(record: &Path) -> Vec<PathBuf> {
         })
         .collect();
     names.sort();
-    names
-        .into_iter()
-        .take(MOST_FILES)
-        .map(|name| record.with_file_name(name))
-        .filter(|path| is_station_xml(path))
-        .collect()
+    let paths = names.into_iter().map(|name| record.with_file_name(name));
+    paths.collect()
 }
 
 fn is_station_xml(path: &Path) -> bool {
@@ -137,8 +177,8 @@ fn holds_root(bytes: &[u8]) -> bool {
 }
 
 impl Responses {
-    /// The file that the user names, else those beside the record of which the names hold a
-    /// station, or all where none does.
+    /// The file that the user names, else those beside the record: first the ones of which the
+    /// names hold a station.
     ///
     /// # Errors
     /// A named file that cannot be read or is no StationXML.
@@ -150,7 +190,6 @@ impl Responses {
         if let Some(path) = given {
             return StationFile::read(path).map(Self::Given);
         }
-        let beside = record.map_or(Vec::new(), responses_beside);
         let of_station = |path: &PathBuf| {
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             let name = name.to_ascii_lowercase();
@@ -158,16 +197,19 @@ impl Responses {
                 .iter()
                 .any(|s| name.contains(&s.to_ascii_lowercase()))
         };
-        let named: Vec<PathBuf> = beside.iter().filter(|p| of_station(p)).cloned().collect();
-        let chosen = if named.is_empty() { beside } else { named };
-        let (mut files, mut wrong) = (Vec::new(), Vec::new());
-        for path in chosen {
-            match StationFile::read(&path) {
-                Ok(file) => files.push(file),
-                Err(error) => wrong.push(error.to_string()),
-            }
-        }
-        Ok(Self::Beside(files, wrong))
+        let all = record.map_or(Vec::new(), xml_beside);
+        let (mut named, mut others): (Vec<_>, Vec<_>) = all.into_iter().partition(of_station);
+        let left = (named.len() + others.len()).saturating_sub(MOST_FILES);
+        named.truncate(MOST_FILES);
+        others.truncate(MOST_FILES - named.len());
+        named.retain(|path| is_station_xml(path));
+        others.retain(|path| is_station_xml(path));
+        Ok(Self::Beside(Beside {
+            named: Read::of(&named),
+            others,
+            read: OnceCell::new(),
+            left,
+        }))
     }
 
     /// The sensitivity of a channel. `Err` of the inner result says why there is none.
@@ -179,13 +221,53 @@ impl Responses {
         record: &str,
         name: &ChannelName,
     ) -> Result<Result<Sensitivity, GroundMotionError>, GroundMotionError> {
-        let (files, wrong) = match self {
+        let beside = match self {
             Self::Given(file) => return Ok(file.sensitivity(name)),
-            Self::Beside(files, wrong) => (files, wrong),
+            Self::Beside(beside) => beside,
         };
+        let mut reasons = Vec::new();
+        if let Some(found) = beside.named.sensitivity(record, name, &mut reasons)? {
+            return Ok(Ok(found));
+        }
+        let others = beside.read.get_or_init(|| Read::of(&beside.others));
+        if let Some(found) = others.sensitivity(record, name, &mut reasons)? {
+            return Ok(Ok(found));
+        }
+        let more = reasons.len().saturating_sub(MOST_REASONS);
+        reasons.truncate(MOST_REASONS);
+        if more > 0 {
+            reasons.push(format!("{more} more files beside it do not have it either"));
+        }
+        if reasons.is_empty() {
+            reasons.push("no StationXML lies beside it".to_owned());
+        }
+        if beside.left > 0 {
+            reasons.push(format!(
+                "{} more files that end in .xml were not opened",
+                beside.left
+            ));
+        }
+        Ok(Err(GroundMotionError::MissingSensitivity {
+            file: record.to_owned(),
+            searched: format!(": {}", reasons.join("; ")),
+        }))
+    }
+}
+
+impl Read {
+    /// The sensitivity of a channel, with the reasons of the files that have none.
+    ///
+    /// # Errors
+    /// Files that contradict one another.
+    fn sensitivity(
+        &self,
+        record: &str,
+        name: &ChannelName,
+        reasons: &mut Vec<String>,
+    ) -> Result<Option<Sensitivity>, GroundMotionError> {
         let mut found: Option<Sensitivity> = None;
-        let mut reasons = wrong.clone();
-        for file in files {
+        reasons.extend(self.wrong.iter().cloned());
+        for file in &self.files {
             match (file.sensitivity(name), &found) {
                 (Err(error), _) => reasons.push(error.to_string()),
                 (Ok(other), Some(first))
@@ -210,16 +292,7 @@ impl Responses {
                 (Ok(_), Some(_)) => {}
             }
         }
-        Ok(found.ok_or_else(|| {
-            let reason = match reasons.is_empty() {
-                true => "no StationXML lies beside it".to_owned(),
-                false => reasons.join("; "),
-            };
-            GroundMotionError::MissingSensitivity {
-                file: record.to_owned(),
-                searched: format!(": {reason}"),
-            }
-        }))
+        Ok(found)
     }
 }
 
@@ -309,7 +382,8 @@ impl StationFile {
                 "give the StationXML of the record's station and time, or `sensitivity`",
             ));
         };
-        if let Some(other) = now.get(1) {
+        // Inventories that were merged have the same epoch twice.
+        if let Some(other) = now.iter().find(|other| !is_same(channel, other)) {
             return Err(self.refused(
                 line(other),
                 format!(
@@ -529,6 +603,19 @@ fn number(node: &Node<'_, '_>, tag: &str) -> Option<f64> {
 fn unit_name(sensitivity: &Node<'_, '_>, element: &str) -> Option<String> {
     let units = child(sensitivity, element)?;
     child(&units, "Name")?.text().map(|t| t.trim().to_owned())
+}
+
+/// Whether two epochs say the same of samples: sensitivity and direction.
+fn is_same(first: &Node<'_, '_>, second: &Node<'_, '_>) -> bool {
+    let says = |channel: &Node<'_, '_>| {
+        let whole = descendant(channel, "InstrumentSensitivity");
+        let units = ["InputUnits", "OutputUnits"]
+            .map(|element| unit_name(whole.as_ref()?, element).map(|u| u.to_ascii_lowercase()));
+        let value = whole.and_then(|whole| number(&whole, "Value"));
+        let angles = ["Azimuth", "Dip"].map(|angle| number(channel, angle));
+        (value, units, angles)
+    };
+    says(first) == says(second)
 }
 
 /// Whether the epoch of a channel covers a time: its end is the first moment that it does not.

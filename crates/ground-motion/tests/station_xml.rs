@@ -290,7 +290,11 @@ fn epochs() {
         gone.contains("no epoch of channel XX.XXXXX..HNE covers 2000 day 1"),
         "{gone}"
     );
-    let twice = refused(station(&[second(), second()]));
+    let other = Epoch {
+        value: "5",
+        ..second()
+    };
+    let twice = refused(station(&[second(), other]));
     assert!(twice.contains("a second epoch"), "{twice}");
     let other = refused(station(&[Epoch {
         attributes: r#"locationCode="10""#,
@@ -738,4 +742,67 @@ fn floats_beside_metadata() {
     // A file that is named says by itself that there are counts.
     let named = read_all(&path, &with(&file)).unwrap();
     assert_eq!(named.series[0].origin.warnings, Vec::<String>::new());
+}
+
+/// Files with the code of the station in their name go before others, which are looked into where
+/// those do not have the channel.
+#[test]
+fn names_of_files_beside_the_record() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    // Of a station whose code holds that of the record's.
+    let other = station(&[HNE]).replace("XXXXX", "AXXXXX");
+    write(folder.path(), "AXXXXXB.xml", &other);
+    write(folder.path(), "inventory.xml", station(&[HNE]));
+    read(&record, &ReadOptions::default()).unwrap();
+    std::fs::remove_file(folder.path().join("inventory.xml")).unwrap();
+    // More files than are looked into, and those that are not named one by one.
+    for i in 0..300 {
+        write(folder.path(), &format!("a{i:03}.xml"), &other);
+    }
+    let error = read(&record, &ReadOptions::default())
+        .unwrap_err()
+        .to_string();
+    for words in [
+        "AXXXXXB.xml",
+        "253 more files",
+        "45 more files that end in .xml were not opened",
+    ] {
+        assert!(error.contains(words), "{error}");
+    }
+    assert!(error.len() < 1500, "{error}");
+    // Of those the ones with the station's code are opened first; what writes files keeps off them.
+    let named = write(folder.path(), "z_xxxxx.xml", station(&[HNE]));
+    read(&record, &ReadOptions::default()).unwrap();
+    assert!(responses_beside(&record).contains(&named));
+}
+
+/// Inventories that were merged state an epoch twice: it is one where both say the same.
+#[test]
+fn epochs_that_stand_twice() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    let once = station(&[HNE]);
+    let from = once.find("<Network code=\"XX\">").unwrap();
+    let to = once.find("</FDSNStationXML>").unwrap();
+    let merged = format!("{}{}{}", &once[..to], &once[from..to], &once[to..]);
+    let file = write(folder.path(), "XX.XXXXX.xml", &merged);
+    for options in [with(&file), ReadOptions::default()] {
+        let found = read_all(&record, &options).unwrap();
+        assert_eq!(found.series[0].samples[0], 100.0 * (1.0 / 2.5e5));
+        assert_eq!(found.series[0].origin.warnings, Vec::<String>::new());
+    }
+    for (same, other) in [
+        ("2.5E+05", "2.6E+05"),
+        ("M/S**2", "CM/S**2"),
+        (
+            "<SampleRate>",
+            "<Azimuth>90</Azimuth><Dip>0</Dip><SampleRate>",
+        ),
+    ] {
+        let last = merged.rfind(same).unwrap();
+        let changed = format!("{}{other}{}", &merged[..last], &merged[last + same.len()..]);
+        let shown = refused(changed);
+        assert!(shown.contains("a second epoch"), "{shown}");
+    }
 }

@@ -123,18 +123,33 @@ fn present(value: f64, plain: &[u8]) -> Result<f64, String> {
     }
 }
 
+/// Characters of a field that a message shows, and the most bytes of one.
+const SHOWN: usize = 24;
+const LONGEST_CHARACTER: usize = 4;
+
 /// The field for a message: printable, not long.
 pub(crate) fn shown(field: &[u8]) -> String {
-    let mut text: String = field
-        .iter()
-        .take(24)
-        .map(|b| char::from(*b))
-        .map(|c| if c.is_control() { '\u{fffd}' } else { c })
-        .collect();
-    if field.len() > 24 {
-        text.push('…');
-    }
-    text
+    // A line may be as long as the file.
+    let start = &field[..field.len().min((SHOWN + 1) * LONGEST_CHARACTER)];
+    let of_utf_8 = match std::str::from_utf8(start) {
+        Ok(text) => Some(text),
+        // Cut within a character.
+        Err(e) if e.error_len().is_none() && start.len() < field.len() => {
+            std::str::from_utf8(&start[..e.valid_up_to()]).ok()
+        }
+        Err(_) => None,
+    };
+    let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
+    let mut characters: Vec<char> = match of_utf_8 {
+        Some(text) => text.chars().map(visible).collect(),
+        None => start.iter().map(|b| visible(char::from(*b))).collect(),
+    };
+    let is_long = characters.len() > SHOWN;
+    characters.truncate(SHOWN);
+    characters
+        .into_iter()
+        .chain(is_long.then_some('…'))
+        .collect()
 }
 
 /// One unit of the last printed digit: 0.01 for `3.25`, 1e-5 for `1.00E-03`.

@@ -100,20 +100,30 @@ fn trim_end(line: &[u8]) -> &[u8] {
 }
 
 impl<'a> Line<'a> {
-    /// As Latin-1, in which every byte is a character.
+    /// As UTF-8 if it is that, else as Latin-1, in which every byte is a character.
     pub(crate) fn text(&self) -> String {
-        latin_1(self.bytes)
+        decoded(self.bytes)
     }
 
-    /// As Latin-1, ASCII letters in lower case.
+    /// The same, ASCII letters in lower case.
     pub(crate) fn lower(&self) -> String {
         self.text().to_ascii_lowercase()
     }
 
-    /// Text in columns `from..to` (from 0), without blanks around it.
+    /// Text in columns `from..to` (from 0), without blanks around it. A column is a byte, as the
+    /// programs count that write them; a character of several belongs to where it begins.
     pub(crate) fn columns(&self, from: usize, to: usize) -> String {
-        let end = to.min(self.bytes.len());
-        latin_1(self.bytes.get(from..end).unwrap_or(&[]).trim_ascii())
+        let [from, to] = [from, to].map(|at| at.min(self.bytes.len()));
+        let field = match std::str::from_utf8(self.bytes) {
+            Ok(text) => {
+                let [from, to] = [from, to].map(|at| end_of_character(text, at));
+                visible(text[from..to.max(from)].chars())
+            }
+            Err(_) => latin_1(self.bytes.get(from..to).unwrap_or(&[])),
+        };
+        field
+            .trim_matches(|c: char| c.is_ascii_whitespace())
+            .to_owned()
     }
 
     /// Whether there is nothing on it.
@@ -152,11 +162,28 @@ impl<'a> Line<'a> {
     }
 }
 
+/// The place itself, or the end of the character in which it lies.
+fn end_of_character(text: &str, at: usize) -> usize {
+    (at..text.len())
+        .find(|at| text.is_char_boundary(*at))
+        .unwrap_or(text.len())
+}
+
+/// Bytes of a text as UTF-8 if they are that, else as Latin-1; control characters are made visible.
+pub(crate) fn decoded(bytes: &[u8]) -> String {
+    match std::str::from_utf8(bytes) {
+        Ok(text) => visible(text.chars()),
+        Err(_) => latin_1(bytes),
+    }
+}
+
 /// Bytes as Latin-1; control characters are made visible.
 pub(crate) fn latin_1(bytes: &[u8]) -> String {
-    bytes
-        .iter()
-        .map(|b| char::from(*b))
+    visible(bytes.iter().map(|b| char::from(*b)))
+}
+
+fn visible(characters: impl Iterator<Item = char>) -> String {
+    characters
         .map(|c| if c.is_control() && c != '\t' { ' ' } else { c })
         .collect()
 }

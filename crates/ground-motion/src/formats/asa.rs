@@ -346,9 +346,9 @@ impl Header {
     }
 }
 
-/// A line in capitals without accents, in UTF-8 or Latin-1: some files have them.
+/// A line in capitals without accents: some files have them.
 fn plain(line: Line<'_>) -> String {
-    let text = std::str::from_utf8(line.bytes).map_or_else(|_| line.text(), str::to_owned);
+    let text = line.text();
     let bare = |c: char| match c {
         'Á' => 'A',
         'É' => 'E',

@@ -59,10 +59,7 @@ pub(super) fn cells(line: &Line<'_>) -> Option<Cells> {
     if line.bytes.len() > LONGEST {
         return None;
     }
-    let text = match std::str::from_utf8(line.bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => line.text(),
-    };
+    let text = line.text();
     // What programs write before a header that others should pass over.
     let bare = text.trim_start_matches(COMMENT);
     let plain = without_formats(bare);

@@ -937,10 +937,7 @@ fn named_quantity(value: &str) -> Option<(Quantity, String)> {
     all.into_iter().find(named).map(|quantity| (quantity, text))
 }
 
-/// A line in lower case, of whatever encoding; the sign of an increment is a delta.
+/// A line in lower case; the sign of an increment is a delta.
 fn lower(line: &Line<'_>) -> String {
-    match std::str::from_utf8(line.bytes) {
-        Ok(text) => text.to_lowercase().replace('\u{2206}', "\u{3b4}"),
-        Err(_) => line.lower(),
-    }
+    line.text().to_lowercase().replace('\u{2206}', "\u{3b4}")
 }

@@ -61,7 +61,8 @@ impl Clock {
     fn of(text: &str) -> Option<Self> {
         let (from, to, [hours, minutes, seconds], separator) = with_colons(text)
             .map(|(from, to, numbers)| (from, to, numbers, ":"))
-            .or_else(|| in_a_row(text).map(|(from, to, numbers)| (from, to, numbers, "")))?;
+            .or_else(|| in_a_row(text).map(|(from, to, numbers)| (from, to, numbers, "")))
+            .or_else(|| in_blanks(text).map(|(from, to, numbers)| (from, to, numbers, " ")))?;
         let inside = is_of_clock([hours, minutes, seconds]);
         let behind = text[from..to].split_once('.');
         inside.then_some(Self {
@@ -114,7 +115,7 @@ pub(crate) fn later(text: &str, by: f64) -> Option<String> {
 const DAY: i64 = 86_400_000_000;
 
 /// What stands before a time of day, with its date so many days later: `2011/03/11 `,
-/// `2011-03-11T`, `20110311_` or `2011 day 70 `.
+/// `2011-03-11T`, `2011 03 11 `, `20110311_` or `2011 day 70 `.
 fn date_later(text: &str, days: i64) -> Option<String> {
     let digits = text.bytes().take_while(u8::is_ascii_digit).count();
     let number = |from: usize, to: usize| text.get(from..to)?.parse::<i64>().ok();
@@ -132,7 +133,7 @@ fn date_later(text: &str, days: i64) -> Option<String> {
         let (year, day) = year_and_day(number(0, 4)?, day + days);
         return Some(format!("{year} day {day}{}", &rest[length..]));
     }
-    let between = text.get(4..5).filter(|c| matches!(*c, "/" | "-"))?;
+    let between = text.get(4..5).filter(|c| matches!(*c, "/" | "-" | " "))?;
     if text.get(7..8) != Some(between) {
         return None;
     }
@@ -147,7 +148,9 @@ fn date_later(text: &str, days: i64) -> Option<String> {
 /// Whether a printed time has an hour, a day or a month that there is not. What stands in no known form
 /// says nothing.
 pub(crate) fn is_impossible(text: &str) -> bool {
-    let clock = with_colons(text).or_else(|| in_a_row(text));
+    let clock = with_colons(text)
+        .or_else(|| in_a_row(text))
+        .or_else(|| in_blanks(text));
     let (date, of_clock) = match clock {
         Some((from, _, numbers)) => (&text[..from], !is_of_clock(numbers)),
         None => (text, false),
@@ -180,7 +183,11 @@ fn is_no_date(text: &str) -> bool {
         let year = number(&text[..digits]);
         return (year.zip(day)).is_some_and(|(y, day)| !(1..=length_of(y)).contains(&day));
     }
-    let Some(sign) = text[digits..].chars().next().filter(|c| "/-.".contains(*c)) else {
+    let Some(sign) = text[digits..]
+        .chars()
+        .next()
+        .filter(|c| "/-. ".contains(*c))
+    else {
         return false;
     };
     let mut parts = text.splitn(3, sign);
@@ -196,6 +203,8 @@ fn is_no_date(text: &str) -> bool {
     };
     match (first.0, second.0, third.0) {
         (4, 1..=2, 1..=2) => !is_date((first.1, second.1, third.1)),
+        // Blanks stand in other texts, too.
+        _ if sign == ' ' => false,
         (1..=2, 1..=2, 4) if sign == '/' => {
             !is_date((third.1, second.1, first.1)) && !is_date((third.1, first.1, second.1))
         }
@@ -298,6 +307,41 @@ fn in_a_row(text: &str) -> Option<(usize, usize, [f64; 3])> {
     ))
 }
 
+/// The same of `2011 03 11 14 46 30.005`, with whatever stands behind a blank.
+fn in_blanks(text: &str) -> Option<(usize, usize, [f64; 3])> {
+    // Digits of year, month, day, hour and minute, each with a blank behind it.
+    const WIDTHS: [usize; 5] = [4, 2, 2, 2, 2];
+    let mut at = 0;
+    let mut starts = [0; WIDTHS.len()];
+    for (start, width) in starts.iter_mut().zip(WIDTHS) {
+        let field = text.get(at..at + width + 1)?;
+        let digits = field.strip_suffix(' ')?;
+        if !digits.bytes().all(|b| b.is_ascii_digit()) {
+            return None;
+        }
+        *start = at;
+        at += width + 1;
+    }
+    let seconds = text[at..].split(' ').next()?;
+    let whole = seconds.split('.').next()?;
+    let is_number = seconds.bytes().all(|b| b.is_ascii_digit() || b == b'.');
+    if whole.len() != 2 || !is_number {
+        return None;
+    }
+    let seconds = seconds.trim_end_matches('.');
+    let number = |text: &str| text.parse::<f64>().ok();
+    let [_, _, _, hours, minutes] = starts;
+    Some((
+        hours,
+        at + seconds.len(),
+        [
+            number(&text[hours..hours + 2])?,
+            number(&text[minutes..minutes + 2])?,
+            number(seconds)?,
+        ],
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -342,6 +386,17 @@ mod tests {
                 "10/20/2021, 10: 4: 1.0",
                 Some(3600.0),
             ),
+            (
+                "2011 03 11 14 46 00 JST",
+                "2011 03 11 14 46 10.5 JST",
+                Some(10.5),
+            ),
+            (
+                "2011 03 11 23 59 59 JST",
+                "2011 03 12 00 00 01 JST",
+                Some(2.0),
+            ),
+            ("2011 03 11 14 46 00", "2011 03 11 14 46", None),
             ("", "", None),
             ("14:46", "14:47", None),
             ("at 99:00:00", "at 99:00:01", None),
@@ -372,6 +427,9 @@ mod tests {
             "20230228_241730",
             "2020 day 367 01:02:03.456 UTC",
             "2021 day 366 01:02:03 UTC",
+            "2011 13 11 14 46 00 JST",
+            "2011 02 29 14 46 00 JST",
+            "2011 03 11 24 46 00 JST",
             "1999/09/20-27:46:37.0 GMT+8",
             "31.13.1999 04:55:53.671UTC",
             "31.11.1999 04:55:53",
@@ -393,6 +451,10 @@ mod tests {
             "31/01/2000 00:00:00.000000 (GMT)",
             "00:00:00",
             "2018/11/30 17:29:06.332 UTC (Q=5) RcrdId: (see comment)",
+            "2012 02 29 14 46 00 JST",
+            "2012 2",
+            "2012 13 more",
+            "1 13 2012",
             "unknown",
             "2020",
         ] {
@@ -434,6 +496,11 @@ mod tests {
                 "10/20/21, 10:34: 1.0 UTC (Q= 5)",
                 9.0,
                 Some("10/20/21, 10:34:10.0 UTC (Q= 5)"),
+            ),
+            (
+                "2011 12 31 23 59 58 JST",
+                2.25,
+                Some("2012 01 01 00 00 00.25 JST"),
             ),
             // The order of day and month is not known.
             ("10/11/21, 23:59:59.0", 2.0, None),

@@ -178,3 +178,37 @@ fn steps_move_the_start() {
         "{warnings:?}"
     );
 }
+
+/// JMA prints blanks between the parts of a time: records that start apart are no components of one.
+#[test]
+fn jma_starts_between_blanks() {
+    let read = |component: &str, start: &str| {
+        let fixture = fixtures("jma_csv", 0).remove(0);
+        let text: String = fixture.bytes.iter().map(|b| char::from(*b)).collect();
+        let text = text.replace("2000 01 01 00 00 00", start);
+        let bytes: Vec<u8> = text.chars().map(|c| c as u8).collect();
+        let options = ReadOptions {
+            component: Some(component.to_owned()),
+            ..fixture.options
+        };
+        read_bytes("f", &bytes, &options).unwrap()
+    };
+    let first = read("NS", "2011 03 11 14 46 00");
+    assert_eq!(start(&first), "2011 03 11 14 46 00 JST");
+    rotate(&first, &read("EW", "2011 03 11 14 46 00"), 30.0).unwrap();
+    for other in ["2011 03 11 14 46 10", "2011 03 12 14 46 00"] {
+        let error = rotate(&first, &read("EW", other), 30.0).unwrap_err();
+        assert!(error.to_string().contains("start together"), "{error}");
+    }
+    let cut = ProcessingStep::Trim(Trim::Times {
+        start: 0.05,
+        end: 0.2,
+    });
+    let moved = process(&first, &[cut]).unwrap().accelerogram;
+    assert_eq!(start(&moved), "2011 03 11 14 46 00.05 JST");
+    // No such day.
+    let odd = read("NS", "2011 13 41 14 46 00");
+    assert_eq!(start(&odd), "");
+    let said = |w: &String| w.contains("2011 13 41") && w.contains("is not used");
+    assert!(odd.origin().unwrap().warnings.iter().any(said));
+}

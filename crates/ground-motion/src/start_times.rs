@@ -9,6 +9,7 @@ struct Printed {
     date: String,
     form: String,
     seconds: f64,
+    inserted_from: Option<f64>,
 }
 
 /// How far apart two printed times are (s), where both stand in one form that has hours, minutes
@@ -24,10 +25,22 @@ pub(crate) fn from_to(first: &str, second: &str) -> Option<f64> {
         return None;
     }
     let later = second.seconds - first.seconds;
-    Some(match (first.date == second.date, later.abs() > HALF_DAY) {
-        (true, _) => later,
+    let is_one_day = first.date == second.date;
+    // The minute of a second that was inserted has 61: one more lies between that and the next.
+    let is_behind = |other: &Printed, inserted: &Printed, from: f64| match is_one_day {
+        true => other.seconds >= from,
+        false => other.seconds < inserted.seconds,
+    };
+    let inserted = match (first.inserted_from, second.inserted_from) {
+        (None, Some(from)) if is_behind(&first, &second, from) => -1.0,
+        (Some(from), None) if is_behind(&second, &first, from) => 1.0,
+        _ => 0.0,
+    };
+    let counted = later + inserted;
+    Some(match (is_one_day, later.abs() > HALF_DAY) {
+        (true, _) => counted,
         // Over midnight.
-        (false, true) => later - (2.0 * HALF_DAY).copysign(later),
+        (false, true) => counted - (2.0 * HALF_DAY).copysign(later),
         (false, false) => f64::INFINITY,
     })
 }
@@ -40,6 +53,7 @@ impl Printed {
             date: digits,
             form: rest,
             seconds: clock.seconds,
+            inserted_from: clock.inserted_from,
         })
     }
 }
@@ -51,6 +65,8 @@ struct Clock {
     to: usize,
     /// Seconds after midnight.
     seconds: f64,
+    /// Where the second begins (s) that was inserted into the minute, if the time lies in it.
+    inserted_from: Option<f64>,
     /// Digits behind the point.
     decimals: usize,
     /// What stands between hours, minutes and seconds.
@@ -65,10 +81,12 @@ impl Clock {
             .or_else(|| in_blanks(text).map(|(from, to, numbers)| (from, to, numbers, " ")))?;
         let inside = is_of_clock([hours, minutes, seconds]);
         let behind = text[from..to].split_once('.');
+        let minute = 3600.0 * hours + 60.0 * minutes;
         inside.then_some(Self {
             from,
             to,
-            seconds: 3600.0 * hours + 60.0 * minutes + seconds,
+            seconds: minute + seconds,
+            inserted_from: (seconds >= 60.0 && minutes == 59.0).then_some(minute + 60.0),
             decimals: behind.map_or(0, |(_, digits)| digits.len()),
             separator,
         })
@@ -90,12 +108,19 @@ pub(crate) fn later(text: &str, by: f64) -> Option<String> {
     }
     // Whole parts of a second, so that 59.9999999 is not printed as 60.
     let parts = libm::round((clock.seconds + by) * 1.0e6) as i64;
+    let inserted = clock.inserted_from.map(|from| (from * 1.0e6) as i64);
+    // Of the second that was inserted; behind it the clock is one second late.
+    let (parts, within) = match inserted {
+        Some(from) if parts >= from + SECOND => (parts - SECOND, 0),
+        Some(from) if parts >= from => (parts - SECOND, 1),
+        _ => (parts, 0),
+    };
     let (days, parts) = (parts.div_euclid(DAY), parts.rem_euclid(DAY));
     let date = match days {
         0 => text[..clock.from].to_owned(),
         days => date_later(&text[..clock.from], days)?,
     };
-    let (whole, fraction) = (parts / 1_000_000, parts % 1_000_000);
+    let (whole, fraction) = (parts / SECOND, parts % SECOND);
     let mut digits = format!("{fraction:06}");
     while digits.len() > clock.decimals.min(DIGITS) && digits.ends_with('0') {
         digits.pop();
@@ -106,13 +131,14 @@ pub(crate) fn later(text: &str, by: f64) -> Option<String> {
         "{date}{:02}{between}{:02}{between}{:02}{point}{digits}{}",
         whole / 3600,
         whole / 60 % 60,
-        whole % 60,
+        whole % 60 + within,
         &text[clock.to..]
     ))
 }
 
-/// A day (us).
+/// A day and a second (us).
 const DAY: i64 = 86_400_000_000;
+const SECOND: i64 = 1_000_000;
 
 /// What stands before a time of day, with its date so many days later: `2011/03/11 `,
 /// `2011-03-11T`, `2011 03 11 `, `20110311_` or `2011 day 70 `.
@@ -213,8 +239,11 @@ fn is_no_date(text: &str) -> bool {
     }
 }
 
+/// Seconds are inserted at the end of a day of UTC, which is that of an hour elsewhere; headers round up to
+/// 60 in any minute.
 fn is_of_clock([hours, minutes, seconds]: [f64; 3]) -> bool {
-    hours < 24.0 && minutes < 60.0 && seconds <= 60.0
+    let is_inserted = minutes == 59.0 && seconds < 61.0;
+    hours < 24.0 && minutes < 60.0 && (seconds <= 60.0 || is_inserted)
 }
 
 fn is_leap(year: i64) -> bool {
@@ -397,6 +426,37 @@ mod tests {
                 Some(2.0),
             ),
             ("2011 03 11 14 46 00", "2011 03 11 14 46", None),
+            // The second that was inserted at the end of 2016.
+            (
+                "2016-12-31T23:59:60.010000",
+                "2016-12-31T23:59:60.000000",
+                Some(0.01),
+            ),
+            (
+                "2016-12-31T23:59:59.990000",
+                "2016-12-31T23:59:60.000000",
+                Some(0.01),
+            ),
+            (
+                "2016-12-31T23:59:60.990000",
+                "2017-01-01T00:00:00.000000",
+                Some(0.01),
+            ),
+            (
+                "2017-01-01T00:00:00.000000",
+                "2016-12-31T23:59:60.990000",
+                Some(0.01),
+            ),
+            (
+                "2017/01/01 08:59:60.99 JST",
+                "2017/01/01 09:00:00.00 JST",
+                Some(0.01),
+            ),
+            (
+                "2017/01/01 08:59:58.00 JST",
+                "2017/01/01 08:59:60.50 JST",
+                Some(2.5),
+            ),
             ("", "", None),
             ("14:46", "14:47", None),
             ("at 99:00:00", "at 99:00:01", None),
@@ -434,6 +494,8 @@ mod tests {
             "31.13.1999 04:55:53.671UTC",
             "31.11.1999 04:55:53",
             "41/13/2000 00:00:00",
+            "2016-12-31T23:58:60.5",
+            "2016-12-31T23:59:61.0",
         ] {
             assert!(is_impossible(text), "{text}");
         }
@@ -441,6 +503,9 @@ mod tests {
             "",
             "2020/02/29 01:02:15 JST less 15 s",
             "2020-12-31T23:59:60",
+            "2016-12-31T23:59:60.5",
+            "2017/01/01 08:59:60.99 JST",
+            "2017/01/01 08:12:60.0 UTC",
             "20000101_000000.000",
             "2020 day 366 01:02:03.456 UTC",
             "1999/09/20-17:46:37.0 GMT+8",
@@ -502,6 +567,13 @@ mod tests {
                 2.25,
                 Some("2012 01 01 00 00 00.25 JST"),
             ),
+            (
+                "2016-12-31T23:59:60.5",
+                0.25,
+                Some("2016-12-31T23:59:60.75"),
+            ),
+            ("2016-12-31T23:59:60.5", -1.0, Some("2016-12-31T23:59:59.5")),
+            ("2016-12-31T23:59:60.5", 1.0, Some("2017-01-01T00:00:00.5")),
             // The order of day and month is not known.
             ("10/11/21, 23:59:59.0", 2.0, None),
             ("some day", 2.0, None),

@@ -152,3 +152,55 @@ fn segments_times_and_rows() {
     refused(&list[..list.len() - 2], "ends within its last value");
     refused(&list.replacen("e+00\t", "\t", 1), "no exponent");
 }
+
+/// A second that was inserted is no gap, whether the record begins in it or goes over it.
+#[test]
+fn seconds_that_were_inserted() {
+    let strict = ReadOptions::default();
+    let header = |kind: &str, start: &str, count: usize| {
+        format!(
+            "TIMESERIES XX_ABCD__HNE_D, {count} samples, 100 sps, {start}, {kind}, FLOAT, M/S**2\n"
+        )
+    };
+    let values = "0.1\n0.2\n-0.3\n0.4\n";
+    let start = "2016-12-31T23:59:60.500000";
+    let found = read(&(header("SLIST", start, 4) + values), &strict).unwrap();
+    let origin = &found.series[0].origin;
+    assert_eq!(origin.start_time, format!("{start} UTC"));
+    assert!(origin.warnings.is_empty(), "{:?}", origin.warnings);
+    for times in [
+        [
+            "31T23:59:59.990000",
+            "31T23:59:60.000000",
+            "31T23:59:60.010000",
+            "31T23:59:60.020000",
+        ],
+        [
+            "31T23:59:60.000000",
+            "31T23:59:60.010000",
+            "31T23:59:60.020000",
+            "31T23:59:60.030000",
+        ],
+    ] {
+        let times = times.map(|time| format!("2016-12-{time}"));
+        let rows: String = times.iter().map(|time| format!("{time}  0.5\n")).collect();
+        let text = header("TSPAIR", &times[0], 4) + &rows;
+        read(&text, &strict).unwrap();
+    }
+    let rows = "2016-12-31T23:59:60.980000 1\n2016-12-31T23:59:60.990000 2\n2017-01-01T00:00:00.000000 3\n2017-01-01T00:00:00.010000 4\n";
+    let text = header("TSPAIR", "2016-12-31T23:59:60.980000", 4) + rows;
+    read(&text, &strict).unwrap();
+    // A second is missing.
+    let missing = text.replace("00:00:00", "00:00:01");
+    assert!(
+        read(&missing, &strict)
+            .unwrap_err()
+            .contains("is not 0.01 s after")
+    );
+    let none = read(
+        &(header("SLIST", "2016-12-31T23:58:60.5", 4) + values),
+        &strict,
+    )
+    .unwrap();
+    assert_eq!(none.series[0].origin.start_time, "");
+}

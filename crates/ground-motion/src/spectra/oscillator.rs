@@ -40,6 +40,8 @@ pub(crate) struct Oscillator {
     eigenvalue: Complex64,
     time_step: f64,
     step: Transition,
+    /// `e^(lambda t)` of a step.
+    growth: Complex64,
 }
 
 /// Displacement and velocity relative to the ground.
@@ -109,8 +111,10 @@ impl Oscillator {
                 displacement: [0.0; 4],
                 velocity: [0.0; 4],
             },
+            growth: Complex64::new(1.0, 0.0),
         };
         oscillator.step = oscillator.transition(time_step);
+        oscillator.growth = exponential(oscillator.eigenvalue * time_step);
         oscillator
     }
 
@@ -193,6 +197,38 @@ impl Oscillator {
         self.raise(peak, start, states, forces, &quantity);
     }
 
+    /// The largest that `|Re(curvature e^(lambda t))|` may be within a step: `|curvature|`, the amplitude, or where a step
+    /// is a small part of a period what it is at both ends, and what it may be above its chord.
+    fn most_within(&self, curvature: Complex64, amplitude: f64) -> f64 {
+        let at_ends = curvature.re.abs().max((curvature * self.growth).re.abs());
+        let above = (self.time_step * self.frequency).powi(2) / 8.0 * amplitude;
+        amplitude.min(at_ends + above)
+    }
+
+    /// Whether a quantity may exceed its peak within a step. A function is at most `h^2/8 |f''|` above its
+    /// chord, and at most `h^4/384 |f''''|` above the cubic that has its values and rates at both ends: of a
+    /// steady motion the peaks of all steps are alike, and the first bound would exclude none.
+    fn may_reach(
+        &self,
+        peak: &Peak,
+        states: [State; 2],
+        forces: [f64; 2],
+        quantity: &Quantity,
+    ) -> bool {
+        let h = self.time_step;
+        let values = [0, 1].map(|i| (quantity.value)(self, states[i], forces[i]));
+        let end = values[0].abs().max(values[1].abs());
+        let amplitude = quantity.curvature.norm_sqr().sqrt();
+        if !(end + h * h / 8.0 * amplitude > peak.value) {
+            return false;
+        }
+        let rates = [0, 1].map(|i| h * (quantity.rate)(self, states[i], forces[i]));
+        let fourth = quantity.curvature * self.eigenvalue * self.eigenvalue;
+        let above = self.most_within(fourth, amplitude * self.frequency.powi(2));
+        let most = most_of_cubic(values, rates) + h.powi(4) / 384.0 * above;
+        most * ROUNDING > peak.value
+    }
+
     fn raise(
         &self,
         peak: &mut Peak,
@@ -201,13 +237,11 @@ impl Oscillator {
         forces: [f64; 2],
         quantity: &Quantity,
     ) {
-        let ends = [0, 1].map(|i| (quantity.value)(self, states[i], forces[i]).abs());
-        let amplitude = quantity.curvature.norm();
-        let h = self.time_step;
-        // A function is at most h^2/8 |f''| above its chord.
-        if !(ends[0].max(ends[1]) + h * h / 8.0 * amplitude > peak.value) {
+        if !self.may_reach(peak, states, forces, quantity) {
             return;
         }
+        let amplitude = quantity.curvature.norm();
+        let h = self.time_step;
         // A step of many half cycles would take an evaluation and more for each: those in which
         // the straight part and the swing together do not reach the peak are passed over.
         let apart = PI / self.damped_frequency;
@@ -288,13 +322,8 @@ impl Oscillator {
             || most(Self::absolute_acceleration) + w * w * rise > peaks.acceleration.value
     }
 
-    fn between(
-        &self,
-        peaks: &mut OscillatorPeaks,
-        start: f64,
-        states: [State; 2],
-        forces: [f64; 2],
-    ) {
+    /// Displacement, velocity and acceleration within a step.
+    fn quantities(&self, states: [State; 2], forces: [f64; 2]) -> [Quantity; 3] {
         let curvature = self.curvature(states[0], forces[0], forces[1]);
         let displacement = Quantity {
             curvature,
@@ -321,6 +350,17 @@ impl Oscillator {
                 o.absolute_acceleration(turned)
             },
         };
+        [displacement, velocity, acceleration]
+    }
+
+    fn between(
+        &self,
+        peaks: &mut OscillatorPeaks,
+        start: f64,
+        states: [State; 2],
+        forces: [f64; 2],
+    ) {
+        let [displacement, velocity, acceleration] = self.quantities(states, forces);
         self.raise(
             &mut peaks.displacement,
             start,
@@ -443,6 +483,22 @@ impl Transition {
     }
 }
 
+/// The largest magnitude that the cubic of these values and rates at 0 and 1 has between them.
+fn most_of_cubic([v0, v1]: [f64; 2], [r0, r1]: [f64; 2]) -> f64 {
+    let rise = v1 - v0;
+    let square = 3.0 * rise - 2.0 * r0 - r1;
+    let cube = r0 + r1 - 2.0 * rise;
+    let ends = v0.abs().max(v1.abs());
+    // Zeros of `r0 + 2 square x + 3 cube x^2`, without a difference of numbers that are nearly the same.
+    let root = (square * square - 3.0 * cube * r0).sqrt();
+    let sum = -(square + root.copysign(square));
+    let at = |x: f64| match 0.0 < x && x < 1.0 {
+        true => (v0 + x * (r0 + x * (square + x * cube))).abs(),
+        false => 0.0,
+    };
+    ends.max(at(sum / (3.0 * cube))).max(at(r0 / sum))
+}
+
 fn keep(peak: &mut Peak, value: f64, time: f64) {
     if value.abs() > peak.value {
         *peak = Peak {
@@ -484,4 +540,119 @@ pub(crate) fn zero(
         }
     }
     b
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn cubics_by_their_ends() {
+        for (values, rates) in [
+            ([0.0, 0.0], [1.0, -1.0]),
+            ([1.0, -1.0], [0.0, 0.0]),
+            ([0.0, 1.0], [1.0, 1.0]),
+            ([0.3, 0.2], [-4.0, 5.0]),
+            ([0.3, 0.2], [-4.0, -5.0]),
+            ([1.0, 1.0], [1.0e-9, -1.0e-9]),
+            ([0.0, 0.0], [0.0, 0.0]),
+        ] {
+            let ([v0, v1], [r0, r1]) = (values, rates);
+            let on = |x: f64| {
+                let y = 1.0 - x;
+                let ends = v0 * y * y * (1.0 + 2.0 * x) + v1 * x * x * (1.0 + 2.0 * y);
+                ends + x * y * (r0 * y - r1 * x)
+            };
+            let most = (0..=1000).map(|i| on(f64::from(i) / 1000.0).abs());
+            let most = most.fold(0.0, f64::max);
+            let found = most_of_cubic(values, rates);
+            assert!(found >= most * (1.0 - 1.0e-15), "{found} {most}");
+            assert!(found <= most * (1.0 + 1.0e-5), "{found} {most}");
+        }
+    }
+
+    /// No step is passed over in which a quantity exceeds what is taken for its peak, however little.
+    #[test]
+    fn bounds_hold_within_steps() {
+        let mut state = 1_u64;
+        let mut random = || {
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            (state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+        };
+        for i in 0..20_000 {
+            let damping = [0.0, 0.02, 0.05, 0.3, 0.9][i % 5];
+            let period = 0.01 * libm::exp(3.5 * random() + 3.0);
+            let oscillator = Oscillator::new(period, damping, 0.01);
+            let forces = [random(), random()];
+            let w = oscillator.frequency;
+            // Near rest, as of motions whose frequency is far above that of the oscillator.
+            let size = libm::exp(4.0 * random() - 4.0);
+            let start = State {
+                displacement: size * random() / (w * w),
+                velocity: size * random() / w,
+            };
+            let end = oscillator.advance(start, forces[0], forces[1]);
+            for quantity in oscillator.quantities([start, end], forces) {
+                let inside = (0..=64).map(|k| {
+                    let part = f64::from(k) / 64.0;
+                    let force = forces[0] + (forces[1] - forces[0]) * part;
+                    let state = oscillator.within_step(start, forces[0], forces[1], 0.01 * part);
+                    (quantity.value)(&oscillator, state, force).abs()
+                });
+                let peak = Peak {
+                    value: inside.fold(0.0, f64::max) * (1.0 - 1.0e-6),
+                    time: 0.0,
+                };
+                let may = oscillator.may_reach(&peak, [start, end], forces, &quantity);
+                assert!(may, "{period} {damping} {start:?} {forces:?}");
+            }
+        }
+    }
+
+    /// Of a steady motion near half the sampling rate few steps are looked into: the others cannot
+    /// exceed the peaks that are known. Values between samples do not exceed what is found.
+    #[test]
+    fn few_steps_of_steady_motion_are_looked_into() {
+        let samples = |of: &dyn Fn(f64) -> f64| (0..2000).map(|i| of(f64::from(i))).collect();
+        let alternating: Vec<f64> = samples(&|i| 0.1 * libm::cos(PI * i));
+        let of_40_hz: Vec<f64> = samples(&|i| libm::sin(0.8 * PI * i));
+        let of_2_hz: Vec<f64> = samples(&|i| libm::sin(0.04 * PI * i));
+        for ground in [alternating, of_40_hz, of_2_hz] {
+            let (mut steps, mut looked_into) = (0, 0);
+            for period in [0.1, 0.137, 0.3, 0.77, 1.9, 2.5, 7.3] {
+                let oscillator = Oscillator::new(period, 0.05, 0.01);
+                let peaks = oscillator.peaks(&ground, Evaluation::PiecewiseLinear);
+                let mut state = State::default();
+                for pair in ground.windows(2) {
+                    let forces = [-pair[0], -pair[1]];
+                    let next = oscillator.advance(state, forces[0], forces[1]);
+                    let ends = [state, next];
+                    let [displacement, velocity, acceleration] =
+                        oscillator.quantities(ends, forces);
+                    let pairs = [
+                        (&peaks.displacement, displacement),
+                        (&peaks.velocity, velocity),
+                        (&peaks.acceleration, acceleration),
+                    ];
+                    steps += pairs.len();
+                    for (peak, quantity) in pairs {
+                        let may = oscillator.may_reach(peak, ends, forces, &quantity);
+                        looked_into += usize::from(may);
+                        for k in 0..=8 {
+                            let part = f64::from(k) / 8.0;
+                            let force = forces[0] + (forces[1] - forces[0]) * part;
+                            let time = 0.01 * part;
+                            let inside = oscillator.within_step(state, forces[0], forces[1], time);
+                            let value = (quantity.value)(&oscillator, inside, force).abs();
+                            assert!(value <= peak.value * ROUNDING, "{period}: {value}");
+                        }
+                    }
+                    state = next;
+                }
+            }
+            assert!(50 * looked_into < steps, "{looked_into} of {steps}");
+        }
+    }
 }

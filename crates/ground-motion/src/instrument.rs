@@ -39,6 +39,12 @@ fn of_other_instrument(code: &[u8]) -> Option<&'static str> {
     other_measure(instrument).filter(|_| is_code && known)
 }
 
+/// Whether a channel in capitals is that of an instrument of low gain: an accelerograph in older codes, a
+/// seismometer in others.
+pub(crate) fn is_of_low_gain(channel: &str) -> bool {
+    ["HLZ", "HLN", "HLE", "HL1", "HL2", "HL3"].contains(&channel)
+}
+
 /// Refuses a channel whose code is that of an instrument that records no acceleration, where the file
 /// does not say what the values are: `unsaid` says so.
 pub(crate) fn may_accelerate(
@@ -55,15 +61,15 @@ pub(crate) fn may_accelerate(
     // Codes are in capitals; some programs write them small.
     let name = name.to_ascii_uppercase();
     match name.as_bytes() {
-        b"LOG" => Err(unsupported(
-            "channel LOG holds messages of the recorder, no motion".to_owned(),
-        )),
-        b"HLZ" | b"HLN" | b"HLE" | b"HL1" | b"HL2" | b"HL3" => {
+        _ if is_of_low_gain(&name) => {
             source.warn(&format!(
                 "channel {name} is that of an instrument of low gain, which is an accelerograph in older codes and a seismometer in others; {unsaid}"
             ));
             Ok(())
         }
+        b"LOG" => Err(unsupported(
+            "channel LOG holds messages of the recorder, no motion".to_owned(),
+        )),
         [_, b'H' | b'L', _] => Err(unsupported(format!(
             "channel {name} is that of a seismometer, which records velocity"
         ))),

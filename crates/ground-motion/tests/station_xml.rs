@@ -806,3 +806,58 @@ fn epochs_that_stand_twice() {
         assert!(shown.contains("a second epoch"), "{shown}");
     }
 }
+
+/// Channels of low gain are accelerographs in older codes: where the user says so, by a sensitivity or a
+/// unit, they are read with a warning; those of seismometers are not.
+#[test]
+fn channels_of_low_gain() {
+    let floats = |channel: &'static [u8; 3]| {
+        record(&Seed {
+            channel,
+            encoding: 4,
+            big: true,
+            start: 5000,
+            count: 3,
+            data: [1.5_f32, -0.25, 0.75]
+                .iter()
+                .flat_map(|v| v.to_be_bytes())
+                .collect(),
+        })
+    };
+    let by_sensitivity = ReadOptions {
+        sensitivity: Some(10.0),
+        ..ReadOptions::default()
+    };
+    let by_unit = ReadOptions {
+        unit: Some(AccelerationUnit::MetrePerSecondSquared),
+        ..ReadOptions::default()
+    };
+    for (bytes, options, first) in [
+        (seed(b"HLE"), &by_sensitivity, 10.0),
+        (floats(b"HLZ"), &by_sensitivity, 0.15),
+        (floats(b"HL1"), &by_unit, 1.5),
+    ] {
+        let found = read_all_bytes("f", &bytes, options).unwrap();
+        let series = &found.series[0];
+        assert_eq!(series.quantity, Quantity::Acceleration);
+        assert!((series.samples[0] - first).abs() < 1.0e-12);
+        let said = |w: &String| w.contains("an accelerograph in older codes");
+        let warnings = &series.origin.warnings;
+        assert!(warnings.iter().any(said), "{warnings:?}");
+    }
+    for (bytes, options, words) in [
+        (seed(b"HLE"), &ReadOptions::default(), "of low gain"),
+        (seed(b"HLE"), &by_unit, "of low gain"),
+        (seed(b"HHE"), &by_sensitivity, "records velocity"),
+        (floats(b"HHE"), &by_unit, "records velocity"),
+        (seed(b"BLE"), &by_sensitivity, "records velocity"),
+    ] {
+        let error = read_all_bytes("f", &bytes, options).unwrap_err();
+        let help = error.help().unwrap();
+        assert!(error.to_string().contains(words), "{error}");
+        assert!(
+            help.contains("`response`") && !help.contains("AT2"),
+            "{help}"
+        );
+    }
+}

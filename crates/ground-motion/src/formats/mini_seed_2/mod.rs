@@ -6,12 +6,16 @@ use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
+use crate::instrument;
 use crate::recording::{Series, WithoutSensitivity};
 use crate::source::Source;
 use crate::station_xml::{ResponseFile, Responses, Sensitivity};
 
 mod record;
 mod steim;
+
+/// What to do about channels of seismometers.
+const VELOCITY_REMEDY: &str = "use the channels of an accelerograph, HN or EN; where the code is wrong, give the StationXML of the channel as `response`";
 
 use record::Record;
 
@@ -85,13 +89,33 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             // The user gives the sensitivity.
             None => None,
         };
+        let says_acceleration = source.options.sensitivity.is_some() || is_in_unit;
         if !matches!(known, Some(Ok(_))) && first.is_velocity() && !is_given {
             let label = first.label();
-            source.warn(&format!(
-                "channel {label} records velocity and was passed over"
-            ));
-            velocity = Some(label);
-            continue;
+            let is_of_low_gain = instrument::is_of_low_gain(&first.channel_name().channel);
+            if is_of_low_gain && says_acceleration {
+                instrument::may_accelerate(
+                    source,
+                    &first.channel_name().channel,
+                    match is_in_unit {
+                        true => {
+                            "its floats are taken to be accelerations, in the unit that is given"
+                        }
+                        false => {
+                            "its counts are taken to be those of an acceleration, by the sensitivity that is given"
+                        }
+                    },
+                    VELOCITY_REMEDY,
+                )?;
+            } else {
+                let said = match is_of_low_gain {
+                    true => "is that of an instrument of low gain, which may record velocity,",
+                    false => "records velocity",
+                };
+                source.warn(&format!("channel {label} {said} and was passed over"));
+                velocity.get_or_insert((label, is_of_low_gain));
+                continue;
+            }
         }
         if !matches!(known, Some(Ok(_)))
             && !is_given
@@ -151,17 +175,30 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         if let Some((_, _, error)) = without.into_iter().next() {
             return Err(error);
         }
-        if velocity.is_some() {
-            return Err(GroundMotionError::NotAcceleration {
+        if let Some((label, is_of_low_gain)) = velocity {
+            let (what, remedy) = match is_of_low_gain {
+                true => (
+                    format!(
+                        "channel {label} is that of an instrument of low gain, which is an accelerograph in older codes and a seismometer, which records velocity, in others"
+                    ),
+                    "give the StationXML of the channel as `response`; or, of an accelerograph, `sensitivity` in counts per m/s2, or `unit` if the values are floats in it",
+                ),
+                false => (
+                    format!("channel {label} is that of a seismometer, which records velocity"),
+                    VELOCITY_REMEDY,
+                ),
+            };
+            return Err(GroundMotionError::Unsupported {
                 file: source.file.to_owned(),
-                quantity: "velocity",
+                what,
+                remedy,
             });
         }
         if let Some((label, measured)) = other {
             return Err(GroundMotionError::Unsupported {
                 file: source.file.to_owned(),
                 what: format!("channel {label} records {measured}, no acceleration"),
-                remedy: "use the channels of an accelerograph, HN or EN; where the code is wrong, give the StationXML of the channel as `response`",
+                remedy: VELOCITY_REMEDY,
             });
         }
         return Ok(series);

@@ -325,6 +325,52 @@ fn counts_of_k_net_that_are_cut_off() {
     assert_eq!(left.series[0].samples.len(), whole - 1);
 }
 
+/// JMA: three columns, of which the last one lost its end, or a value its exponent.
+#[test]
+fn values_of_jma_that_are_cut_off() {
+    let fixture = fixtures("jma_csv", 0).remove(0);
+    let text = fixture.bytes.trim_ascii_end();
+    let all = |text: &[u8], options: &ReadOptions| -> Result<Recording, String> {
+        let found = read_all_bytes("f", text, options);
+        found.map_err(|e| e.to_string())
+    };
+    let whole = all(text, &ReadOptions::default()).unwrap().series[0]
+        .samples
+        .len();
+    for cut in [1, 2, 3] {
+        let cut = &text[..text.len() - cut];
+        let said = all(cut, &ReadOptions::default()).unwrap_err();
+        assert!(said.contains("ends within its last value"), "{said}");
+        let left = all(cut, &lenient()).unwrap();
+        for series in &left.series {
+            assert_eq!(series.samples.len(), whole - 1);
+        }
+        let said = |w: &String| w.contains("not used");
+        let warnings = &left.series[0].origin.warnings;
+        assert!(warnings.iter().any(said), "{warnings:?}");
+    }
+    let rows = |lost: usize| {
+        let mut text =
+            String::from("SITE CODE= 1\nSAMPLING RATE= 100Hz\nUNIT = gal(cm/s/s)\nNS,EW,UD\n");
+        for i in 0..40_usize {
+            let value = |k: usize| of_c(0.2 * f64::sin(0.7 * (i + k) as f64 + 0.1));
+            let mut row = [value(0), value(1), value(2)];
+            if i == lost {
+                let end = row[1].len() - 4;
+                row[1].truncate(end);
+            }
+            text += &(row.join(",") + "\n");
+        }
+        text
+    };
+    all(rows(99).as_bytes(), &ReadOptions::default()).unwrap();
+    let said = all(rows(20).as_bytes(), &ReadOptions::default()).unwrap_err();
+    assert!(
+        said.starts_with("f:25:") && said.contains("has no exponent"),
+        "{said}"
+    );
+}
+
 /// A row of numbers that stands twice shifts all that follow: it is no filling of the last row.
 #[test]
 fn rows_that_stand_twice_are_refused() {

@@ -1,5 +1,6 @@
 //! CSV of the Japan Meteorological Agency: `KEY= value` lines, `NS,EW,UD`, rows.
 
+use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
@@ -66,6 +67,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     let room = lines.remaining() / (2 * names.len()) + 1;
     let mut values: Vec<Vec<f64>> = names.iter().map(|_| Vec::with_capacity(room)).collect();
+    let mut forms: Vec<Forms> = names.iter().map(|_| Forms::default()).collect();
     let mut blank = None;
     for line in lines.by_ref() {
         if line.is_blank() {
@@ -86,8 +88,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         let mut found = 0;
         for field in line.bytes.split(|b| *b == b',') {
             let blank = field.trim_ascii().is_empty();
-            if let Some(column) = values.get_mut(found) {
+            if let Some((column, forms)) = values.get_mut(found).zip(forms.get_mut(found)) {
                 column.push(source.number(line, at, field)?);
+                forms.see(line.number, at, field.trim_ascii());
             } else if !blank {
                 return Err(columns(source, line.number, names.len()));
             }
@@ -97,6 +100,13 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         if found < names.len() {
             return Err(columns(source, line.number, names.len()));
         }
+    }
+    match source.ends_whole()? {
+        true => forms.iter().try_for_each(|forms| forms.are_whole(source))?,
+        // The components are of one length.
+        false => values
+            .iter_mut()
+            .for_each(|column| column.truncate(column.len().saturating_sub(1))),
     }
     let ends = (header, header + 1, lines.number());
     let mut series = Vec::new();

@@ -47,6 +47,12 @@ impl RowWidths {
         (only && last > 1 && all + 1 == rows).then_some(last)
     }
 
+    /// The most values that a row has.
+    pub(crate) fn most(&self) -> Option<usize> {
+        let before = self.rows.keys().next_back().copied();
+        before.max(self.last.map(|(_, values)| values))
+    }
+
     /// The first row that is damaged: a few have another number of values than all others. Where
     /// many do, the rows are free. The last one may be shorter.
     pub(crate) fn odd(mut self) -> Option<OddRow> {

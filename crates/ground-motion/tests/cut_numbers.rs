@@ -414,6 +414,53 @@ fn rows_that_stand_twice_are_refused() {
     assert!(tried >= 5, "{tried}");
 }
 
+/// Of ISESD and DYNA, too: the right samples at the end would be left out.
+#[test]
+fn rows_that_stand_twice_in_isesd_and_dyna() {
+    let values: Vec<String> = (0..40)
+        .map(|i| of_c(0.2 * f64::sin(0.7 * f64::from(i) + 0.1)))
+        .collect();
+    let dyna = "EVENT_NAME: quake\nSAMPLING_INTERVAL_S: 0.01\nNDATA: 40\nSTREAM: HNE\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n";
+    let isesd = "file: 1.cor\nwaveform code: 1\norientation of transducer: NS\nsampling period: 0.01s\nnumber of samples: 40\nunits: m/s*s\n-> corrected acceleration time histories\n";
+    let uneven = "file: 1.raw\nwaveform code: 1\norientation of transducer: NS\nnumber of samples: 40\nunits: m/s*s\n-> uncorrected acceleration time histories\n";
+    let pairs: Vec<String> = (0..40)
+        .map(|i| format!("{}{:>15}", values[i], format!("{:.4}", 0.01 * i as f64)))
+        .collect();
+    for (header, values, per_row) in [
+        (dyna, &values, 1),
+        (dyna, &values, 5),
+        (isesd, &values, 5),
+        (isesd, &values, 8),
+        (uneven, &pairs, 4),
+    ] {
+        let mut rows: Vec<String> = values.chunks(per_row).map(|row| row.concat()).collect();
+        let all = |rows: &[String], options: &ReadOptions| {
+            let text = header.to_owned() + &rows.join("\n") + "\n";
+            read_all_bytes("f", text.as_bytes(), options).map_err(|e| e.to_string())
+        };
+        let strict = ReadOptions::default();
+        assert_eq!(all(&rows, &strict).unwrap().series[0].samples.len(), 40);
+        // A last row that is filled.
+        if per_row > 2 && header != uneven {
+            let filled = values[..40 - 2].chunks(per_row).map(|row| row.concat());
+            let mut filled: Vec<String> = filled.collect();
+            let header = header.replace("40", "38");
+            let last = filled.len() - 1;
+            filled[last] = values[last * per_row..40].concat();
+            let text = header + &filled.join("\n") + "\n";
+            let found = read_all_bytes("f", text.as_bytes(), &strict).unwrap();
+            assert_eq!(found.series[0].samples.len(), 38);
+        }
+        rows.insert(3, rows[3].clone());
+        if per_row == 1 {
+            rows.insert(3, rows[3].clone());
+        }
+        let said = all(&rows, &strict).unwrap_err();
+        let is_said = said.contains("stand in the file") || said.contains("is not after");
+        assert!(is_said, "{said}");
+    }
+}
+
 #[test]
 fn headers_of_at2_in_other_forms() {
     let of = |header: &str| read(&at2(header, plain), &ReadOptions::default());

@@ -61,11 +61,14 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let end = lines.number();
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
     let mut forms = Forms::of_one_program();
+    let mut row = 0;
     for line in lines.by_ref() {
+        let before = samples.len();
         for (column, field) in line.fields() {
             samples.push(source.number(line, column, field)?);
             forms.see(line.number, column, field);
         }
+        row = row.max(samples.len() - before);
     }
     match source.ends_whole()? {
         true => forms.are_whole(source)?,
@@ -86,6 +89,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut draft = Draft::new(samples, unit, (end, end + 1, lines.number()));
     draft.times = Times::Step(header.step);
     draft.header_count = header.count;
+    draft.row = Some(row);
     draft.header_durations = header.duration.map(Into::into).into_iter().collect();
     draft.component = header.stream;
     draft.title = format!("{}; {}", header.event, header.station);

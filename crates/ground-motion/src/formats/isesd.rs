@@ -75,13 +75,18 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             continue;
         };
         let raw = text.contains("uncorrected");
-        let numbers = numbers(source, &mut lines, header.count)?;
-        let draft = header.draft(
+        let (numbers, row) = numbers(source, &mut lines, header.count)?;
+        let mut draft = header.draft(
             quantity,
             raw,
             numbers,
             (label.number, label.number + 1, lines.number()),
         );
+        // A pair of value and time is one sample.
+        draft.row = row.map(|row| match draft.times {
+            Times::Each(_) => row.div_ceil(2),
+            Times::Step(_) => row,
+        });
         series.push(draft.finish(source)?);
     }
     Ok(series)
@@ -91,12 +96,12 @@ fn is_label(line: &Line<'_>) -> bool {
     line.bytes.trim_ascii_start().starts_with(b"->")
 }
 
-/// Values up to the next label.
+/// Values up to the next label, and the most in a row.
 fn numbers<'a>(
     source: &Source<'a>,
     lines: &mut Lines<'a>,
     count: Option<usize>,
-) -> Result<Vec<f64>, GroundMotionError> {
+) -> Result<(Vec<f64>, Option<usize>), GroundMotionError> {
     let mut values = Vec::with_capacity(count.unwrap_or(0).min(lines.remaining() / 2 + 1));
     let mut widths = RowWidths::default();
     let mut forms = Forms::default();
@@ -121,12 +126,13 @@ fn numbers<'a>(
             widths.see(line.number, values.len() - before);
         }
     }
+    let row = widths.most();
     widths.are_even(source)?;
     match lines.peek().is_some() || source.ends_whole()? {
         true => forms.are_whole(source)?,
         false => drop(values.pop()),
     }
-    Ok(values)
+    Ok((values, row))
 }
 
 impl Header {

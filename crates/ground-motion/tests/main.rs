@@ -39,6 +39,7 @@ mod processing;
 mod pulses;
 mod raw_records;
 mod readers;
+mod remedies;
 mod rows_of_numbers;
 mod simultaneous_components;
 mod spectra;

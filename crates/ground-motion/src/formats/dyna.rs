@@ -6,6 +6,7 @@ use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
+use crate::formats::rows::{DecimalCommas, second_record};
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
@@ -45,7 +46,11 @@ pub(super) static FORMAT: Format = Format {
 };
 
 fn matches(source: &Source<'_>) -> bool {
-    source.first_line().starts_with("event_name:")
+    source.lines().next().is_some_and(is_first)
+}
+
+fn is_first(line: Line<'_>) -> bool {
+    line.lower().starts_with("event_name:")
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
@@ -61,8 +66,13 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let end = lines.number();
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
     let mut forms = Forms::of_one_program();
+    let mut commas = DecimalCommas::default();
     let mut row = 0;
     for line in lines.by_ref() {
+        if line.is_text() && is_first(line) {
+            return Err(second_record(source, line));
+        }
+        commas.see(line);
         let before = samples.len();
         for (column, field) in line.fields() {
             samples.push(source.number(line, column, field)?);
@@ -70,6 +80,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         }
         row = row.max(samples.len() - before);
     }
+    commas.part_values(source, samples.len(), header.count)?;
     match source.ends_whole()? {
         true => forms.are_whole(source)?,
         false => drop(samples.pop()),

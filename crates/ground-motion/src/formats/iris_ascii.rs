@@ -7,6 +7,7 @@ use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::{GroundMotionError, bound};
 use crate::formats::Format;
+use crate::formats::rows::DecimalCommas;
 use crate::instrument;
 use crate::number;
 use crate::quantity::SeriesUnit;
@@ -75,8 +76,15 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = Header::of(source, source.expect(&mut lines, "the header")?)?;
     let is_of_counts = matches!(header.unit, DraftUnit::Counts);
+    if is_of_counts && source.options.sensitivity.is_none() {
+        return Err(GroundMotionError::Unsupported {
+            file: source.file.to_owned(),
+            what: "the record is in counts and does not state how many make 1 m/s2; files of response are read for miniSEED records alone".to_owned(),
+            remedy: "give `sensitivity` in counts per m/s2, or the record as miniSEED with its StationXML as `response`; where the values are in a unit, write it behind the last comma of the header",
+        });
+    }
     let samples = match header.kind {
-        Kind::Values => values(source, &mut lines)?,
+        Kind::Values => values(source, &mut lines, header.count)?,
         Kind::Pairs => pairs(source, &mut lines, &header)?,
     };
     let lines = (header.line, header.line + 1, lines.number());
@@ -182,12 +190,18 @@ fn is_one_segment(source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotio
     ))
 }
 
-fn values(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Vec<f64>, GroundMotionError> {
+fn values(
+    source: &Source<'_>,
+    lines: &mut Lines<'_>,
+    count: usize,
+) -> Result<Vec<f64>, GroundMotionError> {
+    let mut commas = DecimalCommas::default();
     let mut samples = Vec::with_capacity(lines.remaining() / 2 + 1);
     let mut forms = Forms::default();
     let mut widths = RowWidths::default();
     for line in lines.by_ref() {
         is_one_segment(source, line)?;
+        commas.see(line);
         let before = samples.len();
         for (column, field) in line.fields() {
             samples.push(source.number(line, column, field)?);
@@ -197,6 +211,7 @@ fn values(source: &Source<'_>, lines: &mut Lines<'_>) -> Result<Vec<f64>, Ground
             widths.see(line.number, samples.len() - before);
         }
     }
+    commas.part_values(source, samples.len(), Some(count))?;
     widths.are_even(source)?;
     match source.ends_whole()? {
         true => forms.are_whole(source)?,

@@ -6,6 +6,7 @@ use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
+use crate::formats::rows::DecimalCommas;
 use crate::fortran::Layout;
 use crate::number::{self, Bare};
 use crate::quantity::{Quantity, SeriesUnit};
@@ -75,18 +76,16 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
             continue;
         };
         let raw = text.contains("uncorrected");
-        let (numbers, row) = numbers(source, &mut lines, header.count)?;
+        // A value is followed by its time where there is no step.
+        let of_a_sample = if header.is_uneven(raw) { 2 } else { 1 };
+        let (numbers, row) = numbers(source, &mut lines, header.count, of_a_sample)?;
         let mut draft = header.draft(
             quantity,
             raw,
             numbers,
             (label.number, label.number + 1, lines.number()),
         );
-        // A pair of value and time is one sample.
-        draft.row = row.map(|row| match draft.times {
-            Times::Each(_) => row.div_ceil(2),
-            Times::Step(_) => row,
-        });
+        draft.row = row.map(|row| row.div_ceil(of_a_sample));
         series.push(draft.finish(source)?);
     }
     Ok(series)
@@ -96,17 +95,20 @@ fn is_label(line: &Line<'_>) -> bool {
     line.bytes.trim_ascii_start().starts_with(b"->")
 }
 
-/// Values up to the next label, and the most in a row.
+/// Values up to the next label, so many of a sample, and the most in a row.
 fn numbers<'a>(
     source: &Source<'a>,
     lines: &mut Lines<'a>,
     count: Option<usize>,
+    of_a_sample: usize,
 ) -> Result<(Vec<f64>, Option<usize>), GroundMotionError> {
     let mut values = Vec::with_capacity(count.unwrap_or(0).min(lines.remaining() / 2 + 1));
     let mut widths = RowWidths::default();
     let mut forms = Forms::default();
+    let mut commas = DecimalCommas::default();
     while let Some(line) = lines.peek().filter(|l| !is_label(l)) {
         lines.next();
+        commas.see(line);
         let before = values.len();
         let length = line.bytes.len();
         // Fields that touch are no numbers between blanks.
@@ -126,6 +128,7 @@ fn numbers<'a>(
             widths.see(line.number, values.len() - before);
         }
     }
+    commas.part_values(source, values.len(), count.map(|count| count * of_a_sample))?;
     let row = widths.most();
     widths.are_even(source)?;
     match lines.peek().is_some() || source.ends_whole()? {
@@ -174,6 +177,11 @@ impl Header {
         Ok(())
     }
 
+    /// Whether each value of a block is followed by its time.
+    fn is_uneven(&self, raw: bool) -> bool {
+        raw && self.step.is_none()
+    }
+
     fn draft(
         &self,
         quantity: Quantity,
@@ -187,8 +195,7 @@ impl Header {
         let unit =
             stated.or((quantity == Quantity::Displacement && metres).then_some(SeriesUnit::M));
         let unit = unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
-        let mut draft = if raw && self.step.is_none() {
-            // Uneven: each value is followed by its time.
+        let mut draft = if self.is_uneven(raw) {
             let times = numbers.chunks_exact(2).map(|p| p[1]).collect();
             let samples = numbers.chunks_exact(2).map(|p| p[0]).collect();
             let mut draft = Draft::new(samples, unit, lines);

@@ -4,10 +4,12 @@ use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
+use crate::formats::rows::second_record;
 use crate::number::Bare;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
+use crate::text::Line;
 
 pub(super) static FORMAT: Format = Format {
     name: "jma_csv",
@@ -21,7 +23,17 @@ pub(super) static FORMAT: Format = Format {
 const UNITS: &str = "give the record of the accelerations, whose unit is gal(cm/s/s); if the unit alone is wrong, correct the line";
 
 fn matches(source: &Source<'_>) -> bool {
-    source.first_line().contains("site code")
+    source.lines().next().is_some_and(is_first)
+}
+
+fn is_first(line: Line<'_>) -> bool {
+    line.lower().contains("site code")
+}
+
+/// Whether a line has the names of the columns, which may be single letters: `N,E,U`, `N-S,E-W,U-D`.
+fn has_names(line: Line<'_>, text: &str) -> bool {
+    let mut names = text.split(',').map(str::trim);
+    line.is_text() || names.all(|name| name.starts_with(|c: char| c.is_ascii_alphabetic()))
 }
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
@@ -33,7 +45,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         let text = line.text();
         let text = text.trim_end_matches([',', ' ']);
         let Some((key, value)) = text.split_once('=') else {
-            if line.is_text() {
+            if has_names(line, text) {
                 let names = text.split(',').map(|n| n.trim().to_owned());
                 break (line.number, names.collect::<Vec<_>>());
             }
@@ -70,6 +82,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut forms: Vec<Forms> = names.iter().map(|_| Forms::default()).collect();
     let mut blank = None;
     for line in lines.by_ref() {
+        if line.is_text() && is_first(line) {
+            return Err(second_record(source, line));
+        }
         if line.is_blank() {
             blank = blank
                 .or(Some(line.number))

@@ -5,6 +5,7 @@ use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Times, several};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
+use crate::formats::rows::second_record;
 use crate::fortran::Layout;
 use crate::number;
 use crate::quantity::SeriesUnit;
@@ -49,8 +50,12 @@ pub(super) static FORMAT: Format = Format {
 };
 
 fn matches(source: &Source<'_>) -> bool {
+    source.lines().next().is_some_and(is_first)
+}
+
+fn is_first(line: Line<'_>) -> bool {
     // Headers of others have a colon behind the key.
-    let first = source.first_line();
+    let first = line.lower();
     let behind = first.strip_prefix("origin time").map(str::trim_start);
     behind.is_some_and(|rest| !rest.starts_with([':', '=']))
 }
@@ -88,6 +93,9 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut last = None;
     let mut widths = RowWidths::default();
     for line in lines.by_ref() {
+        if line.is_text() && is_first(line) {
+            return Err(second_record(source, line));
+        }
         last = Some(line);
         let before = samples.len();
         if in_columns(line) {

@@ -37,6 +37,7 @@ mod nsmn;
 mod peer_at2;
 mod plain_columns;
 pub(crate) mod pounding_csv;
+mod rows;
 mod sac;
 mod usgs_smc;
 

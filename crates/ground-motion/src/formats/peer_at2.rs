@@ -10,6 +10,7 @@ use crate::draft::{
 };
 use crate::error::GroundMotionError;
 use crate::formats::Format;
+use crate::formats::rows::{DecimalCommas, second_record};
 use crate::fortran::Layout;
 use crate::header_keys::{
     Meaning, decimation, factors, is_of_another, is_rate_unit, keyed, meaning, unit_words,
@@ -134,19 +135,23 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     // A value takes two bytes at least.
     let mut samples = Vec::with_capacity((lines.remaining() / 2 + 1).min(header.count + 1));
     let mut last_row = 0;
-    let mut decimal_commas = None;
+    let mut commas = DecimalCommas::default();
     let mut forms = Forms::default();
     let mut widths = RowWidths::default();
-    for line in lines.by_ref() {
+    while let Some(line) = lines.next() {
         if line.is_text() {
             if line.lower().contains("end data") {
                 break;
+            }
+            let behind = lines.clone().take(HEADER_LINES);
+            if std::iter::once(line).chain(behind).any(|l| is_counts(&l)) {
+                return Err(second_record(source, line));
             }
         } else if line.is_blank() {
             continue;
         }
         let before = samples.len();
-        decimal_commas = decimal_commas.or_else(|| has_commas_alone(line).then_some(line.number));
+        commas.see(line);
         for (column, field) in line.fields() {
             samples.push(value(source, line, (column, field), first - 1)?);
             forms.see(line.number, column, field);
@@ -154,17 +159,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         last_row = samples.len() - before;
         widths.see(line.number, last_row);
     }
-    if let Some(line) = decimal_commas.filter(|_| samples.len() > header.count) {
-        return Err(source.error(
-            line,
-            0,
-            format!(
-                "the header says {} samples, and commas stand between digits here: they are within the numbers",
-                header.count
-            ),
-            "write decimal points, `0.0172`, and blanks between the numbers",
-        ));
-    }
+    commas.part_values(source, samples.len(), Some(header.count))?;
     match source.ends_whole()? {
         true => forms.are_whole(source)?,
         false => drop(samples.pop()),
@@ -274,15 +269,6 @@ fn value(
         );
         source.error(line.number, column, message, &remedy)
     })
-}
-
-/// Whether commas stand between digits on a line without any point, or on one whose numbers have
-/// blanks between them.
-fn has_commas_alone(line: Line<'_>) -> bool {
-    let digits =
-        |three: &[u8]| three[1] == b',' && three[0].is_ascii_digit() && three[2].is_ascii_digit();
-    let in_blanks = line.bytes.trim_ascii().contains(&b' ');
-    (in_blanks || !line.bytes.contains(&b'.')) && line.bytes.windows(3).any(digits)
 }
 
 /// Refuses times among the values: this format has none.

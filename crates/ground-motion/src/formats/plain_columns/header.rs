@@ -694,7 +694,7 @@ fn divided_at_brackets(cell: &str) -> Option<String> {
 pub(super) fn divided(cell: &str) -> Option<(String, String)> {
     let cell = cell.trim().trim_matches(['"', '\'']).trim();
     if let Some((name, rest)) = cell.split_once(['(', '[']) {
-        let unit = without_sign(rest).strip_suffix([')', ']'])?;
+        let unit = without_remark(rest).strip_suffix([')', ']'])?;
         return Some((plain(name.trim_end_matches('/')), unit.trim().to_owned()));
     }
     let (name, unit) = cell
@@ -707,8 +707,39 @@ pub(super) fn divided(cell: &str) -> Option<(String, String)> {
     (may && !unit.is_empty()).then(|| (known, unit.to_owned()))
 }
 
-/// What stands behind the first bracket of a name, without what it says of its sign: `cm/s2) (+ is upward)`.
-fn without_sign(rest: &str) -> &str {
+/// Words of what was done to the values of a column, which say nothing of their unit.
+const PROCESSING: [&str; 15] = [
+    "and",
+    "band",
+    "bandpass",
+    "base",
+    "baseline",
+    "corrected",
+    "detrended",
+    "filtered",
+    "line",
+    "pass",
+    "processed",
+    "raw",
+    "uncorrected",
+    "unfiltered",
+    "unprocessed",
+];
+
+/// What stands behind the first bracket of a name, without what it says of its sign or its processing:
+/// `cm/s2) (+ is upward)`, `g] (baseline corrected)`.
+fn without_remark(rest: &str) -> &str {
+    const ENDS: [char; 2] = [')', ']'];
+    if let Some(end) = rest.find(ENDS)
+        && let Some(remark) = rest[end + 1..].trim_start().strip_prefix(['(', '['])
+        && let Some(remark) = remark.strip_suffix(ENDS)
+    {
+        let remark = remark.to_lowercase();
+        let mut words = remark.split([' ', '-', ',']).filter(|w| !w.is_empty());
+        if !remark.is_empty() && words.all(|word| PROCESSING.contains(&word)) {
+            return &rest[..=end];
+        }
+    }
     let sign = rest.find(") (+").or_else(|| rest.find("] (+"));
     match sign {
         Some(at) if rest.ends_with(')') => &rest[..=at],
@@ -756,7 +787,7 @@ pub(super) fn role(cell: &str) -> Option<Role> {
         .or(cell.strip_suffix("[-]"))
         .map_or(cell, str::trim_end);
     if let Some((name, rest)) = cell.split_once(['(', '[']) {
-        let unit = without_sign(rest).strip_suffix([')', ']'])?;
+        let unit = without_remark(rest).strip_suffix([')', ']'])?;
         if motion_unit(unit).is_some_and(|unit| has_another_unit(name, unit)) {
             return None;
         }

@@ -154,45 +154,45 @@ fn a_body_that_creeps_comes_to_rest() {
 /// ever turning back: `(m g / k)^(1 / n)` for laws in powers.
 #[test]
 fn a_body_that_creeps_to_rest_stays_where_the_spring_bears_it() {
-    let cases: [(&str, &[(&str, f64)], f64, f64, f64); 5] = [
+    let cases = [
         (
             "exact_hunt_crossley",
-            &[("stiffness", 1e7), ("restitution", 0.3)],
+            [("stiffness", 1e7), ("restitution", 0.3)],
             25e3,
             0.01,
             1.5,
         ),
         (
             "exact_hunt_crossley",
-            &[("stiffness", 2.75e9), ("restitution", 0.1)],
+            [("stiffness", 2.75e9), ("restitution", 0.1)],
             25e3,
             5e-3,
             1.5,
         ),
         (
             "ye_li_2009",
-            &[("stiffness", 1e7), ("restitution", 0.3)],
+            [("stiffness", 1e7), ("restitution", 0.3)],
             25e3,
             0.01,
             1.0,
         ),
         (
             "gonthier_2004",
-            &[("stiffness", 1e7), ("restitution", 0.3)],
+            [("stiffness", 1e7), ("restitution", 0.3)],
             25e3,
             0.01,
             1.5,
         ),
         (
             "anagnostopoulos_2004",
-            &[("stiffness", 1e6), ("damping_ratio", 40.0)],
+            [("stiffness", 1e6), ("damping_ratio", 40.0)],
             500.0,
             1e-3,
             1.0,
         ),
     ];
     for (model, parameters, mass, velocity, power) in cases {
-        let out = drop(model, parameters, (mass, velocity), None);
+        let out = drop(model, &parameters, (mass, velocity), None);
         assert!(out.stays_in_contact && out.restitution == 0.0, "{model}");
         let static_penetration = (mass * GRAVITY / parameters[0].1).powf(1.0 / power);
         close(out.peak_penetration, static_penetration);

@@ -10,7 +10,7 @@ use crate::contact_free::{
     ContactFree, Lane, Track, WIDTH, add, drifts, lane_by_lane, raise, raise_now, scale,
     sums_of_row, transform,
 };
-use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, fit_nodes, value};
+use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, values_at_nodes};
 
 /// Displacement, drift and absolute acceleration of all floors.
 pub(crate) struct Tracks<'a> {
@@ -366,7 +366,7 @@ pub(crate) fn note_floors_of_span(
     let (constants, rows) = (scene.constants, &scene.constants.rows);
     let length = span.clock.offset(1.0);
     let loud = values_of_span(scene, span, &mut rates.modal, tracks);
-    let scales = [false, true].map(|end| span.clock.derivatives(end)[0]);
+    let scales = [span.rates[0][0], span.rates[1][0]];
     if loud[0] || loud[1] {
         rates.take_velocities(constants, span);
     }
@@ -465,11 +465,12 @@ fn may_exceed(
 
 /// Absolute accelerations of the modes at the inner nodes of a fit.
 fn accelerations(scene: &Scene<'_>, span: &Span<'_>, nodes: &mut [Vec<Lane>; COEFFICIENTS]) {
-    for (theta, out) in fit_nodes().into_iter().zip(nodes) {
-        if theta <= 0.0 || theta >= 1.0 {
+    let basis = basis(span);
+    for (node, out) in nodes.iter_mut().enumerate() {
+        if node == 0 || node == COEFFICIENTS - 1 {
             continue;
         }
-        let weights = basis(span, theta);
+        let weights = basis.map(|functions| functions.map(|values| values[node]));
         for (c, m) in scene.constants.modes.iter().enumerate() {
             for l in 0..WIDTH {
                 let omega = m.circular_frequency[l];
@@ -482,25 +483,28 @@ fn accelerations(scene: &Scene<'_>, span: &Span<'_>, nodes: &mut [Vec<Lane>; COE
                 out[c][l] = -(m.damping[l] * p + omega * omega * q);
             }
         }
-        for (k, touch) in scene.touches.iter().enumerate() {
-            let (a, b) = span.touch(k);
-            let delta = value(&span.displacement(a, b), theta);
-            let rate = value(&span.velocity(a, b), theta);
-            let level = &scene.system.levels()[touch.level];
-            let force = touch.contact.force(level, delta, rate).value;
-            scene.rows.levels[touch.level].add(-force, out);
+    }
+    for (k, touch) in scene.touches.iter().enumerate() {
+        let (a, b) = span.touch(k);
+        let delta = values_at_nodes(&span.displacement(a, b));
+        let rate = values_at_nodes(&span.velocity(a, b));
+        let level = &scene.system.levels()[touch.level];
+        let row = &scene.rows.levels[touch.level];
+        for node in 1..COEFFICIENTS - 1 {
+            let law = touch.contact.force(level, delta[node], rate[node]);
+            row.add(-law.value, &mut nodes[node]);
         }
     }
 }
 
 /// Weights of displacement, velocity, acceleration and jerk at both ends in displacement
-/// and velocity at `theta`.
-fn basis(span: &Span<'_>, theta: f64) -> [[f64; 4]; 4] {
+/// and velocity at the nodes of a fit: `[q of start, q of end, p of start, p of end]` each.
+fn basis(span: &Span<'_>) -> [[[f64; COEFFICIENTS]; 4]; 4] {
     let none = [0.0; 4];
     let both = |a, b| {
         (
-            value(&span.displacement(a, b), theta),
-            value(&span.velocity(a, b), theta),
+            values_at_nodes(&span.displacement(a, b)),
+            values_at_nodes(&span.velocity(a, b)),
         )
     };
     std::array::from_fn(|k| {

@@ -11,13 +11,24 @@ pub(crate) struct Span<'a> {
     pub start: &'a Point,
     pub end: &'a Point,
     pub clock: &'a Clock,
+    /// Three derivatives of time with respect to theta at both ends.
+    pub rates: [[f64; 3]; 2],
 }
 
-impl Span<'_> {
+impl<'a> Span<'a> {
+    pub(crate) fn new([start, end]: [&'a Point; 2], clock: &'a Clock) -> Self {
+        Self {
+            start,
+            end,
+            clock,
+            // Every function of the step asks for them.
+            rates: [clock.derivatives(false), clock.derivatives(true)],
+        }
+    }
+
     /// A function with three derivatives with respect to time at both ends.
     pub(crate) fn displacement(&self, start: [f64; 4], end: [f64; 4]) -> Polynomial {
-        let by_theta = |[f, v, a, j]: [f64; 4], end: bool| {
-            let [r, r2, r3] = self.clock.derivatives(end);
+        let by_theta = |[f, v, a, j]: [f64; 4], [r, r2, r3]: [f64; 3]| {
             [
                 f,
                 v * r,
@@ -25,16 +36,16 @@ impl Span<'_> {
                 j * r * r * r + 3.0 * a * r * r2 + v * r3,
             ]
         };
-        septic(by_theta(start, false), by_theta(end, true))
+        let [first, last] = self.rates;
+        septic(by_theta(start, first), by_theta(end, last))
     }
 
     /// Its rate of change in time.
     pub(crate) fn velocity(&self, start: [f64; 4], end: [f64; 4]) -> Polynomial {
-        let by_theta = |[_, v, a, j]: [f64; 4], end: bool| {
-            let [r, r2, _] = self.clock.derivatives(end);
-            [v, a * r, j * r * r + a * r2]
-        };
-        quintic(by_theta(start, false), by_theta(end, true))
+        let by_theta =
+            |[_, v, a, j]: [f64; 4], [r, r2, _]: [f64; 3]| [v, a * r, j * r * r + a * r2];
+        let [first, last] = self.rates;
+        quintic(by_theta(start, first), by_theta(end, last))
     }
 
     /// A row of the motion at both ends, less `width`.

@@ -13,7 +13,7 @@ use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::outcome::Peak;
-use crate::polynomial::{derivative, fit, fit_nodes, maximum_above, value};
+use crate::polynomial::{COEFFICIENTS, derivative, fit, maximum_above, value, values_at_nodes};
 
 /// Part of the present peak below which a fitted maximum is not looked at closer.
 const BELOW_PEAK: f64 = 1.0 - 1.0e-3;
@@ -259,11 +259,7 @@ impl Driver<'_> {
             (Candidate { theta, ..found }, whole)
         });
         e.lengths.accept(&trial.tried, step, trial.error);
-        let span = Span {
-            start: &e.pair.start,
-            end: &e.pair.end,
-            clock: &trial.clock,
-        };
+        let span = Span::new([&e.pair.start, &e.pair.end], &trial.clock);
         if !observers.is_empty() {
             observers.show(&ModalStep {
                 system: self.system,
@@ -332,11 +328,7 @@ impl Driver<'_> {
     ) -> Option<(Candidate, f64)> {
         let (mute, at_once, whole) = (&self.mute, &self.at_once, clock.offset(1.0));
         let candidates = &mut self.finder.candidates;
-        let span = Span {
-            start: &pair.start,
-            end: &pair.end,
-            clock,
-        };
+        let span = Span::new([&pair.start, &pair.end], clock);
         let found = in_span(
             scene,
             levels,
@@ -405,11 +397,7 @@ fn note_contact(
 ) {
     let touch = &scene.touches[k];
     let level = &scene.system.levels()[touch.level];
-    let span = Span {
-        start: &pair.start,
-        end: &pair.end,
-        clock,
-    };
+    let span = Span::new([&pair.start, &pair.end], clock);
     let (a, b) = span.touch(k);
     let (first, last) = (pair.start.touches[k], pair.end.touches[k]);
     let end = start + clock.offset(1.0);
@@ -431,14 +419,13 @@ fn note_contact(
         return;
     }
     let rate = span.velocity(a, b);
-    let at = |theta: f64| {
-        let (delta, rate) = (value(&delta, theta), value(&rate, theta));
-        touch.contact.force(level, delta, rate).value
-    };
-    let nodes = fit_nodes();
-    let mut samples = nodes.map(at);
-    samples[0] = first.force;
-    samples[nodes.len() - 1] = last.force;
+    let (deltas, rates) = (values_at_nodes(&delta), values_at_nodes(&rate));
+    let mut samples = [first.force; COEFFICIENTS];
+    for node in 1..COEFFICIENTS - 1 {
+        let law = touch.contact.force(level, deltas[node], rates[node]);
+        samples[node] = law.value;
+    }
+    samples[COEFFICIENTS - 1] = last.force;
     let fitted = fit(&samples);
     let Some((theta, _)) = maximum_above(&fitted, force.value * BELOW_PEAK) else {
         return;

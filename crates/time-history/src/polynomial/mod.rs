@@ -13,7 +13,7 @@ mod through;
 
 pub(crate) use remainder::hermite_range;
 pub(crate) use sampled::first_rise_of;
-pub(crate) use through::{combine, fit, fit_basis, fit_nodes, hermite, septic};
+pub(crate) use through::{combine, fit, fit_basis, fit_nodes, hermite, septic, values_at_nodes};
 
 /// Number of power-basis coefficients (degree 7).
 pub(crate) const COEFFICIENTS: usize = 8;
@@ -131,7 +131,7 @@ pub(crate) fn first_rise(p: &Polynomial) -> Option<f64> {
 pub(crate) fn first_rise_near(p: &Polynomial, precision: f64) -> Option<f64> {
     let mut q = *p;
     for level in 0..COEFFICIENTS {
-        let largest = q.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+        let largest = largest(&q);
         if largest == 0.0 {
             return None;
         }
@@ -151,6 +151,18 @@ pub(crate) fn first_rise_near(p: &Polynomial, precision: f64) -> Option<f64> {
         q[DEGREE] = 0.0;
     }
     None
+}
+
+/// Maximum magnitude of the coefficients: four at once, which do not wait for each other.
+fn largest(p: &Polynomial) -> f64 {
+    let larger = |a: f64, b: f64| if a > b { a } else { b };
+    let mut most = [0.0; 4];
+    for four in p.as_chunks::<4>().0 {
+        for l in 0..4 {
+            most[l] = larger(four[l].abs(), most[l]);
+        }
+    }
+    larger(larger(most[0], most[1]), larger(most[2], most[3]))
 }
 
 /// First sub-interval in which the Bernstein form changes from negative to

@@ -48,6 +48,18 @@ pub(crate) fn fit_nodes() -> [f64; COEFFICIENTS] {
     *NODES
 }
 
+/// Values of a polynomial at [`fit_nodes`], node by node as [`value`](super::value) has them.
+pub(crate) fn values_at_nodes(p: &Polynomial) -> [f64; COEFFICIENTS] {
+    let nodes = fit_nodes();
+    let mut sums = [0.0; COEFFICIENTS];
+    for c in p.iter().rev() {
+        for (sum, node) in sums.iter_mut().zip(&nodes) {
+            *sum = *sum * node + c;
+        }
+    }
+    sums
+}
+
 /// Coefficients of the polynomials that are one at one node of a fit and zero at the
 /// others.
 static FIT: LazyLock<[Polynomial; COEFFICIENTS]> = LazyLock::new(|| {

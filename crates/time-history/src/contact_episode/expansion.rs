@@ -13,11 +13,48 @@ use crate::polynomial::{Polynomial, combine};
 
 /// Terms after which the remainder beside the motion, `x^(k+1) e^x / (k+1)!`, is negligible.
 pub(super) fn last_term((x, negligible): (f64, f64)) -> usize {
-    let mut k = 3;
+    if negligible == Series::ROUND_OFF {
+        // As many terms more as there are numbers of terms that do not reach so far: comparisons
+        // that do not wait for each other.
+        let short = FARTHEST.iter().map(|most| usize::from(x > *most));
+        return FEWEST + short.sum::<usize>();
+    }
+    count_terms(x, negligible)
+}
+
+/// Least and greatest number of the last term.
+const FEWEST: usize = 3;
+const MOST: usize = TERMS - 2;
+
+/// Greatest `x` for which every number of the last term but the greatest is enough, down to round-off.
+/// Every operation of [`count_terms`] grows with `x`, after rounding too, so that halving finds it.
+const FARTHEST: [f64; MOST - FEWEST] = {
+    let mut farthest = [0.0; MOST - FEWEST];
+    let mut k = FEWEST;
+    while k < MOST {
+        // Positive numbers are in the order of their bits.
+        let (mut enough, mut short) = (0, 8.0_f64.to_bits());
+        while short - enough > 1 {
+            let middle = enough + (short - enough) / 2;
+            if count_terms(f64::from_bits(middle), Series::ROUND_OFF) <= k {
+                enough = middle;
+            } else {
+                short = middle;
+            }
+        }
+        farthest[k - FEWEST] = f64::from_bits(enough);
+        k += 1;
+    }
+    farthest
+};
+
+/// The same term by term.
+const fn count_terms(x: f64, negligible: f64) -> usize {
+    let mut k = FEWEST;
     // No step is so long that the exponential is greater than this.
     let exponential = 1.0 + x + x * x;
     let mut remainder = x * x * x * x / 24.0 * exponential;
-    while remainder > negligible && k < TERMS - 2 {
+    while remainder > negligible && k < MOST {
         k += 1;
         remainder *= x * PARTS[k + 1];
     }
@@ -225,6 +262,7 @@ fn expand_many(series: &mut Series, modes: &[ModeLanes], levels: &[ModalRow]) {
 }
 
 /// Powers of the place at which a series is cut.
+#[inline(always)]
 fn factors_of(theta: f64, last: usize) -> Terms {
     let mut factors = [1.0; TERMS];
     for k in 1..=last {
@@ -571,4 +609,42 @@ pub(super) fn polished(terms: &Terms, last: usize, theta: f64, target: f64) -> (
         }
     }
     (x, value_and_slope(terms, last, x))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The table against the count, close to every entry of it and over the whole range.
+    #[test]
+    fn terms_are_counted_by_comparisons() {
+        let mut seen = [false; TERMS];
+        let mut same = |x: f64| {
+            let counted = count_terms(x, Series::ROUND_OFF);
+            assert_eq!(last_term((x, Series::ROUND_OFF)), counted, "{x:e}");
+            seen[counted] = true;
+        };
+        for most in FARTHEST {
+            let bits = most.to_bits();
+            (bits - 300..bits + 300).for_each(|bits| same(f64::from_bits(bits)));
+        }
+        (0..200_000).for_each(|i| same(f64::from(i) * 2.0e-5));
+        [
+            0.0,
+            f64::MIN_POSITIVE,
+            1.0e-300,
+            10.0,
+            1.0e9,
+            f64::INFINITY,
+            f64::NAN,
+        ]
+        .into_iter()
+        .for_each(&mut same);
+        assert!(seen[FEWEST..=MOST].iter().all(|seen| *seen), "{seen:?}");
+        for negligible in [1.0e-13, 1.0e-15, 3.0e-17] {
+            for x in [0.01, 0.3, 1.3] {
+                assert_eq!(last_term((x, negligible)), count_terms(x, negligible));
+            }
+        }
+    }
 }

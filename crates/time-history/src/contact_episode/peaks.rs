@@ -7,7 +7,7 @@ use super::rows::{FloorRows, ModalRow};
 use super::series::Series;
 use super::span::Span;
 use crate::contact_free::{
-    ContactFree, Lane, Track, WIDTH, add, drifts, lane_by_lane, raise, raise_now, scale,
+    ContactFree, Lane, ModeLanes, Track, WIDTH, add, drifts, lane_by_lane, raise, raise_now, scale,
     sums_of_row, transform,
 };
 use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, values_at_nodes};
@@ -465,25 +465,7 @@ fn may_exceed(
 
 /// Absolute accelerations of the modes at the inner nodes of a fit.
 fn accelerations(scene: &Scene<'_>, span: &Span<'_>, nodes: &mut [Vec<Lane>; COEFFICIENTS]) {
-    let basis = basis(span);
-    for (node, out) in nodes.iter_mut().enumerate() {
-        if node == 0 || node == COEFFICIENTS - 1 {
-            continue;
-        }
-        let weights = basis.map(|functions| functions.map(|values| values[node]));
-        for (c, m) in scene.constants.modes.iter().enumerate() {
-            for l in 0..WIDTH {
-                let omega = m.circular_frequency[l];
-                let (mut q, mut p) = (0.0, 0.0);
-                for (k, w) in weights.iter().enumerate() {
-                    let (a, b) = (span.start.motion[k][c][l], span.end.motion[k][c][l]);
-                    q += w[0] * a + w[1] * b;
-                    p += w[2] * a + w[3] * b;
-                }
-                out[c][l] = -(m.damping[l] * p + omega * omega * q);
-            }
-        }
-    }
+    without_contacts(&scene.constants.modes, span, &basis(span), nodes);
     for (k, touch) in scene.touches.iter().enumerate() {
         let (a, b) = span.touch(k);
         let delta = values_at_nodes(&span.displacement(a, b));
@@ -497,9 +479,47 @@ fn accelerations(scene: &Scene<'_>, span: &Span<'_>, nodes: &mut [Vec<Lane>; COE
     }
 }
 
+/// The same without the forces of the closed levels.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+fn without_contacts(
+    modes: &[ModeLanes],
+    span: &Span<'_>,
+    basis: &Basis,
+    nodes: &mut [Vec<Lane>; COEFFICIENTS],
+) {
+    for (node, out) in nodes.iter_mut().enumerate() {
+        if node == 0 || node == COEFFICIENTS - 1 {
+            continue;
+        }
+        for (c, (m, out)) in modes.iter().zip(out).enumerate() {
+            let (mut q, mut p) = (Lane::ZERO, Lane::ZERO);
+            for (k, [q0, q1, p0, p1]) in basis.iter().enumerate() {
+                let (a, b) = (span.start.motion[k][c], span.end.motion[k][c]);
+                for l in 0..WIDTH {
+                    q[l] += q0[node] * a[l] + q1[node] * b[l];
+                    p[l] += p0[node] * a[l] + p1[node] * b[l];
+                }
+            }
+            let omega = m.circular_frequency;
+            for l in 0..WIDTH {
+                out[l] = -(m.damping[l] * p[l] + omega[l] * omega[l] * q[l]);
+            }
+        }
+    }
+}
+
+/// Of displacement, velocity, acceleration and jerk: `[q of start, q of end, p of start, p of end]`
+/// at the nodes of a fit.
+type Basis = [[[f64; COEFFICIENTS]; 4]; 4];
+
 /// Weights of displacement, velocity, acceleration and jerk at both ends in displacement
-/// and velocity at the nodes of a fit: `[q of start, q of end, p of start, p of end]` each.
-fn basis(span: &Span<'_>) -> [[[f64; COEFFICIENTS]; 4]; 4] {
+/// and velocity at the nodes of a fit.
+fn basis(span: &Span<'_>) -> Basis {
     let none = [0.0; 4];
     let both = |a, b| {
         (

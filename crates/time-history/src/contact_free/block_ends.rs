@@ -146,6 +146,7 @@ impl BlockEnds {
     /// Advances the modes over a block of samples, whose ground accelerations are `samples`, and
     /// the floors to its end. Returns whether no acceleration can be a peak, so that they are not
     /// worked out.
+    #[inline]
     pub(super) fn advance(
         &mut self,
         constants: &ContactFree,
@@ -267,6 +268,7 @@ impl BlockEnds {
     }
 
     /// Whether no gap can close in the block.
+    #[inline]
     pub(super) fn is_open(&self, system: &System, contacts: &Contacts) -> bool {
         let mut least = f64::INFINITY;
         for width in contacts.widths() {
@@ -316,6 +318,7 @@ impl BlockEnds {
     /// Takes the floors at the end, at this time (s), as present ones and as peaks, and finds
     /// what could have higher peaks in the block: of floors that are not those of the modes, what
     /// their peaks are sure to reach.
+    #[inline]
     pub(super) fn take_end(
         &mut self,
         constants: &ContactFree,

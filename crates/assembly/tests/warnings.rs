@@ -308,3 +308,52 @@ fn delays_are_held_against_the_times_of_first_samples() {
         }
     }
 }
+
+/// Two buildings on the record of the case, of which one has a delay that fits: the one beside the building on a record of
+/// its own has not.
+#[test]
+fn a_delay_of_a_building_far_away_makes_up_for_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    for (name, start) in [("late.csv", "12:00:03"), ("early.csv", "12:00:00")] {
+        let rows: String = (0..300)
+            .map(|i| {
+                format!(
+                    "{:.2},{:.6}\n",
+                    0.02 * f64::from(i),
+                    (0.1 * f64::from(i)).sin()
+                )
+            })
+            .collect();
+        let text = format!("# Start: 2012/02/28 {start} UTC\ntime_s,acceleration_m_s2\n{rows}");
+        std::fs::write(folder.path().join(name), text).unwrap();
+    }
+    let building = |name: &str, ground: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = 1e5\nstoreys = 1\nheight = 3\nstiffness = 1e8\ndamping = {{ modal = 0.05 }}\n{ground}\n"
+        )
+    };
+    let gap = |left: &str, right: &str| {
+        format!(
+            "[[gap]]\nbetween = [\"{left}\", \"{right}\"]\nwidth = 1\nmodel = \"linear_elastic\"\nstiffness = 1e9\n"
+        )
+    };
+    let told = |of_a: &str, of_b: &str| {
+        let own = building("c", "ground = { file = \"early.csv\" }");
+        let text = format!(
+            "{}{}{own}{}{}[ground_motion]\nfile = \"late.csv\"\n",
+            building("a", of_a),
+            building("b", of_b),
+            gap("a", "b"),
+            gap("b", "c")
+        );
+        let case = Case::parse(&text, &folder.path().join("case.toml")).unwrap();
+        let told = assemble(&case).unwrap().warnings();
+        told.into_iter()
+            .filter(|w| w.contains("begin together"))
+            .count()
+    };
+    let delayed = "ground = { delay = 3 }";
+    assert_eq!(told(delayed, ""), 1);
+    assert_eq!(told("", delayed), 0);
+    assert_eq!(told(delayed, delayed), 0);
+}

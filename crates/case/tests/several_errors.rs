@@ -156,6 +156,35 @@ fn nothing_follows_from_an_error() {
     }
 }
 
+/// Tables and keys that stand twice are named as they are written, with where the first one stands.
+#[test]
+fn what_stands_twice_is_named() {
+    for (text, says) in [
+        ("[analysis]\n[analysis]\n", "[analysis] stands twice"),
+        (
+            "[building]\n[[building]]\n",
+            "[[building]] stands beside [building]",
+        ),
+        (
+            "gap = { width = 1 }\n[[gap]]\n",
+            "`gap` is given before, in another form",
+        ),
+        (
+            "analysis.method = \"a\"\n[analysis]\n",
+            "`analysis` is given before",
+        ),
+        (
+            "[ground_motion.process] # one\n[ground_motion.process]\n",
+            "[ground_motion.process] stands twice",
+        ),
+        ("a = [\n [ {b = 1, b = 2} ],\n]\n", "`b` is given twice"),
+    ] {
+        let error = Case::parse(text, Path::new("case.toml")).unwrap_err();
+        let told: Vec<String> = error.each().map(|e| e.to_string()).collect();
+        assert!(told.iter().any(|t| t.contains(says)), "{text}: {told:?}");
+    }
+}
+
 #[test]
 fn several_mistakes_of_toml() {
     hold(

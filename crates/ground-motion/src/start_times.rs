@@ -82,11 +82,13 @@ impl Clock {
         let inside = is_of_clock([hours, minutes, seconds]);
         let behind = text[from..to].split_once('.');
         let minute = 3600.0 * hours + 60.0 * minutes;
+        // Headers round up to 60 seconds in any minute: that of an inserted second stands at few dates.
+        let is_inserted = seconds > 60.0 || seconds == 60.0 && may_insert(&text[..from]);
         inside.then_some(Self {
             from,
             to,
             seconds: minute + seconds,
-            inserted_from: (seconds >= 60.0 && minutes == 59.0).then_some(minute + 60.0),
+            inserted_from: (is_inserted && minutes == 59.0).then_some(minute + 60.0),
             decimals: behind.map_or(0, |(_, digits)| digits.len()),
             separator,
         })
@@ -239,8 +241,18 @@ fn is_no_date(text: &str) -> bool {
     }
 }
 
-/// Seconds are inserted at the end of a day of UTC, which is that of an hour elsewhere; headers round up to
-/// 60 in any minute.
+/// Whether a second may be inserted at the date that stands before a time of day: they are at the ends of June and of
+/// December in UTC, and so on the day after where clocks are ahead of it.
+fn may_insert(date: &str) -> bool {
+    let digits: String = date.chars().filter(char::is_ascii_digit).collect();
+    // Month and day, either first, at the start or at the end.
+    let days = ["0630", "3006", "0701", "0107", "1231", "3112", "0101"];
+    days.iter()
+        .any(|day| digits.starts_with(day) || digits.ends_with(day))
+}
+
+/// Seconds are inserted at the end of a day of UTC, which is that of an hour where clocks differ from it by whole hours;
+/// headers round up to 60 in any minute.
 fn is_of_clock([hours, minutes, seconds]: [f64; 3]) -> bool {
     let is_inserted = minutes == 59.0 && seconds < 61.0;
     hours < 24.0 && minutes < 60.0 && (seconds <= 60.0 || is_inserted)
@@ -394,6 +406,17 @@ mod tests {
                 Some(f64::INFINITY),
             ),
             ("20110311_144630.000", "20110311_144630.005", Some(0.005)),
+            // Rounded up, at no date at which a second is inserted.
+            (
+                "2011-03-11T14:59:60.00",
+                "2011-03-11T15:00:00.00",
+                Some(0.0),
+            ),
+            (
+                "2011-03-11T14:59:60.00",
+                "2011-03-11T14:59:59.00",
+                Some(1.0),
+            ),
             (
                 "2004,270,14:46:30.0100",
                 "2004,270,14:46:30.0000",
@@ -574,6 +597,13 @@ mod tests {
             ),
             ("2016-12-31T23:59:60.5", -1.0, Some("2016-12-31T23:59:59.5")),
             ("2016-12-31T23:59:60.5", 1.0, Some("2017-01-01T00:00:00.5")),
+            (
+                "2011-03-11T14:59:60.00",
+                1.0,
+                Some("2011-03-11T15:00:01.00"),
+            ),
+            ("2011 03 11 14 59 60", 1.0, Some("2011 03 11 15 00 01")),
+            ("12/31/2016 23:59:60.0", 0.5, Some("12/31/2016 23:59:60.5")),
             // The order of day and month is not known.
             ("10/11/21, 23:59:59.0", 2.0, None),
             ("some day", 2.0, None),

@@ -6,7 +6,7 @@ use std::collections::BTreeSet;
 pub const WALL: &str = "wall";
 
 /// What a name is, for messages.
-pub const NAMES: &str = "a name is not empty, not \".\" or \"..\", and has at most 200 characters, no slash, no control characters and no blanks at its ends";
+pub const NAMES: &str = "a name is not empty, not \".\" or \"..\", and has at most 200 characters, no slash, no control characters, none that cannot be seen and no blanks at its ends";
 
 /// Characters of a name: they stand in figures, tables and messages.
 const LONGEST: usize = 200;

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use pounding_case::{BuildingGround, Case, Located};
+use pounding_case::{BuildingGround, Case, Located, Side};
 use pounding_catalogue::numbers::six_digits;
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::processing::{
@@ -287,7 +287,8 @@ fn is_cut_or_padded(record: &Accelerogram) -> bool {
 struct OnItsOwn<'c> {
     name: &'c str,
     ground: &'c BuildingGround,
-    /// Delays (s) of the buildings that the record of the case moves; none where there is no such building.
+    /// Delays (s) of the buildings that the record of the case moves: of those beside this one where there are such, else
+    /// of all.
     of_case: &'c [f64],
 }
 
@@ -367,12 +368,13 @@ impl Left {
                 left: None,
             });
         }
-        // A delay of the record of the case may be that of a wave, too.
-        let beside = of_case.iter().copied().chain([0.0]);
         let left = |beside: f64| later + beside - delay;
-        let nearest = beside.min_by(|a, b| left(*a).abs().total_cmp(&left(*b).abs()))?;
-        // Records that begin together for people may have any delay.
-        let made_up = later.abs() <= SAME_TIME || left(nearest).abs() <= SAME_TIME;
+        let beside = of_case.iter().copied();
+        let nearest = beside.min_by(|a, b| left(*a).abs().total_cmp(&left(*b).abs()));
+        let nearest = nearest.unwrap_or(0.0);
+        // A delay of the record of the case may be that of a wave, and records that begin together for people may have any.
+        let made_up = [later, left(nearest), left(0.0)];
+        let made_up = made_up.iter().any(|left| left.abs() <= SAME_TIME);
         (!made_up).then_some(Self {
             later,
             beside: nearest,
@@ -419,6 +421,27 @@ impl Left {
 /// Seconds that are round-off of times.
 const ROUND_OFF: f64 = 1.0e-6;
 
+/// Delays (s) of the buildings that the record of the case moves: of those that a gap parts from this one, else of all.
+fn delays_of_case(case: &Case, building: usize) -> Vec<f64> {
+    let beside = |other: usize| {
+        let pair = [building, other].map(Side::Building);
+        let mut gaps = case.gaps.iter();
+        gaps.any(|gap| pair.iter().all(|side| gap.between.contains(side)))
+    };
+    let delays = case.buildings.iter().enumerate().filter_map(|(i, b)| {
+        let delay = match &b.ground {
+            None => 0.0,
+            Some(ground) if ground.value.motion.is_none() => ground.value.delay,
+            Some(_) => return None,
+        };
+        Some((beside(i), delay))
+    });
+    let all: Vec<(bool, f64)> = delays.collect();
+    let any_beside = all.iter().any(|(beside, _)| *beside);
+    let chosen = all.iter().filter(|(beside, _)| *beside || !any_beside);
+    chosen.map(|(_, delay)| *delay).collect()
+}
+
 /// Motions and forces that are not in step with one another, as they were recorded or since they were processed, in
 /// words.
 fn out_of_step(
@@ -428,17 +451,9 @@ fn out_of_step(
 ) -> Vec<String> {
     let mut told = Vec::new();
     let own = (&case.ground_motion, along);
-    let delays = case
-        .buildings
-        .iter()
-        .map(|building| match &building.ground {
-            None => Some(0.0),
-            Some(ground) if ground.value.motion.is_none() => Some(ground.value.delay),
-            Some(_) => None,
-        });
-    let of_case: Vec<f64> = delays.flatten().collect();
-    for (building, record) in &further.own {
-        let building = &case.buildings[*building];
+    for (index, record) in &further.own {
+        let building = &case.buildings[*index];
+        let of_case = delays_of_case(case, *index);
         if let Some(ground) = &building.ground
             && let Some(motion) = &ground.value.motion
         {

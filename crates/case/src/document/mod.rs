@@ -164,27 +164,42 @@ struct Twice {
 impl Twice {
     fn at(source: &str, span: &Range<usize>) -> Option<Self> {
         let key = source.get(span.clone())?;
-        let line = source[..span.start].rfind('\n').map_or(0, |end| end + 1);
-        let before = source[line..span.start].trim();
-        let (message, help) = if before.starts_with("[[") {
-            (
-                format!("[[{key}]] stands beside [{key}]"),
-                "write double brackets at each of them",
-            )
-        } else if before.starts_with('[') {
-            (
-                format!("[{key}] stands twice"),
-                "put all its keys below the first one; several of a kind, such as buildings, have double brackets each",
-            )
-        } else {
+        let start = source[..span.start].rfind('\n').map_or(0, |end| end + 1);
+        let end = source[span.end..].find('\n');
+        let end = end.map_or(source.len(), |end| span.end + end);
+        let before = source[start..span.start].trim();
+        // Brackets with parts of a key that is dotted, and no list or table in a line.
+        let is_header = before.starts_with('[') && !before.contains(['{', '=', ',']);
+        if !is_header {
             return Some(Self {
                 message: format!("`{key}` is given twice"),
                 help: "remove one of them",
                 keys: 0..0,
             });
+        }
+        let header = |line: &str| line.split('#').next().unwrap_or_default().trim().to_owned();
+        let here = header(&source[start..end]);
+        let name = here.trim_start_matches('[').trim_end_matches(']');
+        let stands = |wanted: &str| source[..start].lines().any(|line| header(line) == wanted);
+        let single = format!("[{name}]");
+        let (message, help) = if here != single && stands(&single) {
+            (
+                format!("{here} stands beside {single}"),
+                "write double brackets at each of them",
+            )
+        } else if stands(&here) {
+            (
+                format!("{here} stands twice"),
+                "put all its keys below the first one; several of a kind, such as buildings, have double brackets each",
+            )
+        } else {
+            (
+                format!("`{name}` is given before, in another form"),
+                "write all of it in one form",
+            )
         };
-        let next = source[span.end..].find("\n[");
-        let keys = span.end..next.map_or(source.len(), |next| span.end + next);
+        let next = source[end..].find("\n[");
+        let keys = span.end..next.map_or(source.len(), |next| end + next);
         Some(Self {
             message,
             help,

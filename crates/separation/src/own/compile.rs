@@ -693,9 +693,19 @@ fn deepest(source: &str) -> Option<usize> {
     // The `?` of the text and of every bracket that is open, and those of all together.
     let mut open = vec![0_usize];
     let mut choices = 0;
+    // The quotation mark of a word that has begun, and whether its next character is taken as it is.
+    let (mut quoted, mut escaped) = (None, false);
     for (at, byte) in source.bytes().enumerate() {
+        if let Some(mark) = quoted {
+            if byte == mark && !escaped {
+                quoted = None;
+            }
+            escaped = byte == b'\\' && !escaped;
+            continue;
+        }
         let brackets = open.len() - 1;
         match byte {
+            b'"' | b'\'' => quoted = Some(byte),
             b'(' | b'[' | b'{' => open.push(0),
             b')' | b']' | b'}' if brackets > 0 => choices -= open.pop().unwrap_or(0),
             b',' => choices -= open.last_mut().map_or(0, std::mem::take),
@@ -729,6 +739,9 @@ fn unreadable(text: &Text<'_>, errors: &ParseErrors) -> CaseError {
     if message.starts_with("invalid int literal") {
         let message = "the whole number has too many digits";
         return text.error(at, message, "write it with an exponent, such as 1.0e20");
+    }
+    if message.contains("Recursion limit") {
+        return text.error(0..0, too_deep(), NAME_PARTS);
     }
     // The parser's own words for a part that it could not complete.
     if message.starts_with("No `") {

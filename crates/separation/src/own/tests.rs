@@ -174,6 +174,7 @@ fn wrong_ones_are_refused_with_their_place() {
     let signs = "-".repeat(10_000);
     let chain = format!("u_left{}", "+u_left".repeat(200));
     let choices = format!("{}u_left", "true?u_left:".repeat(60));
+    let quoted = format!("{}u_left", "true?\",\":".repeat(60));
     let deep = (0..40).map(|i| format!("d{i} = \"d{} + u_left + u_left + u_left\"\n", i + 1));
     let deep = format!(
         "[rule.definitions]\n{}d40 = \"u_left\"",
@@ -267,6 +268,7 @@ fn wrong_ones_are_refused_with_their_place() {
         (&signs[..1999], NONE, 17, "this is no expression"),
         (&chain, NONE, 709, "more than 100 operations nest"),
         (&choices, NONE, 405, "nest in one another"),
+        (&quoted, NONE, 309, "brackets or `?` nest in one another"),
         (&limit, NONE, 17, "more than 100 operations nest"),
         ("d0", &deep, 0, "more than 100 operations nest"),
     ] {

@@ -123,6 +123,29 @@ fn every_link_leads_somewhere() {
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
+/// A path from the root of the repository that stands between backquotes is there; `doe_2026` is whoever adds a model.
+#[test]
+fn files_that_pages_name_are_there() {
+    let (mut checked, mut wrong) = (0, Vec::new());
+    for page in files("md") {
+        let text = std::fs::read_to_string(&page).unwrap();
+        for path in text.split('`').skip(1).step_by(2) {
+            let is_path = path
+                .chars()
+                .all(|c| c.is_ascii_alphanumeric() || "_-./".contains(c));
+            if !(path.starts_with("crates/") && is_path) || path.contains("doe_2026") {
+                continue;
+            }
+            checked += 1;
+            if !root().join(path).exists() {
+                wrong.push(format!("{}: {path}", shown(&page)));
+            }
+        }
+    }
+    assert!(checked > 30, "{checked}");
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
 #[test]
 fn every_page_is_reached_from_the_readme() {
     let start = root().join("README.md");

@@ -314,11 +314,11 @@ fn begins_apart(
     let by_wave = under.is_some_and(|under| under.ground.by_wave_speed && delay != 0.0);
     let known = known.filter(|later| later.is_finite() && !by_wave);
     let left = match known {
-        Some(later) => Some(Left::of(later, under)?),
+        Some(later) => Some(Remainder::of(later, under)?),
         None if apart.abs() <= SAME_TIME || (apart + delay).abs() <= SAME_TIME => return None,
         None => None,
     };
-    let seconds = left.as_ref().map_or(String::new(), Left::seconds);
+    let seconds = left.as_ref().map_or(String::new(), Remainder::seconds);
     let remedy = left.as_ref().and_then(|left| left.delay(under));
     let or_delay = remedy.map_or(String::new(), |remedy| format!(", or {remedy}"));
     // What is apart by steps of the case alone is put right there.
@@ -348,7 +348,7 @@ fn begins_apart(
 }
 
 /// What delays leave of the seconds between first samples.
-struct Left {
+struct Remainder {
     /// Seconds by which the first sample of a record is later than that of the record of the case.
     later: f64,
     /// Delay of the record of the case, under the building that comes nearest.
@@ -357,7 +357,7 @@ struct Left {
     left: Option<f64>,
 }
 
-impl Left {
+impl Remainder {
     /// `None` where delays make up for them.
     fn of(later: f64, under: Option<&OnItsOwn<'_>>) -> Option<Self> {
         let (delay, of_case) = under.map_or((0.0, &[][..]), |u| (u.ground.delay, u.of_case));

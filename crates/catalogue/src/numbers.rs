@@ -76,6 +76,20 @@ pub fn rounded_up(value: f64, decimals: usize) -> String {
     fixed(up(value, decimals), decimals)
 }
 
+/// Decimals more with which a width that is wide enough is told from one that is not.
+const MORE_DECIMALS: usize = 6;
+
+/// A width that is asked for, rounded up as by [`rounded_up`] beside what is provided in the same unit: with as many decimals
+/// more as it takes for a width that is wide enough not to look too small.
+#[must_use]
+pub fn rounded_up_beside(required: f64, provided: f64, decimals: usize) -> String {
+    let looks_too_small =
+        |decimals: &usize| required <= provided && up(required, *decimals) > provided;
+    let most = decimals + MORE_DECIMALS;
+    let enough = (decimals..most).find(|decimals| !looks_too_small(decimals));
+    rounded_up(required, enough.unwrap_or(most))
+}
+
 /// What is missing of a width that is asked for, with this many decimals, where `rounded_up` shows the width with as
 /// many: together with what is provided, as `provided` shows it, no less than the width that is shown.
 #[must_use]
@@ -178,6 +192,22 @@ mod tests {
             (1234.1, 0, "1235"),
         ] {
             assert_eq!(rounded_up(value, decimals), text);
+        }
+    }
+
+    /// 117.17 mm would be more than the 117.163 mm that are provided, and do suffice.
+    #[test]
+    fn what_is_wide_enough_does_not_look_too_small() {
+        for (required, provided, text) in [
+            (117.162_9, 117.163, "117.163"),
+            (117.162_912_3, 117.162_913, "117.162913"),
+            (117.163, 117.163, "117.163"),
+            (117.163, 117.162_9, "117.17"),
+            (117.163, 120.0, "117.17"),
+            (117.17, 117.17, "117.17"),
+            (0.0, 0.0, "0.00"),
+        ] {
+            assert_eq!(rounded_up_beside(required, provided, 2), text);
         }
     }
 

@@ -380,6 +380,18 @@ duration = "12 s"
         );
     }
     assert!(page.contains("value=\"160.2\">160.2</data> mm are required there"));
+    // A width between the required one and the same rounded up is wide enough, and does not look too small.
+    let narrow = "width = \"160.113 mm\"";
+    let enough = case.replace("width = [\"5 mm\", \"10 mm\"]", narrow);
+    std::fs::write(folder.path().join("case.toml"), enough).unwrap();
+    let shown = text(&gap_in(folder.path(), &["--points", "0"]).stdout);
+    for said in [
+        "WIDE ENOUGH",
+        "required 160.113 mm by count",
+        "provided 160.113 mm at level",
+    ] {
+        assert!(shown.contains(said), "{said}: {shown}");
+    }
     // What a rule asks for suffices as it is shown, too: by the absolute sum, in the table and on the page.
     let sum = &named(&found["gaps"][0]["combinations"], "rule", "absolute_sum")["width"];
     let widths = sum[0].as_array().unwrap().iter();

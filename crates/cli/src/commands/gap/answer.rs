@@ -1,6 +1,6 @@
 //! The answer for a gap, before everything else.
 
-use pounding_catalogue::numbers::{missing, rounded_up, six_digits};
+use pounding_catalogue::numbers::{missing, rounded_up, rounded_up_beside, six_digits};
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_separation::Requirement;
 use pounding_study::gap_check::{
@@ -124,7 +124,7 @@ fn governing(check: &GapCheck, gap: &GapReport) -> String {
     format!(
         "  level {} governs: required {} mm (the demand of {}), provided {} mm, {}\n",
         gap.levels[governing.level].place.label(),
-        rounded_up(governing.required * 1e3, 2),
+        rounded_up_beside(governing.required * 1e3, governing.provided * 1e3, 2),
         check.records[governing.record].name,
         in_millimetres(governing.provided),
         left_or_short(governing.provided, governing.required),
@@ -150,7 +150,10 @@ fn required(check: &GapCheck, gap: &GapReport) -> String {
             true => "required",
             false => "one width at all levels would have to be",
         },
-        rounded_up(by_count * 1e3, 2),
+        match gap.of_one_width() {
+            true => rounded_up_beside(by_count * 1e3, gap.governing.provided * 1e3, 2),
+            false => rounded_up(by_count * 1e3, 2),
+        },
         required.allowed_contacts,
         counted(gap.records(), "record"),
     );
@@ -384,7 +387,7 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
             gap.levels[level].place.label(),
             shown(displacement[0]),
             shown(displacement[1]),
-            widths(&width.requirement),
+            widths(&width.requirement, *provided),
             in_millimetres(*provided),
             reached.to_owned(),
             width.provision.name().to_owned(),
@@ -446,12 +449,13 @@ fn explained(case: &OwnershipAnswer) -> String {
     text
 }
 
-/// The width (mm), or that of each reading of a disputed rule.
-fn widths(requirement: &Requirement) -> String {
+/// The width (mm), or that of each reading of a disputed rule, beside the width that is provided (m).
+fn widths(requirement: &Requirement, provided: f64) -> String {
+    let shown = |width: f64| rounded_up_beside(width * 1e3, provided * 1e3, 1);
     let readings = requirement.readings.iter();
-    let readings: Vec<_> = readings.map(|r| rounded_up(r.width * 1e3, 1)).collect();
+    let readings: Vec<_> = readings.map(|r| shown(r.width)).collect();
     match readings.is_empty() {
-        true => rounded_up(requirement.width * 1e3, 1),
+        true => shown(requirement.width),
         false => readings.join(" or "),
     }
 }

@@ -1,7 +1,7 @@
 //! The gap check for people.
 
 use pounding_case::Case;
-use pounding_catalogue::numbers::rounded_up;
+use pounding_catalogue::numbers::{rounded_up, rounded_up_beside};
 use pounding_catalogue::wording::counted;
 use pounding_shear_building::{OVERTURNING_RATIO, UPLIFT_BEGINS};
 use pounding_study::gap_check::{
@@ -155,18 +155,18 @@ fn demand(check: &GapCheck, index: usize) -> String {
         let mut row = vec![
             level.place.label(),
             level.place.elevations_label(),
-            format!("{:.1}", level.width * 1e3),
+            in_millimetres(level.width),
         ];
         if few {
             row.extend(
                 peaks
                     .clone()
-                    .map(|p| format!("{:.2} @{:.3}", p.value * 1e3, p.time)),
+                    .map(|p| format!("{} @{:.3}", rounded_up(p.value * 1e3, 2), p.time)),
             );
         }
         let maximum = peaks.clone().fold(0.0_f64, |m, p| m.max(p.value));
         let contacts = peaks.filter(|p| p.value > level.width).count() + gap.records_collapsed;
-        row.push(format!("{:.2}", maximum * 1e3));
+        row.push(rounded_up(maximum * 1e3, 2));
         row.push(format!("{contacts} of {}", gap.records()));
         table.add_row(row);
     }
@@ -199,7 +199,7 @@ fn isolation(check: &GapCheck, index: usize) -> String {
         text.push_str(&format!(
             "Level {}: {building} on isolators demands {} mm ({}), clearance {} mm: {}{force}\n",
             level.place,
-            rounded_up(demand * 1e3, 2),
+            rounded_up_beside(demand * 1e3, level.width * 1e3, 2),
             record.name,
             in_millimetres(level.width),
             left_or_short(level.width, demand),

@@ -126,21 +126,36 @@ pub fn say_what_is_replaced(files: &FileUse) {
         };
         let is_named = outputs.contains(target) || in_folder();
         let judged = JUDGED.lock().unwrap_or_else(PoisonError::into_inner);
-        if is_named && !judged.contains(target) && !of_one_kind(target, new) {
-            note(&format!(
-                "{} is replaced, which was no earlier output of this kind",
-                target.display()
-            ));
+        if !is_named || judged.contains(target) {
+            return;
         }
+        let what = match kind_of_old(target, new) {
+            Old::OfThisKind => return,
+            Old::OfAnother => "which was no earlier output of this kind",
+            Old::Numbers => "whose numbers do not say what wrote them",
+        };
+        note(&format!("{} is replaced, {what}", target.display()));
     });
 }
 
 /// Bytes of files that are compared by how they begin.
 const BEGINNING: u64 = 1 << 14;
 
-/// Whether a file looks like an earlier output of what made another one. There is nothing to lose of an
-/// empty one.
-fn of_one_kind(old: &Path, new: &Path) -> bool {
+/// What a file is beside a new one that takes its place.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Old {
+    /// It looks like an earlier output of what made the new one, or holds nothing.
+    OfThisKind,
+    OfAnother,
+    /// Both begin with as many numbers, and nothing tells an earlier output from a file of the user's.
+    Numbers,
+}
+
+fn kind_of_old(old: &Path, new: &Path) -> Old {
+    let known = |same: bool| match same {
+        true => Old::OfThisKind,
+        false => Old::OfAnother,
+    };
     let beginning = |path: &Path| {
         let mut bytes = Vec::new();
         let file = pounding_files::input::open(path).ok()?;
@@ -148,19 +163,19 @@ fn of_one_kind(old: &Path, new: &Path) -> bool {
         Some(bytes)
     };
     let (Some(before), Some(after)) = (beginning(old), beginning(new)) else {
-        return !holds_something(old);
+        return known(!holds_something(old));
     };
-    if before.is_empty() {
-        return true;
+    if before.is_empty() || before == after {
+        return Old::OfThisKind;
     }
     // Figures and Parquet do not say what made them; pages do.
     for form in [&b"<svg"[..], b"\x89PNG", b"%PDF-", b"PAR1"] {
         if after.starts_with(form) {
-            return before.starts_with(form);
+            return known(before.starts_with(form));
         }
     }
     if is_page(new) {
-        return is_page(old);
+        return known(is_page(old));
     }
     // Tables by their columns; records by the files that they were read from, which follow the names of
     // their events.
@@ -170,7 +185,23 @@ fn of_one_kind(old: &Path, new: &Path) -> bool {
         let line = source.or(text.lines().next());
         line.map(str::to_owned)
     };
-    line(&before) == line(&after)
+    let (before, after) = (line(&before), line(&after));
+    match (numbers_of(before.as_deref()), numbers_of(after.as_deref())) {
+        (Some(old), Some(new)) if old == new => Old::Numbers,
+        _ => known(before == after),
+    }
+}
+
+/// Of how many numbers a line is, and of nothing else.
+fn numbers_of(line: Option<&str>) -> Option<usize> {
+    let separators = |c: char| c.is_whitespace() || c == ',' || c == ';';
+    let words = line?.split(separators).filter(|word| !word.is_empty());
+    let mut count = 0;
+    for word in words {
+        word.parse::<f64>().ok()?;
+        count += 1;
+    }
+    (count > 0).then_some(count)
 }
 
 /// Refuses outputs that would take the place of what the shards of a study keep beside their results: how far

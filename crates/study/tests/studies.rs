@@ -348,23 +348,23 @@ fn intensities_say_their_periods() {
     for (intensity, expected) in [
         (
             "\"spectral_acceleration\"\nperiod = \"1 s\"",
-            "Sa(1.0000 s), 5 % damping",
+            "PSA(1.0000 s), 5 % damping",
         ),
         (
             "\"spectral_acceleration\"\nperiod = [0.5, 1]",
-            "geometric mean of Sa(0.5000 s) and Sa(1.0000 s), 5 % damping",
+            "geometric mean of PSA(0.5000 s) and PSA(1.0000 s), 5 % damping",
         ),
         (
             "\"spectral_acceleration\"\nperiod = [0.5, 0.2, 1]",
-            "geometric mean of Sa at 3 periods from 0.2000 to 1.0000 s, 5 % damping",
+            "geometric mean of PSA at 3 periods from 0.2000 to 1.0000 s, 5 % damping",
         ),
         (
             "\"average_spectral_acceleration\"\nperiod = \"1 s\"",
-            "average Sa over 30 periods from 0.2000 to 3.0000 s, 5 % damping",
+            "average PSA over 30 periods from 0.2000 to 3.0000 s, 5 % damping",
         ),
         (
             "\"average_spectral_acceleration\"\nperiod = [\"1 s\"]",
-            "average Sa over 30 periods from 0.2000 to 3.0000 s, 5 % damping",
+            "average PSA over 30 periods from 0.2000 to 3.0000 s, 5 % damping",
         ),
     ] {
         assert_eq!(title(intensity).unwrap(), expected);

@@ -415,6 +415,14 @@ fn what_is_replaced_is_named() {
     // A record of another file, and the pages of a folder.
     let told = message(&run("motion convert second.csv -o mine.txt"));
     assert!(told.contains("mine.txt is replaced"), "{told}");
+    // Columns of numbers name no source: they may be the user's, and are not said to be.
+    let columns = "motion convert record.csv --to plain_columns -o columns.txt --output-unit";
+    for (unit, told_of) in [("g", 0), ("g", 0), ("m/s2", 1)] {
+        let told = message(&run(&format!("{columns} {unit}")));
+        let note = "columns.txt is replaced, whose numbers do not say what wrote them";
+        assert_eq!(told.matches(note).count(), told_of, "{unit}: {told}");
+        assert_eq!(told.matches("replaced").count(), told_of, "{unit}: {told}");
+    }
     std::fs::create_dir(fixture.path("man")).unwrap();
     std::fs::write(fixture.path("man/pounding-run.1"), "mine\n").unwrap();
     let told = message(&run("man --pages man"));

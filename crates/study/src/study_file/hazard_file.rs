@@ -475,7 +475,7 @@ mod tests {
             (
                 "Sa(0.5 s) (g),mafe\n1,2\n",
                 1,
-                "of this study is Sa(1.0000 s)",
+                "of this study is PSA(1.0000 s)",
             ),
             ("0.5,1e-2\n1.0,x\n", 2, "\"x\" is not a finite number"),
             (

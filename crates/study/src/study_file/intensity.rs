@@ -25,7 +25,7 @@ pub enum IntensityMeasure {
     /// for an acceleration that is linear between samples.
     PeakGroundVelocity,
     /// Geometric mean of pseudo-spectral accelerations (m/s2) at some periods: one
-    /// period is Sa(T), those of several buildings are their geometric mean.
+    /// period is PSA(T), the Sa(T) of most hazard curves, those of several buildings are their geometric mean.
     SpectralAcceleration {
         /// Periods (s).
         periods: Vec<f64>,
@@ -79,14 +79,18 @@ impl IntensityMeasure {
             Self::PeakGroundVelocity => "peak ground velocity".to_owned(),
             Self::SpectralAcceleration { periods, damping } => {
                 let sa = match periods.as_slice() {
-                    [one] => format!("Sa({one:.4} s)"),
-                    [a, b] => format!("geometric mean of Sa({a:.4} s) and Sa({b:.4} s)"),
-                    many => format!("geometric mean of Sa at {}", from_to(many)),
+                    [one] => format!("PSA({one:.4} s)"),
+                    [a, b] => format!("geometric mean of PSA({a:.4} s) and PSA({b:.4} s)"),
+                    many => format!("geometric mean of PSA at {}", from_to(many)),
                 };
                 format!("{sa}, {}", damped(*damping))
             }
             Self::AverageSpectralAcceleration { periods, damping } => {
-                format!("average Sa over {}, {}", from_to(periods), damped(*damping))
+                format!(
+                    "average PSA over {}, {}",
+                    from_to(periods),
+                    damped(*damping)
+                )
             }
         }
     }

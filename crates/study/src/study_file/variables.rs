@@ -45,8 +45,9 @@ table_with_range! {
         pub records: Optional<List<Record>>,
         /// Synthetic motions
         pub synthetic: Optional<SyntheticTable>,
-        /// Measure of the intensity to which the records are scaled; average_spectral_acceleration is over 30
-        /// periods from 0.2 to 3 times one, for several buildings the geometric mean of their first periods
+        /// Measure of the intensity to which the records are scaled. Spectral accelerations are those of the pseudo-spectrum,
+        /// PSA; average_spectral_acceleration is over 30 periods from 0.2 to 3 times one, for several buildings the geometric
+        /// mean of their first periods
         intensity: Optional<Measure>,
         /// Buildings whose first periods a spectral acceleration is taken at, by default all
         building: Optional<OneOrEach<Located<String>>>,

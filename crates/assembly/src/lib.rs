@@ -39,7 +39,7 @@ pub use assemble::{
     parameters_of_link, parameters_of_storeys, regap,
 };
 pub use dimension::{parameter_dimension, unknown_parameter};
-pub use error::AssemblyError;
+pub use error::{AssemblyError, place_of};
 pub use excitation::{
     RecordFiles, further_record, process_record, read_record, read_target, scale_record,
     scale_target,

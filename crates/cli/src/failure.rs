@@ -4,7 +4,7 @@ use std::io::Write as _;
 use std::path::Path;
 
 use miette::{MietteDiagnostic, Report};
-use pounding_assembly::AssemblyError;
+use pounding_assembly::{AssemblyError, place_of};
 use pounding_case::{Case, CaseError};
 use pounding_catalogue::DefinitionError;
 use pounding_files::{FileUseError, PlaceTaken};
@@ -165,7 +165,13 @@ impl Failure {
     /// the name of the file.
     pub fn of_case(error: impl Into<AssemblyError>, case: &Case) -> Self {
         match error.into() {
-            AssemblyError::System(error) => Self::from(error).about(&case.file),
+            AssemblyError::System(error) => match place_of(&error, case) {
+                Some(place) => {
+                    let help = error.help();
+                    Self::case(case.error(place, error.to_string(), help), &case.source)
+                }
+                None => Self::from(error).about(&case.file),
+            },
             error => Self::assembly(error, &case.source),
         }
     }

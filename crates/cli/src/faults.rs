@@ -22,8 +22,15 @@ pub fn read_case(path: &Path, own_record: bool) -> Result<Case, Failure> {
 /// Refuses a grid of output times that no disk has room for.
 pub fn responses_fit(assembly: &Assembly, case: &Case) -> Result<(), Failure> {
     let duration = assembly.options.duration;
-    check_size(&assembly.system, duration, assembly.output_step)
-        .map_err(|e| Failure::from(e).about(&case.file))
+    check_size(&assembly.system, duration, assembly.output_step).map_err(|e| {
+        match case.analysis.places.get("output_step") {
+            Some(place) => {
+                let error = case.error(place.clone(), e.to_string(), Some(e.help()));
+                Failure::case(error, &case.source)
+            }
+            None => Failure::from(e).about(&case.file),
+        }
+    })
 }
 
 /// The system of a case under its own record.

@@ -12,7 +12,8 @@ use pounding_assembly::{
     unknown_parameter,
 };
 use pounding_case::{
-    Analysis, Building, Case, CaseError, Damping, Draft, GivenFiles, Located, Parameter, Quantity,
+    Analysis, Building, BuildingPlaces, Case, CaseError, Damping, Draft, GivenFiles, Located,
+    Parameter, Quantity,
 };
 use pounding_gap_element::registry;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
@@ -421,5 +422,6 @@ fn plain_building() -> Building {
         ground: None,
         plan: None,
         forces: Vec::new(),
+        places: BuildingPlaces::default(),
     }
 }

@@ -445,7 +445,10 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
             ShearBuildingError::UnstableMatrix { .. } => (at_matrix, Some(OVERTURNED.to_owned())),
             ShearBuildingError::Length { .. } => (at_matrix, e.help()),
             ShearBuildingError::TooManyStoreys { .. } => (&b.name.span, e.help()),
-            ShearBuildingError::Value { .. } => (&b.name.span, Some(WITH_UNIT.to_owned())),
+            ShearBuildingError::Value { quantity, .. } => {
+                let place = b.span_of(quantity);
+                return case.error(place, e.to_string(), Some(WITH_UNIT.to_owned()));
+            }
             ShearBuildingError::Damping { .. } if b.lateral.is_some() => (
                 &b.damping.span,
                 Some("give ratios, such as { modal = 0.05 }".to_owned()),

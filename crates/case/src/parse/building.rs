@@ -20,7 +20,7 @@ use crate::document::{
     NotNegative, OneOrEach, Optional, Positive, Ratio, Reader, Signed, Stiffness, Tables, Time,
     Velocity,
 };
-use crate::types::{Building, Damping, Isolator, Lateral, Located};
+use crate::types::{Building, BuildingPlaces, Damping, Isolator, Lateral, Located};
 
 /// A building
 #[derive(Clone, Deserialize, JsonSchema)]
@@ -265,6 +265,11 @@ impl BuildingTable {
                 span: place,
             }
         });
+        let places = BuildingPlaces {
+            mass: self.mass.span(),
+            stiffness: self.stiffness.span(),
+            height: self.height.span().or(self.elevations.span()),
+        };
         let height = match self.elevations.located() {
             Some(elevations) => heights(reader, elevations, storeys)?,
             None => each(self.height, storeys, 1.0),
@@ -312,6 +317,7 @@ impl BuildingTable {
             ground,
             plan,
             forces,
+            places,
         };
         Some((building, !heights_wrong))
     }

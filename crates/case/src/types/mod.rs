@@ -132,6 +132,38 @@ pub struct Building {
     pub plan: Option<Located<Plan>>,
     /// Forces on its floors, at their tables.
     pub forces: Vec<Located<FloorForce>>,
+    /// Where the values of `mass`, `stiffness` and `height` (or `elevations`) stand.
+    pub places: BuildingPlaces,
+}
+
+impl Building {
+    /// Where the value of `mass`, `stiffness` or `height` stands; the name, if the key is not given.
+    #[must_use]
+    pub fn span_of(&self, key: &str) -> Range<usize> {
+        let BuildingPlaces {
+            mass,
+            stiffness,
+            height,
+        } = &self.places;
+        let place = match key {
+            "mass" => mass,
+            "stiffness" => stiffness,
+            "height" => height,
+            _ => &None,
+        };
+        place.as_ref().unwrap_or(&self.name.span).clone()
+    }
+}
+
+/// Where the values of storeys stand in a file.
+#[derive(Debug, Clone, PartialEq, Eq, Default)]
+pub struct BuildingPlaces {
+    /// Of `mass`.
+    pub mass: Option<Range<usize>>,
+    /// Of `stiffness`.
+    pub stiffness: Option<Range<usize>>,
+    /// Of `height`, or of `elevations` in its place.
+    pub height: Option<Range<usize>>,
 }
 
 /// A force on a floor over time, positive to the right.

@@ -813,6 +813,11 @@ fn damaged_record() {
     refused(
         CASE,
         "",
+        &["record.csv: the file is empty", "get the file again"],
+    );
+    refused(
+        CASE,
+        "nothing that a reader knows\n",
         &["record.csv", "format of this record is not known"],
     );
 }

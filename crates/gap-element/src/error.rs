@@ -83,7 +83,7 @@ impl GapElementError {
             Self::Separation { offered, .. } => format!("it offers {}", offered.join(", ")),
             Self::Series { .. } => "take an elastic law, linear_elastic or hertz_1882".to_owned(),
             Self::SpringTable(_) => "give borovin_2014 penetrations and forces that increase from above zero".to_owned(),
-            Self::Bodies(_) => "the left body must move towards the right one".to_owned(),
+            Self::Bodies(_) => "the left body must move towards the right one; check masses and velocities with their units".to_owned(),
             Self::Unfinished { model, .. } => {
                 let elastic = |d: &ModelDescriptor| d.achieved_restitution == AchievedRestitution::Elastic;
                 match registry::find(model).is_ok_and(elastic) {

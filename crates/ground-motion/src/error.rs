@@ -43,6 +43,12 @@ pub enum GroundMotionError {
         /// What is wrong there.
         message: String,
     },
+    /// Nothing stands in the file.
+    #[error("{file}: the file is empty")]
+    Empty {
+        /// File.
+        file: String,
+    },
     /// No reader knows the file.
     #[error("{file}: the format of this record is not known")]
     UnknownFormat {
@@ -301,6 +307,9 @@ impl GroundMotionError {
             }
             Self::Parse { remedy, .. } => remedy.clone(),
             Self::Binary { .. } => "the file is damaged or truncated: get it again".to_owned(),
+            Self::Empty { .. } => {
+                "get the file again: a download or a copy may have been cut off".to_owned()
+            }
             Self::UnknownFormat { .. } => {
                 format!(
                     "known formats: {}; for columns of numbers give `format = \"plain_columns\"`, `unit` and `time_step`, and for rows that begin with text `skip_columns`, the characters of each to pass over",

@@ -225,6 +225,12 @@ pub enum StudyError {
     },
 }
 
+/// Whether the system allows this process, or all of them, no more open files.
+fn is_short_of_files(error: &std::io::Error) -> bool {
+    // `EMFILE` and `ENFILE`, which Windows has not.
+    cfg!(unix) && matches!(error.raw_os_error(), Some(24 | 23))
+}
+
 /// So many records of all.
 fn unread(count: usize, of: usize) -> String {
     match of {
@@ -262,6 +268,9 @@ impl StudyError {
             Self::Records { count, of, .. } if count == of => "correct the paths or the files",
             Self::Records { .. } => {
                 "correct the paths or the files; with --keep-going their runs are recorded as failed and all others are computed"
+            }
+            Self::File { source, .. } if is_short_of_files(source) => {
+                "allow more open files (`ulimit -n`), or name no table beside the result; runs that have finished are stored, and --resume goes on with them"
             }
             Self::File { .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o"

@@ -17,7 +17,7 @@ pub struct GapArguments {
         "to", "gap", "csv", "codes_csv", "plot", "spectra", "output", "report", "threads", "all", "shard", "into", "merge",
     ])]
     pub list: bool,
-    /// Write the documentation's page of the provisions into this folder
+    /// With --list alone: write the documentation's page of the provisions into this folder, without a case
     #[arg(
         long,
         value_name = "FOLDER",

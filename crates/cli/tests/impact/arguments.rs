@@ -147,10 +147,16 @@ fn output_replaces_files_only() {
 fn a_collision_that_does_not_end_names_its_model() {
     let folder = tempfile::tempdir().unwrap();
     // A reading keeps a body that creeps to rest on its way.
-    let arguments = "hertz_1882|pant_2010|--example|-p|restitution=0.001|--drop|\
-        --height|0.01|--mass-left|1e4|--read-at|100 s";
+    let setting = "--example|-p|restitution=0.001|--drop|--height|0.01|--mass-left|1e4|--read-at|100 s";
     let wanted = ["model pant_2010", "did not end"];
-    refused_with(folder.path(), arguments, 3, &wanted);
+    refused_with(folder.path(), &format!("pant_2010|{setting}"), 3, &wanted);
+    // Beside another one too, whose result is shown.
+    let output = super::run_in(folder.path(), &format!("hertz_1882|pant_2010|{setting}"));
+    assert_eq!(output.status.code(), Some(3));
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(wanted.iter().all(|part| told.contains(part)), "{told}");
+    let shown = String::from_utf8_lossy(&output.stdout).into_owned();
+    assert!(shown.contains("hertz_1882 - "), "{shown}");
 }
 
 /// The stiffness of the example belongs to its exponent: with another one the remedy is not --example.

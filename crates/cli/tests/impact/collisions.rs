@@ -4,7 +4,9 @@ use std::process::Command;
 
 use serde_json::Value;
 
-use super::{REFERENCES, close, equal, has, json, refused, text, text_in};
+use super::{
+    REFERENCES, close, equal, example, has, json, refused, refused_with, run_in, text, text_in,
+};
 
 /// The first reference collision of every model, through the command.
 #[test]
@@ -349,4 +351,44 @@ fn a_collision_slower_than_laws_divide_by_is_warned_of() {
     let usual = json(&format!("exact_hunt_crossley|{law}|1e-3"));
     assert!(usual["warnings"].is_null());
     assert!(json(&format!("exact_linear|{law}|1e-4"))["warnings"].is_null());
+}
+
+/// A model whose collision does not end keeps nothing of the others back; by itself it is refused.
+#[test]
+fn results_of_other_models_are_shown_where_one_does_not_end() {
+    let arguments = "lapshin_yurin_2016|jankowski_2005|--example|--velocity|1e8 m/s";
+    let output = run_in(&example(), &format!("{arguments}|--json"));
+    assert_eq!(output.status.code(), Some(3));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let models = found["models"].as_array().map_or(1, Vec::len);
+    assert_eq!(models, 1, "{found}");
+    close(&found["restitution"], 0.647_029_027, 1e-6);
+    assert_eq!(found["failed"][0]["model"], "lapshin_yurin_2016");
+    let reason = "lapshin_yurin_2016: the collision did not end within";
+    has(found["failed"][0]["reason"].as_str().unwrap(), &[reason]);
+    let output = run_in(&example(), arguments);
+    assert_eq!(output.status.code(), Some(3));
+    let text = String::from_utf8(output.stdout).unwrap();
+    has(&text, &["achieved restitution  0.647029027"]);
+    refused_with(
+        &example(),
+        "lapshin_yurin_2016|--example|--velocity|1e8 m/s",
+        3,
+        &[reason],
+    );
+}
+
+/// Beyond this speed powers of the penetration leave the range of numbers: at 1e100 m/s a restitution
+/// of 18839 was found.
+#[test]
+fn speeds_out_of_range_are_refused() {
+    close(
+        &json("jankowski_2005|--example|--velocity|1e29 m/s")["restitution"],
+        0.647_029_027,
+        1e-6,
+    );
+    refused(
+        "jankowski_2005|--example|--velocity|1e31 m/s",
+        &["1e31 m/s is more than 1e30 m/s", "with their units"],
+    );
 }

@@ -321,6 +321,10 @@ fn a_hazard_file_says_its_units() {
             "0.01,1\n4,-1e-6\n",
             "hazard.csv:4: intensities and frequencies must be above zero",
         ),
+        (
+            "1e-300,1e300\n4,1e-6\n",
+            "hazard.csv:3: intensities and frequencies must be from 1e-100 to 1e100",
+        ),
         ("0.01,1\n", "hazard.csv: it has fewer than two points"),
     ] {
         let text = format!("# x\npga (g),mafe\n{points}");

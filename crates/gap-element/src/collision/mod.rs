@@ -214,8 +214,8 @@ impl serde::Serialize for CollisionOutcome {
 /// Lets two bodies collide freely.
 ///
 /// # Errors
-/// Masses that are not positive, bodies that do not approach one another or by less than 1e-30 m/s,
-/// or a law with which the contact does not end.
+/// Masses that are not positive, bodies that do not approach one another or by less than 1e-30
+/// or more than 1e30 m/s, or a law with which the contact does not end.
 pub fn collide(
     model: &dyn ImpactModel,
     bodies: &Bodies,
@@ -357,6 +357,8 @@ fn rigid(
 /// Least approach velocity (m/s): below the round-off of any motion of buildings, and far above where
 /// squares of velocities and powers of penetrations leave the range of numbers.
 const LEAST_APPROACH: f64 = 1.0e-30;
+/// Greatest one: as far from the other end of the range.
+const GREATEST_APPROACH: f64 = 1.0e30;
 
 fn check(bodies: &Bodies) -> Result<(f64, f64), GapElementError> {
     let positive = |m: f64| m.is_finite() && m > 0.0;
@@ -379,6 +381,11 @@ fn check(bodies: &Bodies) -> Result<(f64, f64), GapElementError> {
     if approach < LEAST_APPROACH {
         return Err(GapElementError::Bodies(format!(
             "their relative velocity of {approach:e} m/s is less than {LEAST_APPROACH:e} m/s, and forces and energies would be lost in round-off"
+        )));
+    }
+    if approach > GREATEST_APPROACH {
+        return Err(GapElementError::Bodies(format!(
+            "their relative velocity of {approach:e} m/s is more than {GREATEST_APPROACH:e} m/s, and powers of their penetration would leave the range of numbers"
         )));
     }
     let mass = bodies.mass_right.map_or(bodies.mass_left, |m| {

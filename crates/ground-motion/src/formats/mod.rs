@@ -365,8 +365,13 @@ fn format_of(
     if format.is_none() {
         encodings::has_hyphens(file, start)?;
     }
-    format.ok_or_else(|| GroundMotionError::UnknownFormat {
-        file: file.to_owned(),
+    format.ok_or_else(|| match bytes.iter().all(u8::is_ascii_whitespace) {
+        true => GroundMotionError::Empty {
+            file: file.to_owned(),
+        },
+        false => GroundMotionError::UnknownFormat {
+            file: file.to_owned(),
+        },
     })
 }
 

@@ -37,6 +37,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     example_amplitude: 0.05,
     traps: &[
         "The maximum force of the hysteretic part is Fy (beta + gamma)^(-1/n): Fy itself only for beta + gamma = 1.",
+        "Stored is a k x^2 / 2 + (1-a) Fy xy zeta^2 / 2; what the work of the force exceeds it by is dissipated.",
         "Small loops within larger ones drift and are not closed (Drucker's postulate is violated).",
     ],
     build,

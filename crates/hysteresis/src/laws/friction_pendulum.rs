@@ -63,6 +63,7 @@ pub(crate) static DESCRIPTOR: LawDescriptor = LawDescriptor {
     example_amplitude: 0.03,
     traps: &[
         "The weight is constant: neither overturning nor vertical motion changes it, and the dish has no rim.",
+        "Stored is W x^2 / 2 R + mu_s W Y z^2 / 2; what the work of the force exceeds it by is dissipated.",
         "Within the yield displacement the law gives back a little more than it took where it is loaded slowly and unloaded fast: (mu_f - mu_s) W Y / 2 a time at most.",
         "A trial takes the mean of the friction at both ends of its step for the dissipated energy: second order in the step.",
     ],

@@ -532,7 +532,9 @@ impl Evaluation<'_> {
         match frequency {
             Some(frequency) if !frequency.is_finite() => Err(StudyError::Evaluation {
                 what: "mean annual frequency",
-                reason: format!("{of}: {fit:?} and the hazard curve give no number"),
+                reason: format!(
+                    "{of}: its probabilities and the hazard curve give no number; are the values of the hazard curve right?"
+                ),
             }),
             _ => Ok(frequency),
         }

@@ -923,11 +923,14 @@ fn hazard_curve(
     None
 }
 
+/// Intensities (SI) and frequencies (1/year) of a hazard curve.
+const USUAL: std::ops::RangeInclusive<f64> = 1.0e-100..=1.0e100;
+
 impl HazardCurve {
     /// A curve through these points.
     ///
     /// # Errors
-    /// Fewer than two points, values that are not positive, intensities that do not rise
+    /// Fewer than two points, values that are not positive or outside 1e-100 to 1e100, intensities that do not rise
     /// or frequencies that do not fall.
     pub fn new(points: Vec<(f64, f64)>) -> Result<Self, StudyError> {
         match Self::fault(&points) {
@@ -947,6 +950,14 @@ impl HazardCurve {
         let sound = |(a, b): &(f64, f64)| *a > 0.0 && *b > 0.0 && a.is_finite() && b.is_finite();
         if let Some(point) = points.iter().position(|p| !sound(p)) {
             return Some((point, "intensities and frequencies must be above zero"));
+        }
+        // Power laws of more extreme points leave the range of numbers.
+        let usual = |(a, b): &(f64, f64)| [a, b].into_iter().all(|x| USUAL.contains(x));
+        if let Some(point) = points.iter().position(|p| !usual(p)) {
+            return Some((
+                point,
+                "intensities and frequencies must be from 1e-100 to 1e100",
+            ));
         }
         let mut pairs = points.windows(2);
         let turned = pairs.position(|p| !(p[0].0 < p[1].0 && p[0].1 > p[1].1))?;

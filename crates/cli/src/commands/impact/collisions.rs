@@ -3,7 +3,8 @@
 use comfy_table::{CellAlignment, presets};
 use pounding_catalogue::numbers::{scientific, significant};
 use pounding_gap_element::laboratory::Specimen;
-use pounding_gap_element::{CollisionOutcome, CollisionSample, collide_with};
+use pounding_gap_element::{CollisionOutcome, CollisionSample, GapElementError, collide_with};
+use serde::Serialize;
 
 use super::remarks::remarks;
 use super::setting::{Setting, refused};
@@ -18,24 +19,50 @@ pub struct Collided<'a> {
     pub outcome: CollisionOutcome,
 }
 
-/// Puts every model through the collision.
+/// One of several models whose collision does not end.
+#[derive(Debug, Serialize)]
+pub struct Failed {
+    model: &'static str,
+    reason: String,
+}
+
+/// Puts every model through the collision. Of several models those whose collision does not end keep the others from
+/// nothing.
 pub fn collide_all<'a>(
     chosen: &'a [Specimen],
     setting: &Setting,
-) -> Result<Vec<Collided<'a>>, Failure> {
-    chosen
-        .iter()
-        .map(|one| {
-            let refused = |e| refused(one, e);
-            let model = one.build().map_err(refused)?;
-            let outcome =
-                collide_with(model.as_ref(), &setting.bodies, &setting.options).map_err(refused)?;
-            Ok(Collided {
+) -> Result<(Vec<Collided<'a>>, Vec<Failed>), Failure> {
+    let (mut collided, mut failed) = (Vec::new(), Vec::new());
+    for one in chosen {
+        let refused = |e| refused(one, e);
+        let model = one.build().map_err(refused)?;
+        match collide_with(model.as_ref(), &setting.bodies, &setting.options) {
+            Ok(outcome) => collided.push(Collided {
                 chosen: one,
                 outcome,
-            })
-        })
-        .collect()
+            }),
+            Err(error @ GapElementError::Unfinished { .. }) if chosen.len() > 1 => {
+                failed.push(Failed {
+                    model: one.descriptor.name,
+                    reason: error.to_string(),
+                });
+            }
+            Err(error) => return Err(refused(error)),
+        }
+    }
+    Ok((collided, failed))
+}
+
+/// What is to be said of models whose collision does not end, behind the results of the others.
+pub fn told(failed: &[Failed]) -> Result<(), Failure> {
+    if failed.is_empty() {
+        return Ok(());
+    }
+    let reasons: Vec<_> = failed.iter().map(|one| one.reason.as_str()).collect();
+    Err(Failure::computation(
+        reasons.join("; "),
+        Some("leave these models out, or check mass, speed and parameters with their units: by itself each says more".to_owned()),
+    ))
 }
 
 /// One model in full, or a table of several, with what is to be known of them.

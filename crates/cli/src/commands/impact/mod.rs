@@ -45,7 +45,10 @@ fn collisions(
     setting: &Setting,
 ) -> Result<(), Failure> {
     let history = against::measured(arguments)?;
-    let collided = collisions::collide_all(chosen, setting)?;
+    let (collided, failed) = collisions::collide_all(chosen, setting)?;
+    if collided.is_empty() {
+        return collisions::told(&failed);
+    }
     let compared: Option<Vec<Difference>> = history.as_ref().map(|measured| {
         let of =
             |c: &collisions::Collided<'_>| measured.difference(&c.outcome, c.chosen.exponent());
@@ -64,8 +67,12 @@ fn collisions(
             (one.chosen, Compared { outcome, against })
         });
         let measured = history.as_ref();
-        let shown = Models::new(models, Measured { measured }, setting);
-        return print(&pretty(&shown)?);
+        let shared = Measured {
+            measured,
+            failed: &failed,
+        };
+        print(&pretty(&Models::new(models, shared, setting))?)?;
+        return collisions::told(&failed);
     }
     let mut text = collisions::text(&collided, setting);
     if let (Some(measured), Some(compared)) = (&history, &compared) {
@@ -75,7 +82,8 @@ fn collisions(
         arguments.csv.as_deref(),
         arguments.svg.as_deref(),
     ]));
-    print(&text)
+    print(&text)?;
+    collisions::told(&failed)
 }
 
 /// What `--json` prints of models: one is an object of its own; several are a list, and what
@@ -152,4 +160,7 @@ struct Compared<'c> {
 struct Measured<'m> {
     #[serde(skip_serializing_if = "Option::is_none")]
     measured: Option<&'m MeasuredForce>,
+    /// Models of which there is no result.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    failed: &'m [collisions::Failed],
 }

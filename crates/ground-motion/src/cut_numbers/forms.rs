@@ -1,0 +1,300 @@
+//! Forms of the values of a series: one in another form than the large majority, which comes from that
+//! of the others by a loss of characters, is damaged. Zeros count for nothing, as many writers print
+//! them shorter.
+
+use super::tally::{Place, Tally};
+use crate::error::GroundMotionError;
+use crate::fortran::Layout;
+use crate::number;
+use crate::source::Source;
+
+/// Values among which one in another form is damaged.
+const MANY: usize = 20;
+/// Values among which one with fewer decimals is damaged: of those that leave out zeros at the end a
+/// tenth has fewer.
+const MANY_DECIMALS: usize = 200;
+/// Values whose exponents have a zero before their digit, which show that all have as many digits.
+const LIKE_IT: usize = 2;
+/// Times the largest of the others from which on a value is of another size.
+const OF_ANOTHER_SIZE: f64 = 10.0;
+
+/// Magnitude below which `G` formats of Fortran print exponents, and below which `%g` does.
+const BELOW_G: f64 = 0.1;
+const BELOW_PERCENT_G: f64 = 1.0e-4;
+/// Magnitude from which on some writers print exponents.
+const LARGE: f64 = 1.0e5;
+
+const REMEDY: &str = "the file is damaged: correct the value, or get the record again";
+
+/// An exponent as it is printed.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Exponent {
+    /// Fortran leaves the letter out before three digits.
+    has_letter: bool,
+    sign: Option<u8>,
+    digits: usize,
+    /// Whether a zero stands before another digit, `E-02`.
+    is_padded: bool,
+    /// Whether it is `E0`, which people write for the exponent that a whole number lacks.
+    is_bare_zero: bool,
+}
+
+/// What stands in a field that is a number.
+struct Parts<'f> {
+    mantissa: &'f [u8],
+    /// Digits behind the decimal point; `None` without a point.
+    decimals: Option<usize>,
+    exponent: Option<Exponent>,
+}
+
+impl<'f> Parts<'f> {
+    fn of(field: &'f [u8]) -> Self {
+        let is_start =
+            |i: &usize| b"eEdD".contains(&field[*i]) || *i > 0 && matches!(field[*i], b'+' | b'-');
+        let end = (0..field.len()).find(is_start).unwrap_or(field.len());
+        let (mantissa, exponent) = field.split_at(end);
+        let point = mantissa.iter().position(|b| *b == b'.');
+        Self {
+            mantissa,
+            decimals: point.map(|point| mantissa.len() - point - 1),
+            exponent: Exponent::of(exponent),
+        }
+    }
+
+    /// The first digit of the mantissa.
+    fn first_digit(&self) -> Option<u8> {
+        self.mantissa.iter().copied().find(|b| !b"+-".contains(b))
+    }
+}
+
+impl Exponent {
+    fn of(text: &[u8]) -> Option<Self> {
+        let first = text.first()?;
+        let has_letter = first.is_ascii_alphabetic();
+        let rest = &text[usize::from(has_letter)..];
+        let sign = rest.first().copied().filter(|b| b"+-".contains(b));
+        let digits = &rest[usize::from(sign.is_some())..];
+        Some(Self {
+            has_letter,
+            sign,
+            digits: digits.len(),
+            is_padded: digits.len() > 1 && digits[0] == b'0',
+            is_bare_zero: rest == b"0",
+        })
+    }
+}
+
+/// Forms of all values of a series but zeros, as far as they show one that was damaged among them.
+#[derive(Debug, Default)]
+pub(crate) struct Forms {
+    /// Values by their exponent, and by the decimals of those with one and of those without.
+    exponents: Tally<Option<Exponent>>,
+    with: Tally<Option<usize>>,
+    without: Tally<Option<usize>>,
+    /// Whether values of all sizes are printed with an exponent: where a first digit other than
+    /// zero stands before the point, or an exponent is zero. `G` formats print values about 1
+    /// without one.
+    is_always: bool,
+    /// Whether one has an exponent that is as large as values of a tenth and more, or of a
+    /// ten-thousandth.
+    of_tenths: bool,
+    of_ten_thousandths: bool,
+    /// Whether a zero ends the decimals before an exponent: `%g` leaves those out.
+    ends_in_zero: bool,
+    /// Largest value whose exponent has a sign.
+    largest_signed: f64,
+    wholes: Wholes,
+    /// Whether one program prints all files of the format, so that fewer decimals are lost ones without exponents, too.
+    of_one_program: bool,
+}
+
+/// Whole numbers without a point, as `%d` of MATLAB writes them where a value is whole, and how far they
+/// are from their neighbours.
+#[derive(Debug, Default)]
+struct Wholes {
+    count: usize,
+    before: Option<(f64, bool)>,
+    /// Largest difference between neighbours, of which one is such a number, and of which none is.
+    far: f64,
+    usual: f64,
+}
+
+impl Wholes {
+    fn see(&mut self, value: f64, is_whole: bool) {
+        self.count += usize::from(is_whole);
+        if let Some((before, was_whole)) = self.before.replace((value, is_whole)) {
+            let step = (value - before).abs();
+            let largest = match is_whole || was_whole {
+                true => &mut self.far,
+                false => &mut self.usual,
+            };
+            *largest = largest.max(step);
+        }
+    }
+
+    /// Whether all lie as near their neighbours as other values do.
+    fn follow(&self) -> bool {
+        self.far <= self.usual
+    }
+}
+
+/// Whether so many of some values are no more than damaged ones.
+fn are_few(odd: usize, all: usize) -> bool {
+    odd <= all / 1000 + 1
+}
+
+/// The first value with fewer decimals than nearly all others, of so many that no writer leaves out zeros,
+/// and the decimals of the others.
+fn lacks_decimals(tally: &Tally<Option<usize>>) -> Option<(&Place, usize)> {
+    let usual = tally.usual()?.key?;
+    let fewer = |decimals: Option<usize>| decimals.is_none_or(|decimals| decimals < usual);
+    let others = tally.count - tally.number(|decimals| decimals == Some(usual) || fewer(decimals));
+    let few = |number| are_few(number, tally.count);
+    let lost = tally.count > MANY_DECIMALS && few(tally.number(fewer)) && few(others);
+    Some((tally.first(fewer).filter(|_| lost)?, usual))
+}
+
+impl Forms {
+    /// Of numbers that are printed in a layout.
+    pub(crate) fn of(layout: Layout) -> Self {
+        Self {
+            is_always: layout.exponents,
+            ..Self::default()
+        }
+    }
+
+    /// Of numbers that one program prints in all files.
+    pub(crate) fn of_one_program() -> Self {
+        Self {
+            of_one_program: true,
+            ..Self::default()
+        }
+    }
+
+    /// Takes one more value of a line into account, which starts at a column (from 0).
+    pub(crate) fn see(&mut self, line: usize, column: usize, field: &[u8]) {
+        let field = field.trim_ascii();
+        let Ok(value) = number::parse(field) else {
+            return;
+        };
+        let parts = Parts::of(field);
+        let is_whole = parts.exponent.is_none() && parts.decimals.is_none() && value != 0.0;
+        self.wholes.see(value, is_whole);
+        if value == 0.0 {
+            return;
+        }
+        let place = Place::new(line, column, value, field);
+        self.exponents.see(parts.exponent, place);
+        let Some(exponent) = parts.exponent else {
+            self.without.see(parts.decimals, place);
+            return;
+        };
+        self.with.see(parts.decimals, place);
+        let size = value.abs();
+        self.of_tenths |= (BELOW_G..LARGE).contains(&size);
+        self.of_ten_thousandths |= (BELOW_PERCENT_G..LARGE).contains(&size);
+        self.ends_in_zero |=
+            parts.decimals.is_some_and(|n| n > 0) && parts.mantissa.ends_with(b"0");
+        let is_of_one = exponent.digits > 1 && field.ends_with(b"00");
+        let leads = parts.first_digit();
+        self.is_always |= is_of_one || leads.is_some_and(|b| (b'1'..=b'9').contains(&b));
+        if exponent.sign.is_some() {
+            self.largest_signed = self.largest_signed.max(size);
+        }
+    }
+
+    /// The first value that lacks a digit or the sign of its exponent, which all but a few values have.
+    fn lacks_digits_of_exponent(&self) -> Option<&Place> {
+        let usual = self.exponents.usual()?.key?;
+        let is_such = |e: Option<Exponent>, such: fn(Exponent, Exponent) -> bool| {
+            e.is_some_and(|e| e.has_letter && such(e, usual))
+        };
+        let padded = |e| is_such(e, |e, usual| e.digits == usual.digits && e.is_padded);
+        let plus = |e| is_such(e, |e, _| e.sign == Some(b'+'));
+        let short = |e| is_such(e, |e, usual| e.digits < usual.digits && !e.is_bare_zero);
+        let unsigned = |e| {
+            is_such(e, |e, usual| {
+                e.digits == usual.digits && e.sign.is_none() && usual.sign.is_some()
+            })
+        };
+        let all = self.with.count;
+        let odd = self.exponents.number(short) + self.exponents.number(unsigned);
+        if all <= MANY || odd > all / 100 + 1 || self.exponents.number(padded) < LIKE_IT {
+            return None;
+        }
+        // Some programs print no plus.
+        let is_lost = |at: &&Place| {
+            self.exponents.number(plus) > 0
+                || at.value.abs() > OF_ANOTHER_SIZE * self.largest_signed
+        };
+        let unsigned = self.exponents.first(unsigned).filter(is_lost);
+        self.exponents.first(short).or(unsigned)
+    }
+
+    /// The first value that lost its exponent among many others, which no writer leaves out there.
+    fn lacks_exponent(&self) -> Option<&Place> {
+        let (with, without) = (self.with.count, self.without.count);
+        let few = with + without > MANY && without <= with / 100 + 1;
+        let bare = self.exponents.first(|e| e.is_none()).filter(|_| few)?;
+        let usual = self.with.usual()?;
+        let is_constant = are_few(with - usual.count, with);
+        // Of a writer that has whole numbers without a point; one that was cut off is far from its neighbours.
+        let all_whole = self.wholes.count >= without && is_constant;
+        if all_whole && self.wholes.follow() {
+            return None;
+        }
+        // As many digits as with an exponent: printed by a `G` format.
+        let digits = bare.field().iter().filter(|b| b.is_ascii_digit());
+        let digits = digits.skip_while(|b| **b == b'0').count();
+        let of_g = bare.value.abs() >= BELOW_G && digits == usual.key.unwrap_or(0);
+        let alike = usual.key.is_some() && Parts::of(bare.field()).decimals == usual.key;
+        let always = self.of_tenths
+            || self.of_ten_thousandths && !of_g
+            || is_constant && self.ends_in_zero && !of_g
+            || is_constant && self.is_always && alike;
+        always.then_some(bare)
+    }
+
+    /// Refuses a value that alone lacks the exponent, or a digit of it, of the many others.
+    ///
+    /// # Errors
+    /// At that value.
+    pub(crate) fn are_whole(&self, source: &Source<'_>) -> Result<(), GroundMotionError> {
+        let refused = |at: &Place, message: String, remedy: &str| {
+            Err(source.error(at.line, at.column, message, remedy))
+        };
+        if let Some(at) = self.lacks_digits_of_exponent() {
+            let message = format!(
+                "\"{}\" lacks a digit or the sign of its exponent, which the other values have",
+                at.shown()
+            );
+            return refused(at, message, REMEDY);
+        }
+        if let Some(at) = self.lacks_exponent() {
+            let usual = self.with.usual().and_then(|kind| kind.key);
+            let decimals = usual.unwrap_or(0);
+            let remedy = match at.field().contains(&b'.') {
+                true => REMEDY.to_owned(),
+                false => format!(
+                    "some programs write whole numbers so: if it is one, write it as the others, {:.decimals$e}; if it is no value, pass it over by `skip_lines`; else the file is damaged: correct the value, or get the record again",
+                    at.value
+                ),
+            };
+            let message = format!(
+                "\"{}\" has no exponent, which the other values have",
+                at.shown()
+            );
+            return refused(at, message, &remedy);
+        }
+        let of_fixed = Some(&self.without).filter(|_| self.of_one_program);
+        let lost = lacks_decimals(&self.with);
+        if let Some((at, usual)) = lost.or_else(|| lacks_decimals(of_fixed?)) {
+            let message = format!(
+                "\"{}\" lacks a digit: the other values have {usual} decimals",
+                at.shown()
+            );
+            return refused(at, message, REMEDY);
+        }
+        Ok(())
+    }
+}

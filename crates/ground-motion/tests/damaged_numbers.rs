@@ -1,0 +1,275 @@
+//! Values in another form than nearly all others of their series, which come from that form by a loss of
+//! characters: in every format, wherever they stand, also beside values that are odd and right.
+#![allow(clippy::unwrap_used)]
+
+use pounding_ground_motion::{ReadOptions, read_all_bytes};
+
+/// Samples of each file.
+const COUNT: usize = 400;
+
+const FORMATS: [&str; 10] = [
+    "peer_at2",
+    "npts_dt",
+    "midas_sgs",
+    "slist",
+    "tspair",
+    "dyna",
+    "isesd",
+    "jma_csv",
+    "plain_columns",
+    "pounding_csv",
+];
+
+/// Rows of so many values.
+fn rows(values: &[String], width: usize, separator: &str) -> String {
+    let rows = values.chunks(width);
+    rows.map(|row| format!("{}\n", row.join(separator)))
+        .collect()
+}
+
+/// Rows of a time and a value.
+fn pairs(values: &[String], print: impl Fn(usize, &str) -> String) -> String {
+    let values = values.iter().enumerate();
+    values.map(|(i, value)| print(i, value) + "\n").collect()
+}
+
+/// A file with these values.
+fn file(format: &str, values: &[String]) -> String {
+    let n = values.len();
+    let time = |i: usize| 0.01 * i as f64;
+    match format {
+        "peer_at2" => format!(
+            "PEER\nQUAKE, STATION, 90\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= {n}, DT= .01 SEC\n{}",
+            rows(values, 5, "  ")
+        ),
+        "npts_dt" => format!(
+            "EL CENTRO NS ACC IN CM/S2\nNPTS= {n} DT= 0.01 SEC\n{}",
+            rows(values, 8, " ")
+        ),
+        "midas_sgs" => format!(
+            "*SGSw\n*TITLE, quake\n*UNIT&TYPE, GRAV, ACCEL\n*DATA\n{}*ENDDATA\n",
+            pairs(values, |i, v| format!("{:.4E}, {v}", time(i)))
+        ),
+        "slist" => format!(
+            "TIMESERIES XX_ABC__HNE_D, {n} samples, 100 sps, 2010-02-27T06:50:00.000000, SLIST, FLOAT, M/S**2\n{}",
+            rows(values, 5, "\t")
+        ),
+        "tspair" => format!(
+            "TIMESERIES XX_ABC__HNE_D, {n} samples, 100 sps, 2010-02-27T06:50:00.000000, TSPAIR, FLOAT, M/S**2\n{}",
+            pairs(values, |i, v| format!(
+                "2010-02-27T06:50:{:09.6}  {v}",
+                time(i)
+            ))
+        ),
+        "dyna" => format!(
+            "EVENT_NAME: quake\nSAMPLING_INTERVAL_S: 0.01\nNDATA: {n}\nSTREAM: HNE\nUNITS: cm/s^2\nDATA_TYPE: ACCELERATION\n{}",
+            rows(values, 1, "")
+        ),
+        "isesd" => format!(
+            "file: 1.cor\nwaveform code: 1\norientation of transducer: NS\nsampling period: 0.01s\nnumber of samples: {n}\nunits: m/s*s\n-> corrected acceleration time histories\n{}",
+            rows(values, 5, " ")
+        ),
+        "jma_csv" => format!(
+            "SITE CODE= 1\nSAMPLING RATE= 100Hz\nUNIT = gal(cm/s/s)\nNS,EW,UD\n{}",
+            pairs(values, |i, v| format!("{v},{},{}", whole(i), whole(i + 5)))
+        ),
+        "plain_columns" => format!(
+            "time (s),NS (cm/s2)\n{}",
+            pairs(values, |i, v| format!("{:.2},{v}", time(i)))
+        ),
+        "pounding_csv" => format!(
+            "time_s,acceleration_m_s2\n{}",
+            pairs(values, |i, v| format!("{:.2},{v}", time(i)))
+        ),
+        other => panic!("{other}"),
+    }
+}
+
+/// Sample `i`, which is never zero.
+fn sample(i: usize) -> f64 {
+    0.05 * f64::sin(0.07 * i as f64 + 0.1) + 1.234_567_8e-4
+}
+
+/// As C prints `%.7E`.
+fn whole(i: usize) -> String {
+    of_c(sample(i))
+}
+
+fn of_c(x: f64) -> String {
+    let text = format!("{x:.7e}");
+    let (mantissa, exponent) = text.split_once('e').unwrap();
+    let power: i32 = exponent.parse().unwrap();
+    let sign = if power < 0 { '-' } else { '+' };
+    format!("{mantissa}E{sign}{:02}", power.abs())
+}
+
+fn of_exponents() -> Vec<String> {
+    (0..COUNT).map(whole).collect()
+}
+
+/// The samples of the first series, or what is said.
+fn read(format: &str, values: &[String]) -> Result<Vec<f64>, String> {
+    let text = file(format, values);
+    let found = read_all_bytes("f", text.as_bytes(), &ReadOptions::default());
+    match found {
+        Ok(found) => Ok(found.series[0].samples.clone()),
+        Err(e) => Err(format!("{e}; {}", e.help().unwrap_or_default())),
+    }
+}
+
+/// The values with one at each place in another form, wherever it can have that form.
+fn damaged(
+    values: &[String],
+    damage: impl Fn(&str) -> Option<String>,
+) -> impl Iterator<Item = (String, Vec<String>)> {
+    let places = [0, 1, values.len() / 2, values.len() - 1];
+    places.into_iter().filter_map(move |place| {
+        let mut values = values.to_vec();
+        let damaged = damage(&values[place])?;
+        values[place].clone_from(&damaged);
+        Some((damaged, values))
+    })
+}
+
+/// Values that are odd and right at the start: forms of zero, and a decimal more in the middle.
+fn odd_beside(values: &[String]) -> Vec<Vec<String>> {
+    let mut all = vec![values.to_vec()];
+    for zero in ["0", "0.0", ".0", "0.", "0.0000000E+00", "0.00", "-0.0"] {
+        let zero = vec![zero.to_owned()];
+        all.push([zero.clone(), values.to_vec()].concat());
+        all.push([vec![zero[0].clone(); 30], values.to_vec()].concat());
+    }
+    let mut surplus = values.to_vec();
+    let place = surplus.len() / 3;
+    let (end, rest) = match surplus[place].find('E') {
+        Some(end) => surplus[place].split_at(end),
+        None => (surplus[place].as_str(), ""),
+    };
+    surplus[place] = format!("{end}0{rest}");
+    all.push(surplus);
+    all
+}
+
+/// Every damage at every place of a file in every format is refused, at its value.
+fn refuses(values: &[String], damage: impl Fn(&str) -> Option<String> + Copy, told: &str) {
+    for format in FORMATS {
+        for beside in odd_beside(values) {
+            let right = read(format, &beside).unwrap();
+            assert_eq!(right.len(), beside.len(), "{format}");
+            let mut tried = 0;
+            for (value, values) in damaged(&beside, damage) {
+                let said = read(format, &values).unwrap_err();
+                let is_right = said.contains(&format!("\"{value}\"")) && said.contains(told);
+                assert!(is_right, "{format}, {value}: {said}");
+                let row = file(format, &values)
+                    .lines()
+                    .position(|row| row.split([' ', ',', '\t']).any(|field| field == value));
+                let place = format!("f:{}:", row.unwrap() + 1);
+                assert!(said.starts_with(&place), "{format}, {value}: {said}");
+                tried += 1;
+            }
+            assert!(tried > 1, "{format}");
+        }
+    }
+}
+
+/// As many bits as the numbers have.
+fn reads(values: &[String]) {
+    for format in FORMATS {
+        let found = read(format, values).unwrap_or_else(|e| panic!("{format}: {e}"));
+        assert_eq!(found.len(), values.len(), "{format}");
+        let text: f64 = values[values.len() / 2].parse().unwrap();
+        let ratio = found[values.len() / 2] / text;
+        for (found, value) in found.iter().zip(values) {
+            let value: f64 = value.parse().unwrap();
+            assert!((found - ratio * value).abs() <= 1e-12 * found.abs());
+        }
+    }
+}
+
+/// Nonzero values alone: a damaged zero is a zero.
+fn of_value(text: &str) -> Option<&str> {
+    text.bytes()
+        .any(|b| (b'1'..=b'9').contains(&b))
+        .then_some(text)
+}
+
+#[test]
+fn last_digits_of_exponents_that_are_lost() {
+    refuses(
+        &of_exponents(),
+        |text| {
+            let text = of_value(text)?;
+            text.ends_with(|c: char| c.is_ascii_digit())
+                .then(|| text[..text.len() - 1].to_owned())
+        },
+        "lacks a digit or the sign of its exponent",
+    );
+    // As Fortran prints them, with a zero before the point.
+    let of_fortran = |i: usize| {
+        let x = sample(i);
+        let power = x.abs().log10().floor() as i32 + 1;
+        format!("{:.7}E-{:02}", x / 10.0_f64.powi(power), power.abs())
+    };
+    let values: Vec<String> = (0..COUNT).map(of_fortran).collect();
+    refuses(
+        &values,
+        |text| Some(of_value(text)?.replace("E-0", "E-")),
+        "lacks a digit or the sign of its exponent",
+    );
+}
+
+#[test]
+fn exponents_that_are_lost() {
+    refuses(
+        &of_exponents(),
+        |text| Some(of_value(text)?.split_once('E')?.0.to_owned()),
+        "has no exponent",
+    );
+}
+
+#[test]
+fn decimals_before_an_exponent_that_are_lost() {
+    refuses(
+        &of_exponents(),
+        |text| {
+            let (mantissa, exponent) = of_value(text)?.split_once('E')?;
+            Some(format!("{}E{exponent}", &mantissa[..mantissa.len() - 1]))
+        },
+        "lacks a digit: the other values have 7 decimals",
+    );
+}
+
+/// Signs of exponents that are lost, where the others have them.
+#[test]
+fn signs_of_exponents_that_are_lost() {
+    refuses(
+        &of_exponents(),
+        |text| Some(of_value(text)?.replace("E-", "E")),
+        "lacks a digit or the sign of its exponent",
+    );
+}
+
+/// Writers whose exponents are as short as they can be, that print values about 1 without one, or no plus.
+#[test]
+fn exponents_of_other_writers() {
+    let shortest = |i: usize| format!("{:e}", sample(i));
+    reads(&(0..COUNT).map(shortest).collect::<Vec<_>>());
+    let tiny = |i: usize| format!("{:e}", 2e-9 * sample(i));
+    let values: Vec<String> = (0..COUNT).map(tiny).collect();
+    assert!(values.iter().any(|text| text.ends_with("e-9")) || values.len() > 1);
+    reads(&values);
+    let general = |i: usize| match 20.0 * sample(i) {
+        x if x.abs() >= 0.1 => format!("{x:.7}"),
+        x => of_c(x),
+    };
+    reads(&(0..COUNT).map(general).collect::<Vec<_>>());
+    let without_plus = |i: usize| of_c(20.0 * sample(i)).replace('+', "");
+    reads(&(0..COUNT).map(without_plus).collect::<Vec<_>>());
+    // Values below 1e-99 have three digits.
+    let mut values = of_exponents();
+    for (i, value) in values.iter_mut().take(8).enumerate() {
+        *value = format!("1.2345678E-{}", 130 - 10 * i);
+    }
+    reads(&values);
+}

@@ -58,6 +58,11 @@ impl Layout {
         self.margin == 0 && self.gap == 0
     }
 
+    /// Whether a number without a point has decimals all the same.
+    pub(crate) const fn implies_points(self) -> bool {
+        self.decimals != 0
+    }
+
     /// The value of a field that was read as a number with a point behind its digits.
     pub(crate) fn value(self, field: &[u8], number: f64) -> f64 {
         let plain = field.trim_ascii();

@@ -273,3 +273,130 @@ fn exponents_of_other_writers() {
     }
     reads(&values);
 }
+
+/// Values with three decimals, which no writer that leaves out zeros prints.
+fn of_three_decimals() -> Vec<String> {
+    let value = |i: usize| 50.0 * f64::sin(0.07 * i as f64 + 0.1) + 0.1;
+    (0..COUNT).map(|i| format!("{:.3}", value(i))).collect()
+}
+
+/// Values as `%.5g` prints them, and as MATLAB does: without zeros at the end, whole numbers without a point.
+fn without_zeros(x: f64) -> String {
+    let digits = 4 - x.abs().log10().floor() as i32;
+    match digits {
+        ..9 => {
+            let text = format!("{x:.*}", digits.max(0) as usize);
+            let cut = text.trim_end_matches('0').trim_end_matches('.');
+            if text.contains('.') {
+                cut.to_owned()
+            } else {
+                text
+            }
+        }
+        _ => of_c(x).replace('E', "e"),
+    }
+}
+
+fn of_five_digits() -> Vec<String> {
+    let value = |i: usize| 40.0 * f64::sin(0.07 * i as f64 + 0.1) + 0.0123;
+    (0..COUNT).map(|i| without_zeros(value(i))).collect()
+}
+
+#[test]
+fn points_that_are_lost() {
+    let lost = |text: &str| Some(of_value(text)?.replace('.', ""));
+    let told = "has no decimal point, which the other values have";
+    refuses(&of_three_decimals(), lost, told);
+    // A file of 60 values.
+    refuses(&of_three_decimals()[..60], lost, told);
+    // Decimals differ, and a zero leads the digits.
+    let small = |i: usize| without_zeros(0.04 * f64::sin(0.07 * i as f64 + 0.1));
+    let values: Vec<String> = (0..COUNT).map(small).collect();
+    refuses(&values, lost, told);
+    // Or the number is far from its neighbours.
+    let values = of_five_digits();
+    refuses(&values, lost, told);
+}
+
+#[test]
+fn exponents_that_are_not_of_the_value() {
+    let told = "has an exponent, which the other values do not have";
+    for values in [of_three_decimals(), of_five_digits()] {
+        for exponent in ["E3", "E+03", "e2", "D02"] {
+            refuses(
+                &values,
+                |text| Some(of_value(text)?.to_owned() + exponent),
+                told,
+            );
+        }
+    }
+    for exponent in ["E-3", "E-10"] {
+        let stray = |text: &str| Some(of_value(text)?.to_owned() + exponent);
+        refuses(&of_three_decimals(), stray, told);
+    }
+}
+
+/// What is wrong is told with what to write if it is right.
+#[test]
+fn remedies_of_values_that_may_be_right() {
+    let mut values = of_three_decimals();
+    values[224] = "1498".to_owned();
+    let said = read("plain_columns", &values).unwrap_err();
+    assert!(
+        said.contains("\"1498\"") && said.ends_with("write it as the others, 1498.000"),
+        "{said}"
+    );
+    values[224] = "1498.000".to_owned();
+    reads(&values);
+}
+
+/// Writers without a fixed form.
+#[test]
+fn values_of_other_writers_without_exponents() {
+    // Zeros at the end that are left out, whole numbers that follow their neighbours, and small values.
+    let values = of_five_digits();
+    reads(&values);
+    let mut whole = values.clone();
+    whole[21] = "40".to_owned();
+    whole[150] = without_zeros(values[150].parse::<f64>().unwrap().round());
+    reads(&whole);
+    let mut small = values.clone();
+    for (i, text) in ["1.2e-05", "-3.4567e-06"].into_iter().enumerate() {
+        small[i] = text.to_owned();
+    }
+    small.truncate(399);
+    small[5] = "0.00123".to_owned();
+    reads(
+        &small[..1]
+            .iter()
+            .chain(&small[2..])
+            .cloned()
+            .collect::<Vec<_>>(),
+    );
+    // Whole numbers alone, of which a few are in exponents as they are large, and halves between them.
+    let counts = |i: usize| (9e5 * f64::sin(0.07 * i as f64 + 0.1)).round();
+    reads(
+        &(0..COUNT)
+            .map(|i| format!("{}", counts(i)))
+            .collect::<Vec<_>>(),
+    );
+    let mut values: Vec<String> = (0..COUNT).map(|i| format!("{}", counts(i))).collect();
+    values[21] = "1.0001e+06".to_owned();
+    values[300] = "1.2345000e+02".to_owned();
+    reads(&values);
+    // Steps of a half and of a quarter.
+    for step in [0.5, 0.25] {
+        let value = |i: usize| step * (40.0 * f64::sin(0.07 * i as f64 + 0.1)).round();
+        reads(
+            &(0..COUNT)
+                .map(|i| format!("{}", value(i)))
+                .collect::<Vec<_>>(),
+        );
+    }
+    // As short as they can be.
+    reads(
+        &(0..COUNT)
+            .map(|i| format!("{}", sample(i)))
+            .collect::<Vec<_>>(),
+    );
+}

@@ -13,10 +13,15 @@ const MANY: usize = 20;
 /// Values among which one with fewer decimals is damaged: of those that leave out zeros at the end a
 /// tenth has fewer.
 const MANY_DECIMALS: usize = 200;
+/// Values with a decimal point among which one without it is damaged.
+const MANY_POINTS: usize = 50;
 /// Values whose exponents have a zero before their digit, which show that all have as many digits.
 const LIKE_IT: usize = 2;
 /// Times the largest of the others from which on a value is of another size.
 const OF_ANOTHER_SIZE: f64 = 10.0;
+/// Times the largest of the others, and the largest step between them, from which on a whole number does
+/// not follow its neighbours where a writer leaves out zeros at the end.
+const FAR: f64 = 2.0;
 
 /// Magnitude below which `G` formats of Fortran print exponents, and below which `%g` does.
 const BELOW_G: f64 = 0.1;
@@ -104,6 +109,11 @@ pub(crate) struct Forms {
     /// Largest value whose exponent has a sign.
     largest_signed: f64,
     wholes: Wholes,
+    /// Numbers without a point that a zero leads, `0454`, and the first of them.
+    led_by_zero: usize,
+    first_led_by_zero: Option<Place>,
+    /// Whether the layout gives decimals to numbers without a point.
+    implies_points: bool,
     /// Whether one program prints all files of the format, so that fewer decimals are lost ones without exponents, too.
     of_one_program: bool,
 }
@@ -138,6 +148,14 @@ impl Wholes {
     }
 }
 
+/// What to do about a value without an exponent that may be right in another form.
+fn or_as_others(at: &Place, decimals: usize) -> String {
+    format!(
+        "{REMEDY}; if it is right, write it as the others, {:.decimals$}",
+        at.value
+    )
+}
+
 /// Whether so many of some values are no more than damaged ones.
 fn are_few(odd: usize, all: usize) -> bool {
     odd <= all / 1000 + 1
@@ -159,6 +177,7 @@ impl Forms {
     pub(crate) fn of(layout: Layout) -> Self {
         Self {
             is_always: layout.exponents,
+            implies_points: layout.implies_points(),
             ..Self::default()
         }
     }
@@ -187,6 +206,10 @@ impl Forms {
         self.exponents.see(parts.exponent, place);
         let Some(exponent) = parts.exponent else {
             self.without.see(parts.decimals, place);
+            if is_whole && parts.first_digit() == Some(b'0') {
+                self.led_by_zero += 1;
+                self.first_led_by_zero.get_or_insert(place);
+            }
             return;
         };
         self.with.see(parts.decimals, place);
@@ -255,6 +278,61 @@ impl Forms {
         always.then_some(bare)
     }
 
+    /// Whether all but a few of the values with a point and without an exponent have as many decimals.
+    fn has_constant_decimals(&self) -> bool {
+        let usual = self.without.usual().map_or(0, |kind| kind.count);
+        let pointed = self.without.number(|decimals| decimals.is_some());
+        are_few(pointed.saturating_sub(usual), pointed)
+    }
+
+    /// The first value that lost its decimal point among many others without exponents, and the decimals of those.
+    /// Writers that leave out zeros at the end print whole numbers without one, which are about as large as others.
+    fn lacks_point(&self) -> Option<(&Place, usize)> {
+        let is_pointed = |decimals: Option<usize>| decimals.is_some();
+        let usual = self.without.usual()?.key.filter(|usual| *usual > 0)?;
+        let pointed = self.without.number(is_pointed);
+        if pointed < MANY_POINTS || self.implies_points {
+            return None;
+        }
+        if self.led_by_zero > 0 && are_few(self.led_by_zero, pointed) {
+            return Some((self.first_led_by_zero.as_ref()?, usual));
+        }
+        let wholes = self.without.kinds().find(|kind| !is_pointed(kind.key))?;
+        let is_fixed = self.has_constant_decimals() && are_few(wholes.count, pointed);
+        if is_fixed && (pointed > MANY_DECIMALS || !self.wholes.follow()) {
+            return Some((&wholes.first, usual));
+        }
+        let others = self.without.kinds().filter(|kind| is_pointed(kind.key));
+        let largest = others.fold(0.0_f64, |most, kind| most.max(kind.largest.value.abs()));
+        let is_far = wholes.count <= pointed / 100 + 1
+            && wholes.largest.value.abs() > FAR * largest
+            && self.wholes.far > FAR * self.wholes.usual;
+        is_far.then_some((&wholes.largest, usual))
+    }
+
+    /// The first value with an exponent among many others without one that no writer prints with it, and the decimals
+    /// of the others: the formats that print exponents of some values do so of very small and very large ones.
+    fn has_stray_exponent(&self) -> Option<(&Place, usize)> {
+        let all = self.without.count;
+        if all < MANY_POINTS || !are_few(self.with.count, all) {
+            return None;
+        }
+        let others = self.without.kinds();
+        let largest = others.fold(0.0_f64, |most, kind| most.max(kind.largest.value.abs()));
+        let decimals = self.without.usual()?.key;
+        let is_fixed = decimals.is_some() && all > MANY_DECIMALS && self.has_constant_decimals();
+        let is_stray = |at: &&Place| {
+            let size = at.value.abs();
+            let has_none = decimals.is_some() && (BELOW_G..LARGE).contains(&size);
+            is_fixed || has_none || size >= OF_ANOTHER_SIZE * largest
+        };
+        let values = self
+            .with
+            .kinds()
+            .flat_map(|kind| [&kind.first, &kind.largest]);
+        Some((values.into_iter().find(is_stray)?, decimals.unwrap_or(0)))
+    }
+
     /// Refuses a value that alone lacks the exponent, or a digit of it, of the many others.
     ///
     /// # Errors
@@ -285,6 +363,20 @@ impl Forms {
                 at.shown()
             );
             return refused(at, message, &remedy);
+        }
+        if let Some((at, decimals)) = self.lacks_point() {
+            let message = format!(
+                "\"{}\" has no decimal point, which the other values have",
+                at.shown()
+            );
+            return refused(at, message, &or_as_others(at, decimals));
+        }
+        if let Some((at, decimals)) = self.has_stray_exponent() {
+            let message = format!(
+                "\"{}\" has an exponent, which the other values do not have",
+                at.shown()
+            );
+            return refused(at, message, &or_as_others(at, decimals));
         }
         let of_fixed = Some(&self.without).filter(|_| self.of_one_program);
         let lost = lacks_decimals(&self.with);

@@ -47,6 +47,7 @@ pub(super) struct Kind<K> {
     pub key: K,
     pub count: usize,
     pub first: Place,
+    pub largest: Place,
 }
 
 /// Values by their kind.
@@ -70,11 +71,15 @@ impl<K: Copy + PartialEq> Tally<K> {
         self.count += 1;
         if let Some(kind) = self.kinds.iter_mut().find(|kind| kind.key == key) {
             kind.count += 1;
+            if place.value.abs() > kind.largest.value.abs() {
+                kind.largest = place;
+            }
         } else if self.kinds.len() < KINDS {
             self.kinds.push(Kind {
                 key,
                 count: 1,
                 first: place,
+                largest: place,
             });
         }
     }
@@ -86,6 +91,11 @@ impl<K: Copy + PartialEq> Tally<K> {
         kinds.max_by_key(|kind| kind.count)
     }
 
+    /// Those of each kind, in the order of their first values.
+    pub(super) fn kinds(&self) -> impl Iterator<Item = &Kind<K>> {
+        self.kinds.iter()
+    }
+
     /// How many values are of such a kind.
     pub(super) fn number(&self, is_such: impl Fn(K) -> bool) -> usize {
         let such = self.kinds.iter().filter(|kind| is_such(kind.key));
@@ -94,8 +104,7 @@ impl<K: Copy + PartialEq> Tally<K> {
 
     /// The first value of such a kind.
     pub(super) fn first(&self, is_such: impl Fn(K) -> bool) -> Option<&Place> {
-        // Kinds stand in the order of their first values.
-        let mut kinds = self.kinds.iter();
-        kinds.find(|kind| is_such(kind.key)).map(|kind| &kind.first)
+        let first = self.kinds().find(|kind| is_such(kind.key));
+        first.map(|kind| &kind.first)
     }
 }

@@ -71,7 +71,7 @@ fn file(format: &str, values: &[String]) -> String {
         ),
         "jma_csv" => format!(
             "SITE CODE= 1\nSAMPLING RATE= 100Hz\nUNIT = gal(cm/s/s)\nNS,EW,UD\n{}",
-            pairs(values, |i, v| format!("{v},{},{}", whole(i), whole(i + 5)))
+            pairs(values, |i, v| format!("{v},{0},{0}", of_c(-sample(i + 5))))
         ),
         "plain_columns" => format!(
             "time (s),NS (cm/s2)\n{}",
@@ -399,4 +399,94 @@ fn values_of_other_writers_without_exponents() {
             .map(|i| format!("{}", sample(i)))
             .collect::<Vec<_>>(),
     );
+}
+
+/// A decimal that is lost, anywhere behind the point, and a point that moved by a place.
+#[test]
+fn decimals_that_are_lost() {
+    let told = "lacks a digit: the other values have 3 decimals";
+    let values = of_three_decimals();
+    for from_end in 1..=3 {
+        let lost = |text: &str| {
+            let mut text = of_value(text)?.to_owned();
+            text.remove(text.len() - from_end);
+            Some(text)
+        };
+        refuses(&values, lost, told);
+    }
+    let moved = |text: &str| {
+        let (whole, decimals) = of_value(text)?.split_once('.')?;
+        Some(format!("{whole}{}.{}", &decimals[..1], &decimals[1..]))
+    };
+    refuses(&values, moved, told);
+    let cut = |text: &str| Some(of_value(text)?.split_once('.')?.0.to_owned() + ".");
+    refuses(&values, cut, told);
+}
+
+/// Writers that leave out zeros at the end have more than a few values with fewer decimals.
+#[test]
+fn decimals_of_other_writers() {
+    let values = of_three_decimals();
+    let trimmed = |text: &String| text.trim_end_matches('0').trim_end_matches('.').to_owned();
+    reads(&values.iter().map(trimmed).collect::<Vec<_>>());
+    // Too few values to tell.
+    let mut few = values[..150].to_vec();
+    few[70].pop();
+    reads(&few);
+    // One decimal more is no loss.
+    let mut more = values.clone();
+    more[70] += "4";
+    reads(&more);
+    // In a column of fixed width the larger values have fewer.
+    let of_width = |text: &String| text[..text.len().min(5)].to_owned();
+    reads(&values.iter().map(of_width).collect::<Vec<_>>());
+}
+
+#[test]
+fn digits_of_exponents_too_many() {
+    let told = "has a digit more in its exponent than the other values";
+    for surplus in ["0", "2"] {
+        refuses(
+            &of_exponents(),
+            |text| Some(of_value(text)?.to_owned() + surplus),
+            told,
+        );
+        refuses(
+            &of_exponents(),
+            |text| Some(of_value(text)?.replace("E-", &format!("E-{surplus}"))),
+            told,
+        );
+    }
+    // Exponents of three digits throughout.
+    let of_three: Vec<String> = of_exponents()
+        .iter()
+        .map(|v| v.replace('-', "-0"))
+        .collect();
+    let of_three: Vec<String> = of_three
+        .iter()
+        .map(|v| {
+            v.strip_prefix("-0")
+                .map_or(v.clone(), |rest| format!("-{rest}"))
+        })
+        .collect();
+    reads(&of_three);
+    refuses(
+        &of_three,
+        |text| Some(of_value(text)?.replace("E-0", "E-")),
+        "lacks a digit or the sign of its exponent",
+    );
+}
+
+#[test]
+fn points_of_mantissas_that_are_lost() {
+    let told = "has no decimal point, which the other values have";
+    let lost = |text: &str| Some(of_value(text)?.replace('.', ""));
+    refuses(&of_exponents(), lost, told);
+    // As short as they can be, where a mantissa of one digit has none.
+    let mut values: Vec<String> = (0..COUNT).map(|i| format!("{:e}", sample(i))).collect();
+    values[7] = "2e-2".to_owned();
+    reads(&values);
+    values[9] = values[9].replace('.', "");
+    let said = read("plain_columns", &values).unwrap_err();
+    assert!(said.contains(told), "{said}");
 }

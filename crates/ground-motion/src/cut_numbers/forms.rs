@@ -17,6 +17,8 @@ const MANY_DECIMALS: usize = 200;
 const MANY_POINTS: usize = 50;
 /// Values whose exponents have a zero before their digit, which show that all have as many digits.
 const LIKE_IT: usize = 2;
+/// Magnitude by way of which values reach exponents of three digits.
+const NEARLY_TINY: f64 = 1.0e-60;
 /// Times the largest of the others from which on a value is of another size.
 const OF_ANOTHER_SIZE: f64 = 10.0;
 /// Times the largest of the others, and the largest step between them, from which on a whole number does
@@ -66,6 +68,12 @@ impl<'f> Parts<'f> {
         }
     }
 
+    /// Digits of the mantissa but zeros before the first other one.
+    fn significant_digits(&self) -> usize {
+        let digits = self.mantissa.iter().filter(|b| b.is_ascii_digit());
+        digits.skip_while(|b| **b == b'0').count()
+    }
+
     /// The first digit of the mantissa.
     fn first_digit(&self) -> Option<u8> {
         self.mantissa.iter().copied().find(|b| !b"+-".contains(b))
@@ -86,6 +94,25 @@ impl Exponent {
             is_padded: digits.len() > 1 && digits[0] == b'0',
             is_bare_zero: rest == b"0",
         })
+    }
+}
+
+/// Values in a form of their own, and the first of them.
+#[derive(Debug, Default)]
+struct Odd {
+    count: usize,
+    first: Option<Place>,
+}
+
+impl Odd {
+    fn see(&mut self, place: Place) {
+        self.count += 1;
+        self.first.get_or_insert(place);
+    }
+
+    /// The first of them, if they are few of so many.
+    fn of(&self, all: usize) -> Option<&Place> {
+        self.first.as_ref().filter(|_| are_few(self.count, all))
     }
 }
 
@@ -110,12 +137,13 @@ pub(crate) struct Forms {
     largest_signed: f64,
     wholes: Wholes,
     /// Numbers without a point that a zero leads, `0454`, and the first of them.
-    led_by_zero: usize,
-    first_led_by_zero: Option<Place>,
+    led_by_zero: Odd,
+    /// Mantissas without a point of more than one digit, `79E-03`.
+    long_wholes: Odd,
     /// Whether the layout gives decimals to numbers without a point.
     implies_points: bool,
-    /// Whether one program prints all files of the format, so that fewer decimals are lost ones without exponents, too.
-    of_one_program: bool,
+    /// Smallest value whose exponent has up to two digits.
+    least: Option<f64>,
 }
 
 /// Whole numbers without a point, as `%d` of MATLAB writes them where a value is whole, and how far they
@@ -165,7 +193,7 @@ fn are_few(odd: usize, all: usize) -> bool {
 /// and the decimals of the others.
 fn lacks_decimals(tally: &Tally<Option<usize>>) -> Option<(&Place, usize)> {
     let usual = tally.usual()?.key?;
-    let fewer = |decimals: Option<usize>| decimals.is_none_or(|decimals| decimals < usual);
+    let fewer = |decimals: Option<usize>| decimals.is_some_and(|decimals| decimals < usual);
     let others = tally.count - tally.number(|decimals| decimals == Some(usual) || fewer(decimals));
     let few = |number| are_few(number, tally.count);
     let lost = tally.count > MANY_DECIMALS && few(tally.number(fewer)) && few(others);
@@ -178,14 +206,6 @@ impl Forms {
         Self {
             is_always: layout.exponents,
             implies_points: layout.implies_points(),
-            ..Self::default()
-        }
-    }
-
-    /// Of numbers that one program prints in all files.
-    pub(crate) fn of_one_program() -> Self {
-        Self {
-            of_one_program: true,
             ..Self::default()
         }
     }
@@ -207,12 +227,14 @@ impl Forms {
         let Some(exponent) = parts.exponent else {
             self.without.see(parts.decimals, place);
             if is_whole && parts.first_digit() == Some(b'0') {
-                self.led_by_zero += 1;
-                self.first_led_by_zero.get_or_insert(place);
+                self.led_by_zero.see(place);
             }
             return;
         };
         self.with.see(parts.decimals, place);
+        if parts.decimals.is_none() && parts.significant_digits() > 1 {
+            self.long_wholes.see(place);
+        }
         let size = value.abs();
         self.of_tenths |= (BELOW_G..LARGE).contains(&size);
         self.of_ten_thousandths |= (BELOW_PERCENT_G..LARGE).contains(&size);
@@ -221,6 +243,9 @@ impl Forms {
         let is_of_one = exponent.digits > 1 && field.ends_with(b"00");
         let leads = parts.first_digit();
         self.is_always |= is_of_one || leads.is_some_and(|b| (b'1'..=b'9').contains(&b));
+        if exponent.digits <= 2 {
+            self.least = Some(self.least.map_or(size, |least| least.min(size)));
+        }
         if exponent.sign.is_some() {
             self.largest_signed = self.largest_signed.max(size);
         }
@@ -254,6 +279,47 @@ impl Forms {
         self.exponents.first(short).or(unsigned)
     }
 
+    /// The first value with a digit more in its exponent than all but a few of the values.
+    fn has_surplus_digit_of_exponent(&self) -> Option<&Place> {
+        let usual = self.exponents.usual()?.key?;
+        let all = self.with.count;
+        let padded = |e: Option<Exponent>| {
+            e.is_some_and(|e| e.has_letter && e.digits == usual.digits && e.is_padded)
+        };
+        let long = |e: Option<Exponent>| {
+            e.is_some_and(|e| e.has_letter && e.digits > usual.digits && e.digits > 2)
+        };
+        let number = self.exponents.number(long);
+        if all <= MANY || number > all / 100 + 1 || self.exponents.number(padded) < LIKE_IT {
+            return None;
+        }
+        // Three digits are right below 1e-99, which a record reaches by way of other small values.
+        let no_zero = |e| long(e) && e.is_some_and(|e| !e.is_padded);
+        let is_alone = self.exponents.number(no_zero) == 1 && self.least > Some(NEARLY_TINY);
+        let is_surplus =
+            |e: Option<Exponent>| long(e) && (is_alone || e.is_some_and(|e| e.is_padded));
+        self.exponents.first(is_surplus)
+    }
+
+    /// The first value that lost the point of its mantissa, which all but a few of those with exponents have.
+    fn lacks_point_of_mantissa(&self) -> Option<&Place> {
+        let usual = self.with.usual()?.key.filter(|usual| *usual > 0)?;
+        let all = self.with.count;
+        if all <= MANY {
+            return None;
+        }
+        // Writers that leave out zeros, and with them the point, have one digit before it.
+        if let Some(first) = self.long_wholes.of(all) {
+            return Some(first);
+        }
+        let is_whole = |decimals: Option<usize>| decimals.is_none();
+        let wholes = self.with.number(is_whole);
+        let alike = self.with.number(|decimals| decimals == Some(usual));
+        let few = are_few(wholes, all) && are_few(all - wholes - alike, all);
+        let first = self.with.first(is_whole);
+        first.filter(|_| few && all > MANY_DECIMALS)
+    }
+
     /// The first value that lost its exponent among many others, which no writer leaves out there.
     fn lacks_exponent(&self) -> Option<&Place> {
         let (with, without) = (self.with.count, self.without.count);
@@ -267,10 +333,10 @@ impl Forms {
             return None;
         }
         // As many digits as with an exponent: printed by a `G` format.
-        let digits = bare.field().iter().filter(|b| b.is_ascii_digit());
-        let digits = digits.skip_while(|b| **b == b'0').count();
+        let parts = Parts::of(bare.field());
+        let digits = parts.significant_digits();
         let of_g = bare.value.abs() >= BELOW_G && digits == usual.key.unwrap_or(0);
-        let alike = usual.key.is_some() && Parts::of(bare.field()).decimals == usual.key;
+        let alike = usual.key.is_some() && parts.decimals == usual.key;
         let always = self.of_tenths
             || self.of_ten_thousandths && !of_g
             || is_constant && self.ends_in_zero && !of_g
@@ -294,8 +360,8 @@ impl Forms {
         if pointed < MANY_POINTS || self.implies_points {
             return None;
         }
-        if self.led_by_zero > 0 && are_few(self.led_by_zero, pointed) {
-            return Some((self.first_led_by_zero.as_ref()?, usual));
+        if let Some(first) = self.led_by_zero.of(pointed) {
+            return Some((first, usual));
         }
         let wholes = self.without.kinds().find(|kind| !is_pointed(kind.key))?;
         let is_fixed = self.has_constant_decimals() && are_few(wholes.count, pointed);
@@ -348,6 +414,20 @@ impl Forms {
             );
             return refused(at, message, REMEDY);
         }
+        if let Some(at) = self.has_surplus_digit_of_exponent() {
+            let message = format!(
+                "\"{}\" has a digit more in its exponent than the other values",
+                at.shown()
+            );
+            return refused(at, message, REMEDY);
+        }
+        if let Some(at) = self.lacks_point_of_mantissa() {
+            let message = format!(
+                "\"{}\" has no decimal point, which the other values have",
+                at.shown()
+            );
+            return refused(at, message, REMEDY);
+        }
         if let Some(at) = self.lacks_exponent() {
             let usual = self.with.usual().and_then(|kind| kind.key);
             let decimals = usual.unwrap_or(0);
@@ -378,14 +458,18 @@ impl Forms {
             );
             return refused(at, message, &or_as_others(at, decimals));
         }
-        let of_fixed = Some(&self.without).filter(|_| self.of_one_program);
-        let lost = lacks_decimals(&self.with);
-        if let Some((at, usual)) = lost.or_else(|| lacks_decimals(of_fixed?)) {
-            let message = format!(
-                "\"{}\" lacks a digit: the other values have {usual} decimals",
-                at.shown()
-            );
-            return refused(at, message, REMEDY);
+        for tally in [&self.with, &self.without] {
+            if let Some((at, usual)) = lacks_decimals(tally) {
+                let message = format!(
+                    "\"{}\" lacks a digit: the other values have {usual} decimals",
+                    at.shown()
+                );
+                let remedy = match at.field().iter().any(u8::is_ascii_alphabetic) {
+                    true => REMEDY.to_owned(),
+                    false => or_as_others(at, usual),
+                };
+                return refused(at, message, &remedy);
+            }
         }
         Ok(())
     }

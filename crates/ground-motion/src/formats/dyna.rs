@@ -65,7 +65,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     }
     let end = lines.number();
     let mut samples = Vec::with_capacity(lines.remaining() / 4 + 1);
-    let mut forms = Forms::of_one_program();
+    let mut forms = Forms::default();
     let mut commas = DecimalCommas::default();
     let mut row = 0;
     for line in lines.by_ref() {

@@ -255,9 +255,11 @@ fn signs_of_exponents_that_are_lost() {
 fn exponents_of_other_writers() {
     let shortest = |i: usize| format!("{:e}", sample(i));
     reads(&(0..COUNT).map(shortest).collect::<Vec<_>>());
-    let tiny = |i: usize| format!("{:e}", 2e-9 * sample(i));
+    // Most exponents have two digits, and a few have one.
+    let tiny = |i: usize| format!("{:e}", 2.005e-8 * sample(i));
     let values: Vec<String> = (0..COUNT).map(tiny).collect();
-    assert!(values.iter().any(|text| text.ends_with("e-9")) || values.len() > 1);
+    let of_one_digit = values.iter().filter(|text| text.ends_with("e-9"));
+    assert!((1..COUNT).contains(&of_one_digit.count()));
     reads(&values);
     let general = |i: usize| match 20.0 * sample(i) {
         x if x.abs() >= 0.1 => format!("{x:.7}"),
@@ -360,19 +362,11 @@ fn values_of_other_writers_without_exponents() {
     whole[21] = "40".to_owned();
     whole[150] = without_zeros(values[150].parse::<f64>().unwrap().round());
     reads(&whole);
-    let mut small = values.clone();
-    for (i, text) in ["1.2e-05", "-3.4567e-06"].into_iter().enumerate() {
-        small[i] = text.to_owned();
+    for text in ["1.2e-05", "-3.4567e-06", "0.00123"] {
+        let mut small = values.clone();
+        small[5] = text.to_owned();
+        reads(&small);
     }
-    small.truncate(399);
-    small[5] = "0.00123".to_owned();
-    reads(
-        &small[..1]
-            .iter()
-            .chain(&small[2..])
-            .cloned()
-            .collect::<Vec<_>>(),
-    );
     // Whole numbers alone, of which a few are in exponents as they are large, and halves between them.
     let counts = |i: usize| (9e5 * f64::sin(0.07 * i as f64 + 0.1)).round();
     reads(
@@ -489,4 +483,43 @@ fn points_of_mantissas_that_are_lost() {
     values[9] = values[9].replace('.', "");
     let said = read("plain_columns", &values).unwrap_err();
     assert!(said.contains(told), "{said}");
+}
+
+/// Three components in fixed columns, whose layout gives decimals to numbers without a point.
+#[test]
+fn decimals_of_cwa_that_are_lost() {
+    let values = of_three_decimals();
+    let file = |values: &[String]| {
+        let row = |i: usize, v: &str| format!("{:10.3}{v:>10}{v:>10}{v:>10}", 0.01 * i as f64);
+        format!(
+            "#Earthquake Information\n#StationCode: HWA014\n#StartTime: 2018/02/06-23:50:39.000\n#RecordLength(sec): {:.2}\n#SampleRate(Hz): 100\n#AmplitudeUnit:  gal. DCoffset(corr)\n#DataSequence: Time U(+); N(+); E(+)\n#Data: 4F10.3\n{}",
+            0.01 * values.len() as f64,
+            pairs(values, row)
+        )
+    };
+    let read = |values: &[String]| {
+        let text = file(values);
+        let found = read_all_bytes("f", text.as_bytes(), &ReadOptions::default());
+        found.map_err(|e| e.to_string())
+    };
+    let whole = read(&values).unwrap();
+    assert_eq!(whole.series[2].samples.len(), COUNT);
+    let moved = |text: &str| {
+        let (whole, decimals) = text.split_once('.')?;
+        Some(format!("{whole}{}.{}", &decimals[..1], &decimals[1..]))
+    };
+    for (value, values) in damaged(&values, moved) {
+        let said = read(&values).unwrap_err();
+        assert!(
+            said.contains(&format!("\"{value}\" lacks a digit")),
+            "{said}"
+        );
+    }
+    // Of the same value.
+    for (_, values) in damaged(&values, |text| Some(text.replace('.', ""))) {
+        assert_eq!(
+            read(&values).unwrap().series[0].samples,
+            whole.series[0].samples
+        );
+    }
 }

@@ -305,7 +305,7 @@ impl Forms {
     fn lacks_point_of_mantissa(&self) -> Option<&Place> {
         let usual = self.with.usual()?.key.filter(|usual| *usual > 0)?;
         let all = self.with.count;
-        if all <= MANY {
+        if all <= MANY || self.implies_points {
             return None;
         }
         // Writers that leave out zeros, and with them the point, have one digit before it.

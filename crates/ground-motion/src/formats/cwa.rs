@@ -2,6 +2,7 @@
 //! with `#`, then time and, in this order, up, north and east.
 
 use crate::accelerogram::Processing;
+use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Printed, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
@@ -85,10 +86,17 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut values: Vec<Vec<f64>> = (1..layout.per_line)
         .map(|_| Vec::with_capacity(room))
         .collect();
+    let mut forms: Vec<Forms> = values.iter().map(|_| Forms::of(layout)).collect();
     let mut times = TimeColumn::with_capacity(room);
     for line in lines.by_ref().filter(|l| !l.is_blank()) {
         row(source, line, layout, &mut times, &mut values)?;
+        let fields = line.bytes.chunks(layout.width).enumerate().skip(1);
+        for ((k, field), forms) in fields.zip(&mut forms) {
+            let blanks = field.len() - field.trim_ascii_start().len();
+            forms.see(line.number, k * layout.width + blanks, field);
+        }
     }
+    forms.iter().try_for_each(|forms| forms.are_whole(source))?;
     let mut warnings = Vec::new();
     let step = step(source, end, times, header.rate, &mut warnings)?;
     let mut series = Vec::new();

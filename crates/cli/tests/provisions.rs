@@ -333,6 +333,28 @@ fn an_entry_is_set_once() {
     assert_eq!(output.status.code(), Some(2));
     let text = String::from_utf8_lossy(&output.stderr);
     assert!(text.contains("importance is given twice"), "{text}");
+    // All that is wrong is told at once.
+    let output = gap(&[
+        "--set",
+        "importance=-1",
+        "--set",
+        "soil=2",
+        "--set",
+        "date=7",
+        "--set",
+        "soil=3",
+    ]);
+    assert_eq!(output.status.code(), Some(2));
+    let told = plain(&String::from_utf8_lossy(&output.stderr));
+    for part in [
+        "importance",
+        "unknown key `soil`",
+        "`date`",
+        "soil is given twice",
+        "4 errors",
+    ] {
+        assert!(told.contains(part), "{part}: {told}");
+    }
 }
 
 /// Standard 2800 by height across a property line for ordinary buildings, with what is to be known of

@@ -147,7 +147,8 @@ fn output_replaces_files_only() {
 fn a_collision_that_does_not_end_names_its_model() {
     let folder = tempfile::tempdir().unwrap();
     // A reading keeps a body that creeps to rest on its way.
-    let setting = "--example|-p|restitution=0.001|--drop|--height|0.01|--mass-left|1e4|--read-at|100 s";
+    let setting =
+        "--example|-p|restitution=0.001|--drop|--height|0.01|--mass-left|1e4|--read-at|100 s";
     let wanted = ["model pant_2010", "did not end"];
     refused_with(folder.path(), &format!("pant_2010|{setting}"), 3, &wanted);
     // Beside another one too, whose result is shown.

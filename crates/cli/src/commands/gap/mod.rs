@@ -109,16 +109,23 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
 fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failure> {
     let mut separation = case.separation.clone();
     let key = |text: &String| text.split('=').next().unwrap_or_default().trim().to_owned();
+    let mut failures = Vec::new();
     for (place, text) in arguments.set.iter().enumerate() {
         let key_here = key(text);
         if arguments.set[..place].iter().any(|t| key(t) == key_here) {
-            return Err(Failure::input(
+            failures.push(Failure::input(
                 format!("--set {text}: {key_here} is given twice"),
                 Some("leave one out".to_owned()),
             ));
+            continue;
         }
-        let one = Separation::parse(text, case.buildings.len());
-        separation = separation.overridden_by(one.map_err(|e| Failure::case(e, text))?);
+        match Separation::parse(text, case.buildings.len()) {
+            Ok(one) => separation = separation.overridden_by(one),
+            Err(error) => failures.push(Failure::case(error, text)),
+        }
+    }
+    if !failures.is_empty() {
+        return Err(Failure::together(failures));
     }
     overridden(
         separation,

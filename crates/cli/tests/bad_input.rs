@@ -850,13 +850,13 @@ fn output_that_cannot_be_written() {
     );
     assert_eq!(output.status.code(), Some(4), "{}", message(&output));
     assert!(message(&output).contains("out.h5"), "{}", message(&output));
-    let output = run_in(
-        folder.path(),
-        CASE,
-        &record(),
-        &["run", "case.toml", "-o", "."],
-    );
-    assert_eq!(output.status.code(), Some(4), "{}", message(&output));
+    // A folder under a name that could be that of a file, and names that are those of folders.
+    std::fs::create_dir(folder.path().join("folder")).unwrap();
+    for (name, code) in [("folder", 4), ("folder/", 2), (".", 2)] {
+        let words = ["run", "case.toml", "-o", name];
+        let output = run_in(folder.path(), CASE, &record(), &words);
+        assert_eq!(output.status.code(), Some(code), "{}", message(&output));
+    }
 }
 
 /// A device must not be replaced by a file.

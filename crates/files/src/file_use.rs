@@ -63,6 +63,14 @@ pub enum FileUseError {
         /// What the folder is.
         folder_role: String,
     },
+    /// Its name ends as that of a folder does.
+    #[error("{role} {output} ends as the name of a folder, and a file is to be written there")]
+    NoFileName {
+        /// Option of the output.
+        role: String,
+        /// The output, as given.
+        output: PathBuf,
+    },
     /// It is a link to nothing.
     #[error("{role} {output} is a link to {target}, which does not exist")]
     DanglingLink {
@@ -88,6 +96,9 @@ impl FileUseError {
             } => format!("give {role} and {other_role} a file each"),
             Self::InFolder { role, .. } => {
                 format!("keep {role} elsewhere, or write the result elsewhere")
+            }
+            Self::NoFileName { role, .. } => {
+                format!("give {role} the name of a file, without a slash behind it")
             }
             Self::DanglingLink { role, .. } => {
                 format!("remove the link, or let {role} name the file itself")
@@ -138,6 +149,7 @@ impl FileUse {
     /// The first output that cannot be one.
     pub fn check(&self) -> Result<(), FileUseError> {
         for (i, output) in self.written.iter().enumerate() {
+            output.names_a_file()?;
             self.input_spared_by(output)?;
             for other in &self.written[..i] {
                 output.apart_from(other)?;
@@ -172,6 +184,16 @@ fn named(role: impl Into<String>, path: impl Into<PathBuf>, folder: bool) -> Nam
 }
 
 impl Named {
+    fn names_a_file(&self) -> Result<(), FileUseError> {
+        if !self.folder && !ends_in_a_file_name(&self.path) {
+            return Err(FileUseError::NoFileName {
+                role: self.role.clone(),
+                output: self.path.clone(),
+            });
+        }
+        Ok(())
+    }
+
     fn leads_somewhere(&self) -> Result<(), FileUseError> {
         if self.path.is_symlink() && !self.path.exists() {
             return Err(FileUseError::DanglingLink {
@@ -220,6 +242,17 @@ impl Named {
         }
         Ok(())
     }
+}
+
+/// Whether the last part of a path can be the name of a file: no slash stands behind it, and it is neither `.` nor
+/// `..`. The parts that [`Path`] tells of a name leave slashes at its end out, which systems do not: they find
+/// nothing under `a.h5/` where the file `a.h5` stands, and yet put nothing there.
+#[must_use]
+pub fn ends_in_a_file_name(path: &Path) -> bool {
+    let name = path.as_os_str().as_encoded_bytes();
+    let is_separator = |byte: &u8| std::path::is_separator(char::from(*byte));
+    let last = name.rsplit(is_separator).next().unwrap_or_default();
+    !matches!(last, b"" | b"." | b"..")
 }
 
 /// Whether two paths lead to one file, be it there already or not.
@@ -353,6 +386,36 @@ mod tests {
                     "{refused}"
                 );
             }
+        }
+    }
+
+    /// Whether a file of the name stands there or not, and before it is held against inputs.
+    #[test]
+    fn a_name_that_ends_as_that_of_a_folder_is_no_output() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::write(at("a.h5"), "a").unwrap();
+        for name in [
+            "a.h5/", "a.h5//", "a.h5/.", "a.h5/./", "a.h5/..", "new.h5/", "./", ".", "..",
+        ] {
+            let mut files = FileUse::new();
+            files.reads("CASE", at("a.h5"));
+            files.writes("--output", at(name));
+            let refused = files.check().unwrap_err();
+            assert!(
+                matches!(&refused, FileUseError::NoFileName { role, .. } if role == "--output"),
+                "{name}: {refused}"
+            );
+            let told = refused.to_string();
+            assert!(told.contains(name), "{told}");
+            assert!(refused.help().contains("without a slash"));
+            // Folders are named so.
+            let mut files = FileUse::new();
+            files.fills("--pages", at(name));
+            files.check().unwrap();
+        }
+        for name in ["a.h5", "./a.h5", "..a", "a..", ".a", "none/../a.h5"] {
+            assert!(ends_in_a_file_name(Path::new(name)), "{name}");
         }
     }
 

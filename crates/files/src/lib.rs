@@ -13,7 +13,7 @@ pub mod input;
 pub mod label;
 mod part_file;
 
-pub use file_use::{FileUse, FileUseError, same_file};
+pub use file_use::{FileUse, FileUseError, ends_in_a_file_name, same_file};
 pub use part_file::{
     AskedOfTargets, LeftOver, PartFile, PlaceTaken, ask_of_targets, free_name, left_over,
     left_over_in, remove_left_by, remove_part_files, runs_here, tell_of_replaced, write,

@@ -8,6 +8,8 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use tempfile::TempPath;
 
+use crate::ends_in_a_file_name;
+
 /// Part files of this process that stand on the disk.
 static STANDING: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
@@ -122,7 +124,7 @@ impl PartFile {
     /// names will be replaced, not the link.
     ///
     /// # Errors
-    /// If the target is a folder, a device, what a process has opened (`/dev/stdout`, `/proc/self/fd/1`) or
+    /// If the target is a folder or is named as one, a device, what a process has opened (`/dev/stdout`, `/proc/self/fd/1`) or
     /// read-only, or the folder does not exist or cannot be written to.
     pub fn beside(target: &Path) -> Result<Self> {
         let named = target.to_owned();
@@ -187,13 +189,11 @@ impl PartFile {
             .open(&self.path)?
             .sync_all()?;
         keep_permissions(&self.path, &self.target);
-        let mut all = standing();
         if let Some(part) = self.part.take() {
             let placed = place(part, (&self.named, &self.target), may);
-            all.retain(|p| *p != self.path);
+            standing().retain(|p| *p != self.path);
             placed?;
         }
-        drop(all);
         // The file stands whole in its place. A folder that cannot be opened or brought to the
         // disk, as on some file systems, takes nothing from that.
         if let Some(folder) = self.target.parent() {
@@ -240,22 +240,34 @@ fn own_mode(path: &Path) -> Option<u32> {
 #[cfg(not(unix))]
 fn keep_permissions(_: &Path, _: &Path) {}
 
+/// How often a place is looked at anew in which something comes and goes.
+const ROUNDS: usize = 100;
+/// Names beside a place that are tried.
+const NAMES: usize = 10_000;
+
 /// Puts a whole file in its place, or beside it where it may not be there.
+///
+/// Part files are held only while the file is renamed: a process that is asked to end does not wait for questions, nor
+/// for who is told.
 fn place(
     mut part: TempPath,
     (named, target): (&Path, &Path),
     may: impl Fn(&Path) -> std::result::Result<(), String>,
 ) -> Result<()> {
-    loop {
+    let aside = |part: TempPath, reason: String| -> Result<()> {
+        let aside = put_aside(part, named)?;
+        Err(Error::other(PlaceTaken { reason, aside }))
+    };
+    for _ in 0..ROUNDS {
         let stands = target.symlink_metadata().is_ok();
         if let Err(reason) = may(named) {
-            let aside = put_aside(part, named)?;
-            return Err(Error::other(PlaceTaken { reason, aside }));
+            return aside(part, reason);
         }
         if stands {
             if let Some(told) = &*TOLD.lock().unwrap_or_else(PoisonError::into_inner) {
                 told(named, &part);
             }
+            let _all = standing();
             // The error holds the part file and removes it.
             return part.persist(target).map_err(|e| e.error);
         }
@@ -265,10 +277,16 @@ fn place(
             Some(again) => part = again,
         }
     }
+    let reason = format!(
+        "something comes to {} and goes again and again",
+        named.display()
+    );
+    aside(part, reason)
 }
 
 /// Puts a file where nothing stands; gives it back where something does.
 fn put_where_nothing_is(part: TempPath, target: &Path) -> Result<Option<TempPath>> {
+    let _all = standing();
     match part.persist_noclobber(target) {
         Ok(()) => Ok(None),
         Err(e) if e.error.kind() == ErrorKind::AlreadyExists => Ok(Some(e.path)),
@@ -280,7 +298,7 @@ fn put_where_nothing_is(part: TempPath, target: &Path) -> Result<Option<TempPath
 
 /// Puts a file beside its place under a name of its own, which it returns.
 fn put_aside(mut part: TempPath, target: &Path) -> Result<PathBuf> {
-    for number in 2.. {
+    for number in 2..NAMES {
         let path = numbered(target, number);
         match put_where_nothing_is(part, &path)? {
             None => return Ok(path),
@@ -323,10 +341,15 @@ const LINKS: usize = 40;
 /// The file that a target names through links, be it there or not.
 ///
 /// # Errors
-/// A folder or a device, in whose place renaming would put a file; a descriptor of a process, which
+/// A name that ends as that of a folder; a folder or a device, in whose place renaming would put a file; a descriptor of a process, which
 /// leads to a file that somebody writes by its number, and would go on to write where nobody looks; a link
 /// to what is not there any more.
 fn place_of(target: &Path) -> Result<PathBuf> {
+    if !ends_in_a_file_name(target) {
+        return Err(Error::other(format!(
+            "its name ends as that of a folder; {GIVE_A_FILE}"
+        )));
+    }
     let mut at = target.to_owned();
     for _ in 0..LINKS {
         if is_descriptor(&at) {
@@ -573,6 +596,61 @@ mod tests {
         part().finish_if(|_| Ok(())).unwrap();
         assert_eq!(std::fs::read(&target).unwrap(), b"new");
         assert_eq!(names(folder.path()), ["a-2.h5", "a-3.h5", "a.h5"]);
+    }
+
+    /// Under `a.h5/` the system finds nothing and puts nothing where the file `a.h5` stands.
+    #[test]
+    fn names_of_folders_are_refused() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::write(at("a.h5"), "before").unwrap();
+        for name in ["a.h5/", "a.h5//", "a.h5/.", "new.h5/", "."] {
+            let refused = write(&at(name), b"x").unwrap_err().to_string();
+            assert!(refused.contains("as that of a folder"), "{name}: {refused}");
+        }
+        assert_eq!(names(folder.path()), ["a.h5"]);
+        assert_eq!(std::fs::read(at("a.h5")).unwrap(), b"before");
+    }
+
+    /// A place at which something is never seen, and yet nothing can be put, is given up, and the file is kept.
+    #[cfg(unix)]
+    #[test]
+    fn a_place_that_is_never_free_is_given_up() {
+        let folder = tempfile::tempdir().unwrap();
+        let target = folder.path().join("a.h5");
+        let mut part = PartFile::beside(&target).unwrap();
+        std::fs::write(part.path(), "new").unwrap();
+        std::fs::write(&target, "another's").unwrap();
+        part.target = folder.path().join("a.h5/");
+        let asked = std::cell::Cell::new(0);
+        let refused = part.finish_if(|_| {
+            asked.set(asked.get() + 1);
+            Ok(())
+        });
+        let refused = refused.unwrap_err();
+        let taken = PlaceTaken::of(&refused).unwrap();
+        assert!(taken.reason.contains("again and again"), "{}", taken.reason);
+        assert_eq!(asked.get(), ROUNDS);
+        assert_eq!(std::fs::read(&taken.aside).unwrap(), b"new");
+        assert_eq!(std::fs::read(&target).unwrap(), b"another's");
+        assert_eq!(names(folder.path()), ["a-2.h5", "a.h5"]);
+    }
+
+    /// Who is asked to end takes hold of the part files, and waits for no question.
+    #[test]
+    fn part_files_are_free_while_questions_are_asked() {
+        let folder = tempfile::tempdir().unwrap();
+        let part = PartFile::beside(&folder.path().join("a.h5")).unwrap();
+        let asked = part.finish_if(|_| {
+            let (free, is_free) = std::sync::mpsc::channel();
+            std::thread::spawn(move || {
+                drop(standing());
+                free.send(())
+            });
+            let waited = is_free.recv_timeout(std::time::Duration::from_secs(60));
+            waited.map_err(|_| "they are held".to_owned())
+        });
+        asked.unwrap();
     }
 
     /// Numbers of processes are below 2^22 on any system.

@@ -483,6 +483,50 @@ fn no_two_outputs_are_one_file() {
     assert!(tried > 50, "{tried}");
 }
 
+/// A slash behind the name of a file: the system finds nothing there and puts nothing there. Every output of every
+/// call is refused before any work, whether a file of the name stands or not, also one that is read.
+#[test]
+fn no_output_ends_as_the_name_of_a_folder() {
+    let commands = commands();
+    let fixture = bench();
+    std::fs::write(fixture.path("old.svg"), "old").unwrap();
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("old.svg", fixture.path("link.svg")).unwrap();
+    let before = fixture.content();
+    let mut tried = 0;
+    for call in &CALLS {
+        let (_, command) = called(call.words, &commands);
+        for (option, others) in outputs(&command) {
+            let names = [
+                "old.svg/",
+                "old.svg//",
+                "old.svg/.",
+                "new.svg/",
+                "link.svg/",
+                "inside/",
+            ];
+            let read = call.reads.iter().map(|input| format!("{input}/"));
+            for path in names.into_iter().map(str::to_owned).chain(read) {
+                let words = with_output(call, &others, &option, &path);
+                let output = fixture.run(&words);
+                let told = message(&output);
+                assert_eq!(output.status.code(), Some(2), "{words:?}: {told}");
+                // Figures are refused under other names than these, before anything else.
+                if told.contains("figures are written as SVG") {
+                    continue;
+                }
+                let wanted = format!("{option} {path} ends as the name of a folder");
+                for part in [wanted.as_str(), "without a slash behind it"] {
+                    assert!(told.contains(part), "{words:?}: {told}");
+                }
+                tried += 1;
+            }
+        }
+    }
+    assert!(fixture.content() == before);
+    assert!(tried > 300, "{tried}");
+}
+
 /// Names that the program gives by itself are compared as well.
 #[test]
 fn default_outputs_spare_inputs_too() {

@@ -123,10 +123,14 @@ impl Heartbeat {
     pub fn begin(folder: &Path, shard: &ShardName) -> Result<Self, Failure> {
         let path = path(folder, shard);
         let failed = |e: std::io::Error| {
-            Failure::output(&e, &path.parent().unwrap_or(folder).display().to_string())
+            let about = match path.symlink_metadata() {
+                Ok(_) => path.as_path(),
+                Err(_) => path.parent().unwrap_or(folder),
+            };
+            Failure::output(&e, &about.display().to_string())
         };
         std::fs::create_dir_all(folder.join(FOLDER)).map_err(failed)?;
-        PartFile::beside(&path).map_err(failed)?;
+        PartFile::own(&path).map_err(failed)?;
         Ok(Self {
             done: read(folder, shard).filter(|beat| beat.state == State::Done),
             path: path.clone(),
@@ -213,7 +217,7 @@ impl Heartbeat {
 
     fn write(&self) -> std::io::Result<()> {
         let text = serde_json::to_string(&self.beat)?;
-        pounding_files::write(&self.path, text.as_bytes())
+        pounding_files::write_own(&self.path, text.as_bytes())
     }
 }
 

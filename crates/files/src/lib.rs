@@ -11,10 +11,12 @@ pub mod checksum;
 mod file_use;
 pub mod input;
 pub mod label;
+mod lock_file;
 mod part_file;
 
 pub use file_use::{FileUse, FileUseError, ends_in_a_file_name, same_file};
+pub use lock_file::open_lock;
 pub use part_file::{
     AskedOfTargets, LeftOver, PartFile, PlaceTaken, ask_of_targets, free_name, left_over,
-    left_over_in, remove_left_by, remove_part_files, runs_here, tell_of_replaced, write,
+    left_over_in, remove_left_by, remove_part_files, runs_here, tell_of_replaced, write, write_own,
 };

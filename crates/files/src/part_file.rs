@@ -127,8 +127,26 @@ impl PartFile {
     /// If the target is a folder or is named as one, a device, what a process has opened (`/dev/stdout`, `/proc/self/fd/1`) or
     /// read-only, or the folder does not exist or cannot be written to.
     pub fn beside(target: &Path) -> Result<Self> {
-        let named = target.to_owned();
-        let target = place_of(target)?;
+        Self::at(target, place_of(target)?)
+    }
+
+    /// The same for a file that the program names by itself, as it does what it keeps beside results: nobody has asked
+    /// for the file that a link in its place leads to to be replaced. A link that comes meanwhile is replaced itself.
+    ///
+    /// # Errors
+    /// As [`beside`](Self::beside), and any link.
+    pub fn own(target: &Path) -> Result<Self> {
+        match target.symlink_metadata() {
+            Ok(found) if found.is_symlink() => Err(Error::other(
+                "it is a link, which is not followed there; remove it",
+            )),
+            Ok(found) if !found.is_file() => Err(Error::other("it is not a regular file")),
+            _ => Self::at(target, target.to_owned()),
+        }
+    }
+
+    fn at(named: &Path, target: PathBuf) -> Result<Self> {
+        let named = named.to_owned();
         // Renaming asks the folder alone: who takes away the right to write means the file.
         if target.metadata().is_ok_and(|m| m.permissions().readonly()) {
             return Err(Error::other("it is read-only"));
@@ -502,7 +520,18 @@ pub fn runs_here(_: u32) -> bool {
 /// # Errors
 /// What the system said; what stood there before is untouched then.
 pub fn write(target: &Path, content: &[u8]) -> Result<()> {
-    let part = PartFile::beside(target)?;
+    filled(PartFile::beside(target)?, content)
+}
+
+/// Writes a whole file that the program names by itself: see [`PartFile::own`].
+///
+/// # Errors
+/// As [`write`], and a link.
+pub fn write_own(target: &Path, content: &[u8]) -> Result<()> {
+    filled(PartFile::own(target)?, content)
+}
+
+fn filled(part: PartFile, content: &[u8]) -> Result<()> {
     OpenOptions::new()
         .write(true)
         .open(part.path())?
@@ -773,6 +802,33 @@ mod tests {
         let told = refused.to_string();
         assert!(told.contains("none does not exist"), "{told}");
         assert!(!told.contains(ENDING), "{told}");
+    }
+
+    /// What a link leads to stays, whether the link was there before or has come since.
+    #[cfg(unix)]
+    #[test]
+    fn files_that_the_program_names_go_through_no_link() {
+        use std::os::unix::fs::symlink;
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        std::fs::write(at("mine"), "mine").unwrap();
+        symlink("mine", at("link")).unwrap();
+        symlink("nothing", at("dangling")).unwrap();
+        for name in ["link", "dangling"] {
+            let refused = write_own(&at(name), b"x").unwrap_err().to_string();
+            assert!(refused.contains("it is a link"), "{refused}");
+        }
+        std::fs::hard_link(at("mine"), at("hard")).unwrap();
+        write_own(&at("hard"), b"x").unwrap();
+        let part = PartFile::own(&at("late")).unwrap();
+        symlink("mine", at("late")).unwrap();
+        part.finish().unwrap();
+        assert!(!at("late").is_symlink());
+        assert_eq!(std::fs::read(at("mine")).unwrap(), b"mine");
+        assert_eq!(
+            names(folder.path()),
+            ["dangling", "hard", "late", "link", "mine"]
+        );
     }
 
     #[cfg(unix)]

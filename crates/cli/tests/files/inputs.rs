@@ -577,6 +577,82 @@ fn files_of_others_stay_in_the_folder_of_finished_runs() {
     assert_eq!(std::fs::read(folder.join("notes.txt")).unwrap(), b"mine");
 }
 
+/// What sweeps and their shards keep beside their results is written through no link, and the file that their lock is
+/// taken of is neither emptied nor removed where it is somebody's: files that are read stay, and so do others.
+#[cfg(unix)]
+#[test]
+fn files_beside_results_are_written_through_no_link() {
+    use std::os::unix::fs::symlink;
+    let fixture = Fixture::new();
+    std::fs::write(fixture.path("mine.txt"), "mine").unwrap();
+    // Files of `study.toml` are called by its folder.
+    std::fs::copy(fixture.path("study.toml"), fixture.path("named.toml")).unwrap();
+    let before = fixture.content();
+    let into = "D/named.shard-1-of-2";
+    let sweep = "sweep named.toml -o o.h5";
+    let shard = "sweep named.toml --shard 1/2 --into D";
+    for (words, place) in [
+        (sweep, "o.h5.parts/lock".to_owned()),
+        (sweep, "o.h5.parts/study.txt".to_owned()),
+        (shard, format!("{into}.h5.parts/lock")),
+        (shard, format!("{into}.h5.parts/study.txt")),
+        (shard, "D/status/named.shard-1-of-2.json".to_owned()),
+        (shard, "D/records/list.json".to_owned()),
+        (
+            "gap case.toml --points 3 --shard 1/2 --into D",
+            "D/case.gap-shard-1-of-2.runs".to_owned(),
+        ),
+    ] {
+        let at = fixture.path(&place);
+        let folder = at.parent().unwrap();
+        let up = "../".repeat(place.matches('/').count());
+        for to in ["record.csv", "named.toml", "mine.txt", "nothing"] {
+            for is_hard in [false, true] {
+                std::fs::create_dir_all(folder).unwrap();
+                match is_hard {
+                    false => symlink(format!("{up}{to}"), &at).unwrap(),
+                    true if to == "nothing" => continue,
+                    true => std::fs::hard_link(fixture.path(to), &at).unwrap(),
+                }
+                let output = fixture.run(&words.split(' ').collect::<Vec<_>>());
+                let told = message(&output);
+                for (path, bytes) in &before {
+                    let what = format!("{words}, {place}, {to}, {is_hard}: {told}");
+                    assert!(std::fs::read(path).unwrap() == *bytes, "{what}");
+                }
+                assert!(!fixture.path("nothing").exists());
+                // Another name of a file is given away where a file of the program takes it.
+                let is_refused = !is_hard || !place.ends_with(".json");
+                let done = output.status.success();
+                assert_eq!(done, !is_refused, "{words}, {place}, {to}: {told}");
+                if is_refused {
+                    assert!(told.contains(&place) || told.contains("parts"), "{told}");
+                    let stays = at.is_symlink() || is_hard && at.is_file();
+                    assert!(stays, "{words}, {place}, {to}");
+                }
+                for made in ["D", "o.h5.parts"] {
+                    let _ = std::fs::remove_dir_all(fixture.path(made));
+                }
+                let _ = std::fs::remove_file(fixture.path("o.h5"));
+            }
+        }
+    }
+    // A lock that holds something is none, and an empty one is taken.
+    std::fs::create_dir(fixture.path("o.h5.parts")).unwrap();
+    std::fs::write(fixture.path("o.h5.parts/lock"), "mine").unwrap();
+    let words: Vec<&str> = sweep.split(' ').collect();
+    let output = fixture.run(&words);
+    let told = message(&output);
+    assert_eq!(output.status.code(), Some(4), "{told}");
+    assert!(told.contains("this file holds something"), "{told}");
+    let kept = std::fs::read(fixture.path("o.h5.parts/lock")).unwrap();
+    assert_eq!(kept, b"mine");
+    std::fs::write(fixture.path("o.h5.parts/lock"), "").unwrap();
+    let output = fixture.run(&words);
+    assert!(output.status.success(), "{}", message(&output));
+    assert!(!fixture.path("o.h5.parts").exists());
+}
+
 /// A link to a file is followed and stays; a link to nothing is refused.
 #[cfg(unix)]
 #[test]

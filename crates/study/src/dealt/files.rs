@@ -27,8 +27,6 @@ pub(super) fn part<T: Stored>(
         path: file.to_owned(),
         reason: e.to_string(),
     };
-    // Found out before the runs, not after them.
-    pounding_files::PartFile::beside(file).map_err(failed)?;
     let standing = Content::read(file, identity);
     if standing.is_err() || standing.is_ok_and(|found| found.shard != shard) {
         // Anything else in its place is not ours to replace.
@@ -38,11 +36,13 @@ pub(super) fn part<T: Stored>(
                 "it is not this shard of this check, or damaged: move it away",
             ));
         }
+        // Found out before the runs, not after them.
+        pounding_files::PartFile::own(file).map_err(failed)?;
         let made = runs_in_parallel(mine.len(), threads, progress, |i, ending| {
             make(mine[i], ending)
         })?;
         let content = Content::of(shard, count, &mine, &made).encode(identity);
-        pounding_files::write(file, &content).map_err(failed)?;
+        pounding_files::write_own(file, &content).map_err(failed)?;
     }
     let elsewhere = |_| Err("it is made by another shard".to_owned());
     Ok((0..count).map(elsewhere).collect())

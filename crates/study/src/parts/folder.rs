@@ -89,7 +89,7 @@ impl Parts {
                 Ok(())
             }
             Err(e) if e.kind() == ErrorKind::NotFound => {
-                pounding_files::write(&path, self.study.as_bytes()).map_err(failed("write"))
+                pounding_files::write_own(&path, self.study.as_bytes()).map_err(failed("write"))
             }
             Err(e) => Err(failed("read")(e)),
         }
@@ -169,7 +169,7 @@ impl Parts {
     pub(super) fn write(&mut self, rows: &[Row]) -> std::io::Result<PathBuf> {
         let content = piece::encode(&self.study, rows);
         let path = self.folder.join(piece::name(&content, rows));
-        pounding_files::write(&path, &content)?;
+        pounding_files::write_own(&path, &content)?;
         self.note(path.clone(), rows);
         Ok(path)
     }
@@ -319,12 +319,7 @@ fn lock(folder: &Path) -> Result<File, StudyError> {
     loop {
         tries += 1;
         std::fs::create_dir_all(folder).map_err(failed("make the folder", folder))?;
-        // A pipe would be waited for until somebody reads it.
-        if path.metadata().is_ok_and(|found| !found.is_file()) {
-            let source = Error::other("this is no regular file");
-            return Err(failed("write", &path)(source));
-        }
-        let lock = match File::create(&path) {
+        let lock = match pounding_files::open_lock(&path) {
             // Another process has finished and removed the folder in between.
             Err(e) if e.kind() == ErrorKind::NotFound && tries < TRIES => continue,
             made => made.map_err(failed("write", &path))?,
@@ -350,7 +345,7 @@ fn lock(folder: &Path) -> Result<File, StudyError> {
 fn is_at(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt;
     let number = |m: std::fs::Metadata| (m.dev(), m.ino());
-    match (file.metadata(), std::fs::metadata(path)) {
+    match (file.metadata(), path.symlink_metadata()) {
         (Ok(a), Ok(b)) => number(a) == number(b),
         _ => false,
     }

@@ -146,7 +146,7 @@ impl SharedRecords {
             std::fs::create_dir_all(&self.folder).map_err(failed(&self.folder))?;
             let copy = self.folder.join(name(&file, &motion.sha256));
             if !copy.is_file() {
-                pounding_files::write(&copy, &bytes).map_err(failed(&copy))?;
+                pounding_files::write_own(&copy, &bytes).map_err(failed(&copy))?;
             }
             self.list.records.retain(|k| k.name != source.name);
             self.list.records.push(Known {
@@ -165,7 +165,7 @@ impl SharedRecords {
         }
         let path = self.folder.join(LIST);
         let text = serde_json::to_string(&self.list).map_err(std::io::Error::from);
-        let written = text.and_then(|text| pounding_files::write(&path, text.as_bytes()));
+        let written = text.and_then(|text| pounding_files::write_own(&path, text.as_bytes()));
         written.map_err(failed(&path))
     }
 }

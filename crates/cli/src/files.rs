@@ -5,6 +5,7 @@ use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
+use pounding_files::label::seen_from_here;
 use pounding_files::{
     AskedOfTargets, FileUse, LeftOver, PartFile, ask_of_targets, left_over, left_over_in,
     tell_of_replaced,
@@ -12,7 +13,7 @@ use pounding_files::{
 use pounding_report::Answered;
 use pounding_results::{Kind, Label};
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
-use pounding_study::{RECORDS_FOLDER, ShardName, is_shard_of_check};
+use pounding_study::{RECORDS_FOLDER, ShardName, is_shard_of_check, written_by_hand};
 
 use crate::arguments::InputPath;
 use crate::failure::Failure;
@@ -278,13 +279,59 @@ pub fn no_result_stands(path: &Path) -> Result<(), Failure> {
 }
 
 /// Refuses to put anything into the place of a file in TOML, which no command writes: a case, a study or rules that somebody
-/// wrote, whether or not this call reads it.
+/// wrote, whether or not this call reads it, by its name, by one that a link leads to, or by what it holds.
 fn nothing_written_by_hand_stands(path: &Path) -> Result<(), Failure> {
-    let ending = path.extension().unwrap_or_default();
-    match ending.eq_ignore_ascii_case("toml") && holds_something(path) {
-        true => Err(stands(path, "in TOML, as cases, studies and rules are")),
-        false => Ok(()),
+    if !holds_something(path) {
+        return Ok(());
     }
+    let is_toml = |name: &Path| {
+        let ending = name.extension().unwrap_or_default();
+        ending.eq_ignore_ascii_case("toml")
+    };
+    let what = match names_of(path).into_iter().find(|name| is_toml(name)) {
+        Some(_) => "in TOML, as cases, studies and rules are".to_owned(),
+        None => match text_of(path).as_deref().and_then(written_by_hand) {
+            Some(kind) => format!("{kind}, whatever its name"),
+            None => return Ok(()),
+        },
+    };
+    match path.is_symlink() {
+        true => {
+            let real = seen_from_here(path);
+            Err(stands(path, &format!("a link to {real}, which is {what}")))
+        }
+        false => Err(stands(path, &what)),
+    }
+}
+
+/// The names of a file: that by which it is given, those that links lead to one after another, and its own.
+fn names_of(path: &Path) -> Vec<PathBuf> {
+    /// Links that are followed, as many as Linux follows.
+    const LINKS: usize = 40;
+    let mut names = vec![path.to_owned()];
+    let mut at = path.to_owned();
+    for _ in 0..LINKS {
+        let Ok(next) = std::fs::read_link(&at) else {
+            break;
+        };
+        at = at.parent().unwrap_or(Path::new("")).join(next);
+        names.push(at.clone());
+    }
+    names.extend(path.canonicalize());
+    names
+}
+
+/// The text of a file that may be written by hand.
+fn text_of(path: &Path) -> Option<String> {
+    /// Bytes of the longest one.
+    const LONGEST: u64 = 4 << 20;
+    let file = pounding_files::input::open(path).ok()?;
+    if file.metadata().ok()?.len() > LONGEST {
+        return None;
+    }
+    let mut bytes = Vec::new();
+    file.take(LONGEST).read_to_end(&mut bytes).ok()?;
+    String::from_utf8(bytes).ok()
 }
 
 /// Refuses to put anything but a result into the place of one, or of a shard of a check.
@@ -560,7 +607,7 @@ impl Replaced<'_> {
         if kind != self.kind {
             return refused(&format!("that of {} does not take its place", self.kind));
         }
-        let here = self.file.map(pounding_files::label::seen_from_here);
+        let here = self.file.map(seen_from_here);
         let other = here.filter(|here| !found.file.is_empty() && found.file != *here);
         let other_text = match (&found.study, &self.text_sha256) {
             (Some(study), Some(text)) => study.text_sha256 != *text,

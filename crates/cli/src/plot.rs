@@ -64,8 +64,22 @@ pub fn write(path: &Path, text: &str) -> Result<(), Failure> {
 
 /// Writes pages of the documentation into a folder.
 pub fn write_documentation(folder: &Path, files: &[DocumentationFile]) -> Result<(), Failure> {
+    let files = files.iter();
+    write_all(
+        folder,
+        files.map(|file| (file.name.as_str(), file.text.as_str())),
+    )
+}
+
+/// Writes text files into a folder, or none of them where one may not be written.
+pub fn write_all<'f>(
+    folder: &Path,
+    files: impl Iterator<Item = (&'f str, &'f str)> + Clone,
+) -> Result<(), Failure> {
     std::fs::create_dir_all(folder)
         .map_err(|e| Failure::output(&e, &folder.display().to_string()))?;
-    let mut files = files.iter();
-    files.try_for_each(|file| write(&folder.join(&file.name), &file.text))
+    let mut names = files.clone().map(|(name, _)| name);
+    names.try_for_each(|name| no_result_stands(&folder.join(name)))?;
+    let mut files = files;
+    files.try_for_each(|(name, text)| write(&folder.join(name), text))
 }

@@ -47,6 +47,8 @@ mod study_file;
 mod sweep;
 #[cfg(feature = "results")]
 mod table;
+#[cfg(feature = "results")]
+mod written_by_hand;
 
 /// What this program was built of and for, as far as the results of runs may depend on it:
 /// version, hash of the sources of the crates that compute and of the versions of their
@@ -95,3 +97,5 @@ pub use sweep::{
 };
 #[cfg(feature = "results")]
 pub use table::{RunTable, writable_table};
+#[cfg(feature = "results")]
+pub use written_by_hand::written_by_hand;

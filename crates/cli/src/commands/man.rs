@@ -13,14 +13,12 @@ use crate::plot;
 /// Writes `pounding.1`, `pounding-run.1` and so on into a folder.
 pub fn man(folder: &Path) -> Result<(), Failure> {
     let refused = |e: &std::io::Error| Failure::output(e, &folder.display().to_string());
-    std::fs::create_dir_all(folder).map_err(|e| refused(&e))?;
     let mut command = Arguments::command();
     command.build();
     let mut pages = Vec::new();
     collect(&command, "pounding", &mut pages).map_err(|e| refused(&e))?;
-    for (name, text) in &pages {
-        plot::write(&folder.join(name), text)?;
-    }
+    let named = pages.iter().map(|(name, text)| (name.as_str(), &**text));
+    plot::write_all(folder, named)?;
     print(&format!("{} pages in {}", pages.len(), folder.display()))
 }
 

@@ -289,6 +289,85 @@ fn files_in_toml_stay() {
     );
 }
 
+/// So do those that a link leads to, through other links too, and those whose names say nothing of TOML, also where pages
+/// are written into a folder: none of them is written then.
+#[test]
+fn files_in_toml_stay_behind_links_and_under_other_names() {
+    use std::os::unix::fs::symlink;
+    let fixture = Fixture::new();
+    let run = |command: &str| fixture.run(&command.split(' ').collect::<Vec<_>>());
+    let of_run = run("run case.toml -o run.h5");
+    assert!(of_run.status.success(), "{}", message(&of_run));
+    std::fs::create_dir(fixture.path("pages")).unwrap();
+    let place = |name: &str| fixture.path(name);
+    let copies = [
+        ("case.toml", "a case"),
+        ("study.toml", "a study"),
+        ("rules.toml", "a file of rules"),
+    ];
+    let calls = [
+        ("gap case.toml --points 0 --csv ", "mine.csv"),
+        ("gap case.toml --points 0 -o ", "mine.json"),
+        ("gap case.toml --points 0 --report ", "mine.html"),
+        ("run case.toml -o ", "mine.h5"),
+        ("run case.toml -o new.h5 --report ", "mine.html"),
+        ("run case.toml -o new.h5 --plot ", "mine.svg"),
+        ("sweep study.toml -o ", "mine.txt"),
+        ("sweep study.toml -o new.h5 --csv ", "mine.csv"),
+        ("report run.h5 -o ", "mine.html"),
+        ("motion convert record.csv -o ", "mine.csv"),
+        ("motion info record.csv -o ", "mine.json"),
+        ("gap --list --pages pages", "pages/provisions.md"),
+        ("models --pages pages", "pages/README.md"),
+        ("man --pages pages", "pages/pounding-run.1"),
+    ];
+    for (call, name) in calls {
+        let command = match call.ends_with(' ') {
+            true => format!("{call}{name}"),
+            false => call.to_owned(),
+        };
+        let up = if name.contains('/') { "../" } else { "" };
+        let refused = |says: &[&str]| {
+            let output = run(&command);
+            let told = message(&output);
+            assert_eq!(output.status.code(), Some(4), "{command}: {told}");
+            for part in says {
+                assert!(told.contains(part), "{command}: {told}");
+            }
+            assert!(!told.contains("replaced"), "{command}: {told}");
+            assert!(!place("new.h5").exists(), "{command}");
+        };
+        let text = std::fs::read(place("case.toml")).unwrap();
+        std::fs::write(place("victim.toml"), &text).unwrap();
+        symlink(format!("{up}victim.toml"), place(name)).unwrap();
+        refused(&["is a link to victim.toml, which is in TOML", name]);
+        std::fs::remove_file(place(name)).unwrap();
+        // By another name in between.
+        std::fs::rename(place("victim.toml"), place("victim")).unwrap();
+        symlink("victim", place("alias.TOML")).unwrap();
+        symlink(format!("{up}alias.TOML"), place(name)).unwrap();
+        refused(&["is a link to victim, which is in TOML"]);
+        assert!(std::fs::read(place("victim")).unwrap() == text, "{command}");
+        for file in [name, "alias.TOML"] {
+            std::fs::remove_file(place(file)).unwrap();
+        }
+        for (copied, kind) in copies {
+            std::fs::copy(place(copied), place(name)).unwrap();
+            refused(&[&format!("{name} is {kind}, whatever its name")]);
+            let kept = std::fs::read(place(name)).unwrap();
+            assert!(kept == std::fs::read(place(copied)).unwrap(), "{command}");
+            std::fs::remove_file(place(name)).unwrap();
+        }
+        assert_eq!(std::fs::read_dir(place("pages")).unwrap().count(), 0);
+    }
+    // A link to any other file is followed.
+    std::fs::write(place("victim"), "").unwrap();
+    symlink("victim", place("mine.csv")).unwrap();
+    let output = run("motion convert record.csv -o mine.csv");
+    assert!(output.status.success(), "{}", message(&output));
+    assert!(place("mine.csv").is_symlink());
+}
+
 /// What another program has written stays under a default name; under a given one it is replaced,
 /// and that is said. An empty file holds nothing, and results and pages of ours are replaced.
 #[test]

@@ -476,19 +476,17 @@ impl Going {
 }
 
 /// What stands where a page is to be written: one of ours is replaced, any other file only under a
-/// name that the user has given, which is said.
+/// name that the user has given, which is said when it happens: the page may still be refused.
 ///
 /// # Errors
 /// A file of somebody else under a default name, or one that cannot be read.
 pub fn page_is_spared(path: &Path, named: bool) -> Result<(), Failure> {
     no_result_comes(path)?;
-    is_judged(path);
     let judged = move |path: &Path| match holds_something(path) && !is_page(path) {
         true => foreign(path, named, "page"),
         false => Ok(None),
     };
     let before = judged(path)?;
-    before.iter().for_each(|going| note(&going.ahead()));
     let output = path.to_owned();
     asked_again(path, move || as_before(&output, &before, judged(&output))).to_the_end();
     Ok(())
@@ -525,6 +523,17 @@ fn is_page(path: &Path) -> bool {
         || (head.starts_with(begins) && head.contains("<p class=\"what\">"))
 }
 
+/// What is to be said before the work of what a result takes the place of, if anything.
+#[must_use = "it is to be said once nothing refuses the output any more"]
+pub struct Ahead(Option<Going>);
+
+impl Ahead {
+    /// Says it.
+    pub fn say(self) {
+        self.0.iter().for_each(|going| note(&going.ahead()));
+    }
+}
+
 /// What stands where a result is to be written, which takes the place of an earlier one of the same
 /// case or study, and of no other one unasked.
 pub struct Replaced<'r> {
@@ -542,19 +551,17 @@ pub struct Replaced<'r> {
 
 impl Replaced<'_> {
     /// Refuses to replace a result of another kind, and one of another file under a name that the
-    /// user has not given; says so where one that the user has named is replaced. `goes_on` with a
-    /// result that stands says nothing. What comes there before the result takes its place is
-    /// judged then.
+    /// user has not given; what is to be said where one that the user has named is replaced, once nothing else
+    /// refuses that. `goes_on` with a result that stands says nothing. What comes there before the result takes
+    /// its place is judged then.
     ///
     /// # Errors
     /// With the file and what to do.
-    pub fn spared(&self, goes_on: bool) -> Result<(), Failure> {
+    pub fn spared(&self, goes_on: bool) -> Result<Ahead, Failure> {
         is_judged(self.output);
-        if let Some(going) = self.judged(goes_on)? {
-            note(&going.ahead());
-        }
+        let going = self.judged(goes_on)?;
         self.judged_again().to_the_end();
-        Ok(())
+        Ok(Ahead(going))
     }
 
     /// Has what comes there before the result takes its place judged then.

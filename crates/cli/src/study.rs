@@ -106,7 +106,7 @@ pub fn options(
         text_sha256: Some(text_sha256(study)),
         named: running.output.is_some() || into.is_some(),
     };
-    replaced.spared(goes_on)?;
+    let ahead = replaced.spared(goes_on)?;
     if let Some(csv) = &running.csv {
         table_has_a_place(csv)?;
     }
@@ -121,6 +121,7 @@ pub fn options(
         )
     })?;
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
+    ahead.say();
     Ok(SweepOptions {
         output,
         csv: running.csv.as_deref().map(Path::to_owned),

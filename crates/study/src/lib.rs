@@ -70,7 +70,7 @@ pub use fractiles::fractile;
 #[cfg(feature = "results")]
 pub use ida::*;
 #[cfg(feature = "results")]
-pub use merge::{MergeReport, merge, read_by_study, refuse_name_of_shard};
+pub use merge::{MergeReport, merge, merge_saying, read_by_study, refuse_name_of_shard};
 #[cfg(feature = "results")]
 pub use pounding_results::study::{
     Coordinate, Description, Fault, MergeOptions, Part, ResultReader, StudyFileError, Survey,

@@ -44,6 +44,20 @@ pub fn merge(
     csv: Option<&Path>,
     options: MergeOptions,
 ) -> Result<MergeReport, StudyError> {
+    merge_saying(files, output, csv, options, || ())
+}
+
+/// The same; `begins` is called once nothing refuses the output any more, before the runs are read.
+///
+/// # Errors
+/// As [`merge`].
+pub fn merge_saying(
+    files: &[PathBuf],
+    output: &Path,
+    csv: Option<&Path>,
+    options: MergeOptions,
+    begins: impl FnOnce(),
+) -> Result<MergeReport, StudyError> {
     let mut used = FileUse::new();
     for file in files {
         used.reads("shard", file);
@@ -69,7 +83,9 @@ pub fn merge(
     for path in [Some(output), csv].into_iter().flatten() {
         spare_inputs(whole, path)?;
     }
-    let mut writer = ResultWriter::create(output, whole, shards.count()?)?;
+    let count = shards.count()?;
+    begins();
+    let mut writer = ResultWriter::create(output, whole, count)?;
     if let Some(study) = study_file(files, whole, output) {
         writer = writer.of_study_file(whole, &study);
     }

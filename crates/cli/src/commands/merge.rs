@@ -27,7 +27,8 @@ pub fn merge(arguments: &MergeArguments, mut files: FileUse) -> Result<(), Failu
     }
     if let Some(output) = &arguments.output {
         writable(output)?;
-        replaced(output, None).spared(true)?;
+        // Of what it goes on with nothing is said; what is replaced is known when the shards are.
+        replaced(output, None).spared(true)?.say();
     }
     if let Some(csv) = &arguments.csv {
         table_has_a_place(csv)?;
@@ -87,8 +88,8 @@ fn merged(
 ) -> Result<(), Failure> {
     // Not before, where another process may read them, and say it once more.
     let label = shards.first().and_then(|shard| Label::of(shard)?.study);
-    replaced(output, label.map(|study| study.text_sha256)).spared(false)?;
-    let merged = pounding_study::merge(
+    let ahead = replaced(output, label.map(|study| study.text_sha256)).spared(false)?;
+    let merged = pounding_study::merge_saying(
         shards,
         output,
         arguments.csv.as_deref(),
@@ -97,6 +98,7 @@ fn merged(
             without_checksum,
             partial: arguments.partial,
         },
+        || ahead.say(),
     )?;
     let mut reported = warnings(&merged.unchecked);
     if !merged.builds.is_empty() {

@@ -11,7 +11,7 @@ use pounding_results::Inputs;
 use pounding_study::{ResultReader, Study};
 
 use crate::failure::Failure;
-use crate::files::{is_judged, name_left_over, page_is_spared, reads_too};
+use crate::files::{name_left_over, page_is_spared, reads_too};
 use crate::output::{print, warn};
 use crate::separate::{Reading, reading, warnings};
 use crate::{page, plot};
@@ -56,9 +56,8 @@ pub fn report(
             reads_too(&mut files, study.files())?;
         }
     }
-    match child {
-        true => is_judged(&output),
-        false => page_is_spared(&output, asked.output.is_some())?,
+    if !child {
+        page_is_spared(&output, asked.output.is_some())?;
     }
     if Answered::may_be(path) {
         return of_answer(asked, &output);

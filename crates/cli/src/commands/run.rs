@@ -42,8 +42,9 @@ pub fn run(arguments: &RunArguments, mut files: FileUse) -> Result<(), Failure> 
             text_sha256: None,
             named: arguments.output.is_some(),
         };
-        replaced.spared(false)?;
+        let ahead = replaced.spared(false)?;
         responses_fit(&assembly, &case)?;
+        ahead.say();
     }
     let started = Instant::now();
     let progress = Progress::begin(Unit::Part)?;

@@ -413,10 +413,10 @@ fn a_file_of_another_program_is_not_replaced_unasked() {
             let named = run(&format!("{command} -o {default}"));
             let said = message(&named);
             assert!(named.status.success(), "{command}: {said}");
-            assert!(
-                said.contains("will be replaced, which is no"),
-                "{command}: {said}"
-            );
+            // Of pages it is said when they are written.
+            let is_said = ["will be replaced, which is no", "is replaced, which was no"];
+            let times = is_said.map(|note| said.matches(note).count());
+            assert_eq!(times.iter().sum::<usize>(), 1, "{command}: {said}");
         }
         // Its own, and an empty one.
         let again = run(command);
@@ -509,6 +509,43 @@ fn what_is_replaced_is_named() {
     assert!(told.contains("pounding-run.1 is replaced"), "{told}");
     let told = message(&run("man --pages man"));
     assert!(!told.contains("is replaced"), "{told}");
+}
+
+/// Nothing is said to be replaced that is refused after it was looked at, for another reason.
+#[test]
+fn what_is_refused_is_not_said_to_be_replaced() {
+    let fixture = Fixture::new();
+    let run = |command: &str| fixture.run(&command.split(' ').collect::<Vec<_>>());
+    for command in [
+        "run case.toml -o run.h5",
+        "sweep study.toml --shard 1/2 --into all",
+        "sweep study.toml --shard 2/2 --into all",
+    ] {
+        let output = run(command);
+        assert!(output.status.success(), "{}", message(&output));
+    }
+    std::fs::copy(fixture.path("record.csv"), fixture.path("copy.dat")).unwrap();
+    std::fs::write(fixture.path("mine.dat"), "mine").unwrap();
+    for (command, code) in [
+        ("merge all -o copy.dat", 2),
+        ("report run.h5 -o copy.dat", 2),
+        ("sweep study.toml -o mine.dat --csv run.h5", 4),
+        ("sweep study.toml -o mine.dat --store-every -1s", 2),
+        ("merge all -o mine.dat --csv copy.dat", 2),
+    ] {
+        let before = fixture.content();
+        let output = run(command);
+        let told = message(&output);
+        assert_eq!(output.status.code(), Some(code), "{command}: {told}");
+        let is_said = ["will be replaced", "is replaced,"].map(|note| told.contains(note));
+        assert_eq!(is_said, [false; 2], "{command}: {told}");
+        assert!(fixture.content() == before, "{command}");
+    }
+    let output = run("merge all -o mine.dat");
+    let told = message(&output);
+    assert!(output.status.success(), "{told}");
+    let note = "mine.dat will be replaced, which is no result of this program";
+    assert_eq!(told.matches(note).count(), 1, "{told}");
 }
 
 /// What a process has opened is no place for a file: neither the link is replaced that leads there, nor what

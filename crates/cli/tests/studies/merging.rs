@@ -462,9 +462,10 @@ fn inputs_stay_wherever_shards_are_merged() {
     bench.text("sweep study.toml -o whole.h5");
     std::fs::rename(bench.path("study.toml"), bench.path("renamed.toml")).unwrap();
     std::fs::copy(bench.path("case.toml"), bench.path("copy.toml")).unwrap();
+    std::fs::copy(bench.path("el_centro_1940_ns.csv"), bench.path("copy.dat")).unwrap();
     let before = |name: &str| bench.bytes(name);
-    let records =
-        ["el_centro_1940_ns.csv", "kobe_1995_jma_ns.csv"].map(|name| (name, before(name)));
+    let records = ["el_centro_1940_ns.csv", "kobe_1995_jma_ns.csv", "copy.dat"]
+        .map(|name| (name, before(name)));
     let elsewhere = tempfile::tempdir().unwrap();
     let at = |name: &str| bench.path(name).display().to_string();
     let calls = [
@@ -485,6 +486,9 @@ fn inputs_stay_wherever_shards_are_merged() {
             at("kobe_1995_jma_ns.csv")
         ),
         format!("report {} -o {}", at("run.h5"), at("el_centro_1940_ns.csv")),
+        format!("merge {} -o {}", at("all"), at("copy.dat")),
+        format!("report {} -o {}", at("run.h5"), at("copy.dat")),
+        format!("report {} -o {}", at("whole.h5"), at("copy.dat")),
     ];
     for call in &calls {
         let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
@@ -498,6 +502,8 @@ fn inputs_stay_wherever_shards_are_merged() {
             told.contains("is not replaced: it is a record that"),
             "{call}: {told}"
         );
+        // Nor is it said before that it will be.
+        assert!(!told.contains("note:"), "{call}: {told}");
         for (name, content) in &records {
             assert!(before(name) == *content, "{call}: {name}");
         }

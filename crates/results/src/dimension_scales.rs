@@ -33,7 +33,7 @@ const MOST_LISTED: usize = 4000;
 const LISTED: &str = "REFERENCE_LIST";
 const NAMED: &str = "DIMENSION_LIST";
 
-/// Attaches a scale to a dimension, from zero, of a dataset. Of what has many histories, those beyond [`MOST_LISTED`] name
+/// Attaches a scale to a dimension, from zero, of a dataset. Of what has many histories, those beyond 4000 name
 /// their scale, which readers ask for, and are not listed by it.
 ///
 /// # Errors

@@ -526,7 +526,7 @@ pub fn write(target: &Path, content: &[u8]) -> Result<()> {
 /// Writes a whole file that the program names by itself: see [`PartFile::own`].
 ///
 /// # Errors
-/// As [`write`], and a link.
+/// As [`write()`], and a link.
 pub fn write_own(target: &Path, content: &[u8]) -> Result<()> {
     filled(PartFile::own(target)?, content)
 }

@@ -207,7 +207,7 @@ class Result:
         as ``tree["gap/light-heavy/impacts/t_close"]``; the column ``level`` is ``level_number``
         there. ``to_netcdf`` writes the tree.
         """
-        needs("Result.to_xarray", "xarray", "h5netcdf")
+        needs("Result.to_xarray", "xarray", "h5netcdf", "h5py")
         import xarray as xr
 
         # Decoded from a copy of the file in memory: no file is written.

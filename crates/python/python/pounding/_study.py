@@ -150,7 +150,7 @@ def sweep(
         command says of the study is in the attribute ``sweep`` (JSON).
     """
     # Before the work, whose result it opens.
-    needs("sweep", "xarray", "h5netcdf")
+    needs("sweep", "xarray", "h5netcdf", "h5py")
     import xarray as xr
 
     options = {
@@ -222,7 +222,7 @@ class Ida(_Answered):
 
     def runs(self) -> xarray.Dataset:
         """The runs, read when they are looked at."""
-        needs("Ida.runs", "xarray", "h5netcdf")
+        needs("Ida.runs", "xarray", "h5netcdf", "h5py")
         import xarray as xr
 
         return xr.open_dataset(self.output, engine="h5netcdf", decode_timedelta=False)

@@ -397,8 +397,7 @@ fn recorded(
     let mut recorder = PieceRecorder {
         system,
         places: floors,
-        time_step,
-        next: 1,
+        grid: Grid { time_step, next: 1 },
         stopped: &stopped,
         rows: History::default(),
         motions: vec![Vec::new(); floors.len()],
@@ -421,10 +420,7 @@ type Motions = Vec<Vec<FloorMotion>>;
 struct PieceRecorder<'s> {
     system: &'s System,
     places: &'s [FloorPlace],
-    /// Of the grid (s).
-    time_step: f64,
-    /// Number of the next time of the grid.
-    next: usize,
+    grid: Grid,
     /// Whether the run has to end.
     stopped: &'s Cell<bool>,
     /// Those of the step that is taken.
@@ -432,13 +428,24 @@ struct PieceRecorder<'s> {
     motions: Motions,
 }
 
+/// An even grid of times, beside which steps end.
+struct Grid {
+    /// Step (s).
+    time_step: f64,
+    /// Number of its next time.
+    next: usize,
+}
+
 /// A time this near to one of the grid is that one, in parts of its step: steps end beside samples by round-off.
 const ON_GRID: f64 = 1.0e-9;
+/// The same in parts of the time, of which ends of steps have a few times the round-off: what is longer than a hundred
+/// thousand steps of the grid has more of it than the part of a step. A piece of round-off would have accelerations of none.
+const ROUND_OFF: f64 = 64.0 * f64::EPSILON;
 
-impl PieceRecorder<'_> {
+impl Grid {
     /// The times in a step, its start and end among them; and whether each is one of the grid.
     fn times(&mut self, start: f64, end: f64) -> (Vec<f64>, Vec<bool>) {
-        let close = ON_GRID * self.time_step;
+        let close = (ON_GRID * self.time_step).max(ROUND_OFF * end);
         let before = (self.next - 1) as f64 * self.time_step;
         let (mut times, mut on_grid) = (vec![start], vec![(start - before).abs() <= close]);
         loop {
@@ -467,7 +474,7 @@ impl Recorder for PieceRecorder<'_> {
         if self.stopped.get() {
             return Err(TimeHistoryError::Recorder("stopped".to_owned()));
         }
-        let (times, on_grid) = self.times(step.start(), step.end());
+        let (times, on_grid) = self.grid.times(step.start(), step.end());
         self.rows.clear();
         step.append(&times, &mut self.rows);
         let rows = &self.rows;
@@ -482,7 +489,7 @@ impl Recorder for PieceRecorder<'_> {
             for i in 1..times.len() {
                 // Lengths that are equal but for round-off are: steps of oscillators are made for each length.
                 let length = match on_grid[i - 1] && on_grid[i] {
-                    true => self.time_step,
+                    true => self.grid.time_step,
                     false => times[i] - times[i - 1],
                 };
                 let both = |values: &[f64]| [values[i - 1], values[i]];
@@ -545,6 +552,44 @@ impl Work<'_> {
         match (self.progress)(self.done as f64 / self.total.max(1) as f64) {
             ControlFlow::Continue(()) => Ok(spectrum),
             ControlFlow::Break(()) => Err(FloorSpectraError::Stopped),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Steps over samples of 0.02 s that end by round-off beside them, for an hour, with an event now and then: every piece is
+    /// a whole one, or ends at an event.
+    #[test]
+    fn steps_end_on_the_grid_however_late() {
+        let time_step = 0.02 / 94.0;
+        for round_off in [0.0, 8.0 * f64::EPSILON, -8.0 * f64::EPSILON] {
+            let mut grid = Grid { time_step, next: 1 };
+            let (mut whole, mut others) = (0, 0);
+            let mut step = |start: f64, end: f64| {
+                let (times, on_grid) = grid.times(start, end * (1.0 + round_off));
+                for i in 1..times.len() {
+                    match on_grid[i - 1] && on_grid[i] {
+                        true => whole += 1,
+                        false => others += 1,
+                    }
+                    let length = times[i] - times[i - 1];
+                    assert!(length > 0.01 * time_step, "{start}: {length:e}");
+                }
+            };
+            for sample in 0..180_000 {
+                let (start, end) = (0.02 * f64::from(sample), 0.02 * f64::from(sample + 1));
+                match sample % 1000 {
+                    999 => {
+                        step(start, start + 0.003_3);
+                        step(start + 0.003_3, end);
+                    }
+                    _ => step(start, end),
+                }
+            }
+            assert_eq!((whole, others), (180_000 * 94 - 180, 360), "{round_off:e}");
         }
     }
 }

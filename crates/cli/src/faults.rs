@@ -19,11 +19,20 @@ pub fn read_case(path: &Path, own_record: bool) -> Result<Case, Failure> {
     faults::read_case(path, own_record).map_err(|e| Failure::case(*e.error, &e.source_text))
 }
 
+/// Step of the output (s) where a case gives none.
+const USUAL_STEP: f64 = 0.01;
+
 /// Refuses a grid of output times that no disk has room for.
 pub fn responses_fit(assembly: &Assembly, case: &Case) -> Result<(), Failure> {
     let duration = assembly.options.duration;
     check_size(&assembly.system, duration, assembly.output_step).map_err(|e| {
-        match case.analysis.places.get("output_step") {
+        // The one that is further from what is usual.
+        let long = e.duration / assembly.system.record_duration().max(1.0);
+        let keys = match long > USUAL_STEP / assembly.output_step {
+            true => ["duration", "output_step"],
+            false => ["output_step", "duration"],
+        };
+        match keys.iter().find_map(|key| case.analysis.places.get(*key)) {
             Some(place) => {
                 let error = case.error(place.clone(), e.to_string(), Some(e.help()));
                 Failure::case(error, &case.source)

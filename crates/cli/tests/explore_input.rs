@@ -115,6 +115,65 @@ fn a_model_is_taken_up_when_it_can_be() {
     assert_eq!(told[26], json!([true, false]));
 }
 
+/// A text that is no number leaves the value that is in force, as does an emptied field of a storey; numbers as long as a
+/// field takes them are shown. Beside a rigid law the page says that a model has the parameters of its example.
+#[test]
+fn texts_that_are_no_numbers_leave_values() {
+    let typed = |id: &str, text: &str| {
+        format!(
+            "(() => {{ const field = document.getElementById('control-{id}'); field.focus(); field.select();\
+             document.execCommand('insertText', false, '{text}'); const bad = field.validity.badInput;\
+             field.dispatchEvent(new Event('change')); return [bad, field.value]; }})()"
+        )
+    };
+    let value = |id: &str| format!("document.getElementById('control-{id}').value");
+    let overlay =
+        "document.querySelector('[data-part=overlays] input[value=jankowski_2005]').click()";
+    let calibrations = "document.querySelector('[data-part=calibrations]').textContent";
+    let expressions = [
+        put("ground_motion.scale", "2", RIGHT),
+        typed("ground_motion.scale", "3e"),
+        wait(RIGHT),
+        file_of("case"),
+        put("building.0.mass-1", "", RIGHT),
+        value("building.0.mass-1"),
+        put("gap.0.width", "1e150", RIGHT),
+        value("gap.0.width"),
+        file_of("case"),
+        put("gap.0.width", "20", RIGHT),
+        overlay.to_owned(),
+        wait(&format!("{calibrations}.length > 0")),
+        calibrations.to_owned(),
+        put(
+            "gap.0-model",
+            "stereomechanical",
+            &format!("{RIGHT} && {calibrations}.includes('example')"),
+        ),
+        calibrations.to_owned(),
+    ];
+    let expressions: Vec<&str> = expressions.iter().map(String::as_str).collect();
+    let Some(told) = asked_of_page(&pair("6 s"), &expressions) else {
+        return;
+    };
+    assert_eq!(told[1], json!([true, "2"]));
+    let case = told[3].as_str().unwrap();
+    assert!(case.contains("scale = 2"), "{case}");
+    assert_eq!(told[5], "25");
+    assert_eq!(told[7], "1e+150");
+    let case = told[8].as_str().unwrap();
+    assert!(
+        case.contains("width = \"1e150 mm\"") || case.contains("width = \"1e+150 mm\""),
+        "{case}"
+    );
+    let calibrated = told[12].as_str().unwrap();
+    assert!(calibrated.contains("jankowski_2005: "), "{calibrated}");
+    let of_example = told[14].as_str().unwrap();
+    assert!(
+        of_example.contains("parameters of the model's example, as"),
+        "{of_example}"
+    );
+}
+
 /// Names are texts to a spreadsheet, have no more room than there is, and tables are in the words of
 /// `gap --csv`; nothing that is one or none is counted as several.
 #[test]

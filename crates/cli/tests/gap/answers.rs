@@ -389,6 +389,8 @@ duration = "12 s"
         "WIDE ENOUGH",
         "required 160.113 mm by count",
         "provided 160.113 mm at level",
+        // In the table of demands, too.
+        "160.113 @",
     ] {
         assert!(shown.contains(said), "{said}: {shown}");
     }

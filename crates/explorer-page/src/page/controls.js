@@ -50,12 +50,13 @@ const controlsOf = (state, documentation, actions) => {
       "data-control": control.path,
     });
     field.addEventListener("change", () => {
-      // An empty field leaves out what the case may leave out.
-      if (field.value === "" && !control.optional) {
+      // An empty field leaves out what the case may leave out; a text that is no number, which looks empty here, nothing.
+      const typed = Number(field.value) * control.factor;
+      if ((field.value === "" && (field.validity.badInput || !control.optional)) || !Number.isFinite(typed)) {
         show(inForce);
         return;
       }
-      inForce = field.value === "" ? null : Number(field.value) * control.factor;
+      inForce = field.value === "" ? null : typed;
       if (moved) moved.stand(inForce ?? control.default ?? NaN);
       state.set(control.path, inForce === null ? null : word(control, inForce));
     });
@@ -117,7 +118,13 @@ const controlsOf = (state, documentation, actions) => {
       const field = html("input", { id: `${id}-${i}`, type: "number", step: "any", min: 0 });
       field.value = String(clean(x / control.factor));
       field.addEventListener("change", () => {
-        values[i] = Number(field.value) * control.factor;
+        const typed = Number(field.value) * control.factor;
+        // Emptied, or no number.
+        if (field.value === "" || !Number.isFinite(typed)) {
+          field.value = String(clean(values[i] / control.factor));
+          return;
+        }
+        values[i] = typed;
         base[i] = values[i] / factorNow();
         tell();
       });

@@ -23,7 +23,7 @@ const elements = (() => {
     if (!Number.isFinite(x)) return "–";
     const size = Math.abs(x);
     // Digits before the point are never rounded: zeros would stand for what is known.
-    const rounded = Number(x.toPrecision(Math.max(digits, Math.floor(Math.log10(size)) + 1 || 1)));
+    const rounded = Number(x.toPrecision(Math.min(100, Math.max(digits, Math.floor(Math.log10(size)) + 1 || 1))));
     if (size !== 0 && (size < 1e-3 || size >= 1e7)) return x.toExponential(digits - 1).replace("e+", "e");
     return String(rounded);
   };

@@ -239,6 +239,8 @@ const sweepOf = (state, background, dashes, actions) => {
     actions.demanded(answer.gaps);
     const laws = [[null, actions.model(gap)], ...overlays.filter((name) => name !== actions.model(gap)).map((name) => [name, name])];
     done = [0, laws.length * all.length];
+    const calibrations = [];
+    part("calibrations").replaceChildren();
     waiting = all.length ? "" : "the record demands no gap: no widths are run";
     for (const [model, name] of laws) {
       let keys = null;
@@ -246,6 +248,8 @@ const sweepOf = (state, background, dashes, actions) => {
         const calibrated = await background.ask({ do: "calibrate", changes: state.changes(), gap, model });
         if (told(calibrated)) return;
         keys = calibrated.keys;
+        calibrations.push(html("p", { class: "note" }, html("code", {}, model), `: ${calibrated.notes.join("; ")}`));
+        part("calibrations").replaceChildren(...calibrations);
       }
       const changes = state.changesOfSweep(gap, keys);
       const places = order(all.length);

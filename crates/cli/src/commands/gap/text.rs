@@ -1,7 +1,7 @@
 //! The gap check for people.
 
 use pounding_case::Case;
-use pounding_catalogue::numbers::{rounded_up, rounded_up_beside};
+use pounding_catalogue::numbers::rounded_up_beside;
 use pounding_catalogue::wording::counted;
 use pounding_shear_building::{OVERTURNING_RATIO, UPLIFT_BEGINS};
 use pounding_study::gap_check::{
@@ -152,6 +152,7 @@ fn demand(check: &GapCheck, index: usize) -> String {
     let mut table = new_table(&header);
     for (l, level) in gap.levels.iter().enumerate().rev() {
         let peaks = check.records.iter().map(|r| r.demand[index][l]);
+        let shown = |demand: f64| rounded_up_beside(demand * 1e3, level.width * 1e3, 2);
         let mut row = vec![
             level.place.label(),
             level.place.elevations_label(),
@@ -161,12 +162,12 @@ fn demand(check: &GapCheck, index: usize) -> String {
             row.extend(
                 peaks
                     .clone()
-                    .map(|p| format!("{} @{:.3}", rounded_up(p.value * 1e3, 2), p.time)),
+                    .map(|p| format!("{} @{:.3}", shown(p.value), p.time)),
             );
         }
         let maximum = peaks.clone().fold(0.0_f64, |m, p| m.max(p.value));
         let contacts = peaks.filter(|p| p.value > level.width).count() + gap.records_collapsed;
-        row.push(rounded_up(maximum * 1e3, 2));
+        row.push(shown(maximum));
         row.push(format!("{contacts} of {}", gap.records()));
         table.add_row(row);
     }

@@ -46,18 +46,16 @@ fn collisions(
 ) -> Result<(), Failure> {
     let history = against::measured(arguments)?;
     let (collided, failed) = collisions::collide_all(chosen, setting)?;
-    if collided.is_empty() {
-        return collisions::told(&failed);
-    }
     let compared: Option<Vec<Difference>> = history.as_ref().map(|measured| {
         let of =
             |c: &collisions::Collided<'_>| measured.difference(&c.outcome, c.chosen.exponent());
         collided.iter().map(of).collect()
     });
-    if let Some(path) = &arguments.csv {
+    let any = !collided.is_empty();
+    if let Some(path) = arguments.csv.as_ref().filter(|_| any) {
         curves::write_csv(path, &collided, setting)?;
     }
-    if let Some(path) = &arguments.svg {
+    if let Some(path) = arguments.svg.as_ref().filter(|_| any) {
         curves::write_svg((path, &arguments.figure), &collided, history.as_ref())?;
     }
     if arguments.json {
@@ -71,7 +69,11 @@ fn collisions(
             measured,
             failed: &failed,
         };
-        print(&pretty(&Models::new(models, shared, setting))?)?;
+        let shown = Models::new(models, shared, setting, chosen.len() > 1);
+        print(&pretty(&shown)?)?;
+        return collisions::told(&failed);
+    }
+    if !any {
         return collisions::told(&failed);
     }
     let mut text = collisions::text(&collided, setting);
@@ -117,11 +119,12 @@ struct OfModel<'s, R> {
 }
 
 impl<'s, R, S> Models<'s, R, S> {
-    /// Models with their results, and what they share.
+    /// Models with their results, and what they share: a list, where `several` were asked for.
     fn new(
         models: impl IntoIterator<Item = (&'s Specimen, R)>,
         shared: S,
         setting: &Setting,
+        several: bool,
     ) -> Self {
         let models: Vec<_> = models.into_iter().collect();
         let warnings = remarks::warnings(models.iter().map(|(specimen, _)| *specimen), setting);
@@ -131,7 +134,7 @@ impl<'s, R, S> Models<'s, R, S> {
         });
         let mut models: Vec<_> = models.collect();
         let results = match models.pop() {
-            Some(only) if models.is_empty() => OneOrSeveral::One(only),
+            Some(only) if !several => OneOrSeveral::One(only),
             last => {
                 models.extend(last);
                 OneOrSeveral::Several { models }

@@ -63,7 +63,12 @@ pub fn table(
             left_out: left_out.collect(),
         };
         let models = tables.iter().map(|one| (one.chosen, &one.table));
-        return print(&pretty(&Models::new(models, left_out, setting))?);
+        return print(&pretty(&Models::new(
+            models,
+            left_out,
+            setting,
+            tables.len() > 1,
+        ))?);
     }
     let mut text = format!("{}\n", setting.description);
     text.push_str(&match tables.as_slice() {

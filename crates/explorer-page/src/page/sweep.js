@@ -248,8 +248,10 @@ const sweepOf = (state, background, dashes, actions) => {
         const calibrated = await background.ask({ do: "calibrate", changes: state.changes(), gap, model });
         if (told(calibrated)) return;
         keys = calibrated.keys;
-        calibrations.push(html("p", { class: "note" }, html("code", {}, model), `: ${calibrated.notes.join("; ")}`));
-        part("calibrations").replaceChildren(...calibrations);
+        if (calibrated.notes.length) {
+          calibrations.push(html("p", { class: "note" }, html("code", {}, model), `: ${calibrated.notes.join("; ")}`));
+          part("calibrations").replaceChildren(...calibrations);
+        }
       }
       const changes = state.changesOfSweep(gap, keys);
       const places = order(all.length);

@@ -523,3 +523,178 @@ fn decimals_of_cwa_that_are_lost() {
         );
     }
 }
+
+/// Numbers about zero, of which most are small, the same ones each time.
+fn noise(count: usize) -> impl Iterator<Item = f64> {
+    let mut state = 12_345_u64;
+    let mut uniform = move || {
+        state = state.wrapping_mul(6_364_136_223_846_793_005);
+        state = state.wrapping_add(1_442_695_040_888_963_407);
+        (state >> 11) as f64 / (1_u64 << 53) as f64 - 0.5
+    };
+    (0..count).map(move |_| (0..6).map(|_| uniform()).sum())
+}
+
+/// A number as `%g` and the like print it with so many significant digits, or in decimals.
+fn trimmed(x: f64, digits: i32) -> String {
+    let decimals = digits - 1 - x.abs().log10().floor() as i32;
+    let text = format!("{x:.*}", decimals.max(0) as usize);
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+fn in_decimals(x: f64) -> String {
+    let text = format!("{x:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+/// Large values of `%.5g`, `%g` and `%.3g` in much smaller ones are whole as they have all digits.
+#[test]
+fn whole_numbers_with_all_digits() {
+    for (digits, peak, quiet) in [(3, 300.0, 0.3), (5, 60_000.0, 30.0), (6, 400_000.0, 80.0)] {
+        let value = |(i, x): (usize, f64)| {
+            let late = i.saturating_sub(2000) as f64;
+            let burst = late / 8.0 * f64::exp(1.0 - late / 8.0) * f64::sin(0.9 * late);
+            trimmed(peak * burst + quiet * x + 0.01, digits)
+        };
+        let values: Vec<String> = noise(6000).enumerate().map(value).collect();
+        let whole = values.iter().filter(|text| !text.contains('.')).count();
+        assert!((10..60).contains(&whole), "{whole}");
+        reads(&values);
+    }
+}
+
+/// Pulses and impulses that are whole, by writers that leave out zeros at the end.
+#[test]
+fn whole_numbers_of_pulses() {
+    let half = vec!["0.5".to_owned(); 300];
+    reads(&[half.clone(), vec!["1".to_owned()], half].concat());
+    for count in [60, 150, 250, 1000] {
+        for text in ["1", "30", "800"] {
+            let mut values: Vec<String> = noise(count).map(|x| trimmed(0.01 * x, 6)).collect();
+            values[count / 2] = text.to_owned();
+            reads(&values);
+            let mut values: Vec<String> = noise(count).map(|x| in_decimals(0.01 * x)).collect();
+            values[count / 2] = text.to_owned();
+            values.push("0.25".to_owned());
+            reads(&values);
+        }
+    }
+    // Two large ones beside one another, with all digits.
+    let mut values: Vec<String> = noise(250).map(|x| trimmed(8.0 * x, 4)).collect();
+    (values[100], values[101]) = ("1452".to_owned(), "-649".to_owned());
+    reads(&values);
+    // Whole numbers that a lost point may have made.
+    let mut values: Vec<String> = noise(1000).map(|x| trimmed(x, 6)).collect();
+    values[500] = "1498".to_owned();
+    let said = read("plain_columns", &values).unwrap_err();
+    assert!(said.contains("\"1498\" has no decimal point"), "{said}");
+}
+
+/// Quiet ground in few units of the last decimal has no zeros that could be left out.
+#[test]
+fn decimals_of_quiet_ground() {
+    for (unit, loud) in [(0.001, "369.56"), (0.002, "-12.4")] {
+        let value = |x: f64| in_decimals((1.5 * x).round() * unit);
+        let mut values: Vec<String> = noise(1000).map(value).collect();
+        values[500] = loud.to_owned();
+        reads(&values);
+    }
+    // A burst of 60 values, of which a tenth has fewer decimals, in 5,900 of some units.
+    let value = |(i, x): (usize, f64)| {
+        let burst = if (3000..3060).contains(&i) { 20.0 } else { 0.0 };
+        in_decimals(0.002 * x + burst * f64::sin(0.3 * i as f64))
+    };
+    let values: Vec<String> = noise(5900).enumerate().map(value).collect();
+    let has_fewer = |text: &&String| {
+        text.split_once('.')
+            .is_some_and(|(_, decimals)| decimals.len() < 3)
+    };
+    let fewer = values.iter().filter(has_fewer).count();
+    assert!((2..7).contains(&fewer), "{fewer}");
+    reads(&values);
+    // With zeros at the end one with fewer decimals is damaged as before.
+    let mut values: Vec<String> = noise(1000).map(|x| format!("{:.3}", 0.02 * x)).collect();
+    values[500] = "0.03".to_owned();
+    let said = read("plain_columns", &values).unwrap_err();
+    assert!(said.contains("\"0.03\" lacks a digit"), "{said}");
+}
+
+/// Numbers of as many digits, or as many characters, have a decimal less from 10 on.
+#[test]
+fn decimals_of_constant_digits() {
+    let value = |i: usize| 5.4 + 4.4 * f64::sin(0.07 * i as f64);
+    for (usual, fewer, large) in [(8, 7, 10.005_382_9), (5, 4, 10.5), (6, 5, 10.5)] {
+        let mut values: Vec<String> = (0..COUNT)
+            .map(|i| format!("{:.usual$}", value(i)))
+            .collect();
+        values[23] = format!("{large:.fewer$}");
+        reads(&values);
+        // Not with fewer digits, or where it is much larger than the others.
+        for odd in [&values[23][1..], &values[23].replace("10.", "70.")] {
+            let mut values = values.clone();
+            values[23] = odd.to_owned();
+            let said = read("plain_columns", &values).unwrap_err();
+            assert!(said.contains(&format!("\"{odd}\" lacks a digit")), "{said}");
+        }
+    }
+}
+
+/// A point that moved by a place in a small number, which is less than twice the largest of the others.
+#[test]
+fn points_of_small_numbers_that_moved() {
+    let value = |i: usize| format!("{:.5}", 0.9 * f64::sin(0.07 * i as f64 + 0.1));
+    let mut values: Vec<String> = (0..COUNT).map(value).collect();
+    values[95] = "01.4311".to_owned();
+    let said = read("pounding_csv", &values).unwrap_err();
+    assert!(said.contains("\"01.4311\" lacks a digit"), "{said}");
+}
+
+/// Exponents of two digits without a zero do not tell whether one of a single digit is right, but its size does.
+#[test]
+fn exponents_without_zeros_that_are_lost() {
+    let value = |i: usize| {
+        let x = 4.0 * f64::sin(0.07 * i as f64 + 0.1);
+        format!("{:.6}E-10", x + 1.1_f64.copysign(x))
+    };
+    let values: Vec<String> = (0..COUNT).map(value).collect();
+    reads(&values);
+    let told = "lacks a digit or the sign of its exponent";
+    refuses(
+        &values,
+        |text| Some(of_value(text)?.replace("E-10", "E-1")),
+        told,
+    );
+    refuses(
+        &values,
+        |text| Some(of_value(text)?.replace("E-10", "E10")),
+        told,
+    );
+    // One that is about as large as the others.
+    let mut values = values;
+    values[200] = "1.000001E-9".to_owned();
+    reads(&values);
+}
+
+/// List-directed output of gfortran has exponents below a tenth alone, and nine digits.
+#[test]
+fn values_of_list_directed_output() {
+    let mut values: Vec<String> = (0..COUNT).map(|i| of_c(1.9 * sample(i))).collect();
+    for value in &mut values {
+        let (mantissa, exponent) = value.split_once('E').unwrap();
+        *value = format!("{mantissa}7E{exponent}");
+    }
+    values[21] = "0.100037411".to_owned();
+    reads(&values);
+    values[22] = "-0.100437462".to_owned();
+    reads(&values);
+    // Beside them the mantissa of another is none.
+    values[22] = values[23].split_once('E').unwrap().0.to_owned();
+    let said = read("plain_columns", &values).unwrap_err();
+    assert!(
+        said.contains(&format!("\"{}\" has no exponent", values[22])),
+        "{said}"
+    );
+}

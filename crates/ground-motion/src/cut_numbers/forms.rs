@@ -2,7 +2,7 @@
 //! of the others by a loss of characters, is damaged. Zeros count for nothing, as many writers print
 //! them shorter.
 
-use super::tally::{Place, Tally};
+use super::tally::{Kind, Place, Tally};
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
 use crate::number;
@@ -15,12 +15,15 @@ const MANY: usize = 20;
 const MANY_DECIMALS: usize = 200;
 /// Values with a decimal point among which one without it is damaged.
 const MANY_POINTS: usize = 50;
-/// Values whose exponents have a zero before their digit, which show that all have as many digits.
+/// Values whose exponents have a zero before their digit, which show that all have as many digits, and
+/// values that end in a zero, which show that none is left out.
 const LIKE_IT: usize = 2;
 /// Magnitude by way of which values reach exponents of three digits.
 const NEARLY_TINY: f64 = 1.0e-60;
 /// Times the largest of the others from which on a value is of another size.
 const OF_ANOTHER_SIZE: f64 = 10.0;
+/// Times the largest of the others from which on a value is no part of any motion with them.
+const OF_NO_MOTION: f64 = 1.0e6;
 /// Times the largest of the others, and the largest step between them, from which on a whole number does
 /// not follow its neighbours where a writer leaves out zeros at the end.
 const FAR: f64 = 2.0;
@@ -138,6 +141,8 @@ pub(crate) struct Forms {
     wholes: Wholes,
     /// Numbers without a point that a zero leads, `0454`, and the first of them.
     led_by_zero: Odd,
+    /// Whether numbers without an exponent begin with the point, `.0454`.
+    begin_with_point: bool,
     /// Mantissas without a point of more than one digit, `79E-03`.
     long_wholes: Odd,
     /// Whether the layout gives decimals to numbers without a point.
@@ -152,6 +157,8 @@ pub(crate) struct Forms {
 struct Wholes {
     count: usize,
     before: Option<(f64, bool)>,
+    /// Sizes of the two largest.
+    largest: [f64; 2],
     /// Largest difference between neighbours, of which one is such a number, and of which none is.
     far: f64,
     usual: f64,
@@ -160,6 +167,11 @@ struct Wholes {
 impl Wholes {
     fn see(&mut self, value: f64, is_whole: bool) {
         self.count += usize::from(is_whole);
+        if is_whole {
+            let [first, second] = self.largest;
+            let size = value.abs();
+            self.largest = [first.max(size), second.max(size.min(first))];
+        }
         if let Some((before, was_whole)) = self.before.replace((value, is_whole)) {
             let step = (value - before).abs();
             let largest = match is_whole || was_whole {
@@ -189,15 +201,51 @@ fn are_few(odd: usize, all: usize) -> bool {
     odd <= all / 1000 + 1
 }
 
+/// Whether a zero stands before the digits of a whole part, `01.43`, as no writer prints it.
+fn is_led_by_zero(field: &[u8]) -> bool {
+    let digits = field.strip_prefix(b"-").or(field.strip_prefix(b"+"));
+    matches!(digits.unwrap_or(field), [b'0', b'0'..=b'9', ..])
+}
+
+/// Whether zeros at the end are printed, of which a tenth of the values has one.
+fn keeps_zeros(usual: &Kind<Option<usize>>) -> bool {
+    usual.end_in_zero >= LIKE_IT
+}
+
 /// The first value with fewer decimals than nearly all others, of so many that no writer leaves out zeros,
 /// and the decimals of the others.
-fn lacks_decimals(tally: &Tally<Option<usize>>) -> Option<(&Place, usize)> {
-    let usual = tally.usual()?.key?;
+fn lacks_decimals<'t>(
+    tally: &'t Tally<Option<usize>>,
+    have_exponents: bool,
+) -> Option<(&'t Place, usize)> {
+    let most = tally.usual()?;
+    let usual = most.key?;
     let fewer = |decimals: Option<usize>| decimals.is_some_and(|decimals| decimals < usual);
-    let others = tally.count - tally.number(|decimals| decimals == Some(usual) || fewer(decimals));
+    let odd = tally.number(fewer);
+    let others = tally.count - most.count - odd;
     let few = |number| are_few(number, tally.count);
-    let lost = tally.count > MANY_DECIMALS && few(tally.number(fewer)) && few(others);
-    Some((tally.first(fewer).filter(|_| lost)?, usual))
+    if tally.count <= MANY_DECIMALS || !few(odd) || !few(others) {
+        return None;
+    }
+    // Values of less than ten units of the last decimal, as of quiet ground, have no zeros to leave out.
+    let with_zeros = most.of_two_digits + odd;
+    let shows = with_zeros >= MANY_DECIMALS && are_few(odd, with_zeros);
+    if !keeps_zeros(most) && !shows {
+        return None;
+    }
+    // Where digits or characters are as many in all, a value with a digit more before the point has one
+    // less behind it. With an exponent it has not, and a point that moved changes the value as much.
+    let lost = |kind: &'t Kind<Option<usize>>| {
+        let is_large = kind.largest.value.abs() > FAR * most.largest.value.abs();
+        let is_short = kind.shortest.digits < most.most_digits;
+        match is_short || is_led_by_zero(kind.shortest.field()) {
+            _ if have_exponents => Some(&kind.first),
+            true => Some(&kind.shortest),
+            false => is_large.then_some(&kind.largest),
+        }
+    };
+    let mut odd = tally.kinds().filter(|kind| fewer(kind.key));
+    Some((odd.find_map(lost)?, usual))
 }
 
 impl Forms {
@@ -222,24 +270,26 @@ impl Forms {
         if value == 0.0 {
             return;
         }
-        let place = Place::new(line, column, value, field);
+        let digits = parts.significant_digits();
+        let ends_in_zero = parts.mantissa.ends_with(b"0");
+        let place = Place::new(line, column, value, digits, ends_in_zero, field);
         self.exponents.see(parts.exponent, place);
         let Some(exponent) = parts.exponent else {
             self.without.see(parts.decimals, place);
+            self.begin_with_point |= parts.first_digit() == Some(b'.');
             if is_whole && parts.first_digit() == Some(b'0') {
                 self.led_by_zero.see(place);
             }
             return;
         };
         self.with.see(parts.decimals, place);
-        if parts.decimals.is_none() && parts.significant_digits() > 1 {
+        if parts.decimals.is_none() && digits > 1 {
             self.long_wholes.see(place);
         }
         let size = value.abs();
         self.of_tenths |= (BELOW_G..LARGE).contains(&size);
         self.of_ten_thousandths |= (BELOW_PERCENT_G..LARGE).contains(&size);
-        self.ends_in_zero |=
-            parts.decimals.is_some_and(|n| n > 0) && parts.mantissa.ends_with(b"0");
+        self.ends_in_zero |= parts.decimals.is_some_and(|n| n > 0) && ends_in_zero;
         let is_of_one = exponent.digits > 1 && field.ends_with(b"00");
         let leads = parts.first_digit();
         self.is_always |= is_of_one || leads.is_some_and(|b| (b'1'..=b'9').contains(&b));
@@ -267,8 +317,19 @@ impl Forms {
         };
         let all = self.with.count;
         let odd = self.exponents.number(short) + self.exponents.number(unsigned);
-        if all <= MANY || odd > all / 100 + 1 || self.exponents.number(padded) < LIKE_IT {
+        if all <= MANY || odd > all / 100 + 1 {
             return None;
+        }
+        if self.exponents.number(padded) < LIKE_IT {
+            // Exponents may be as short as they can be: then one value alone has no place in the motion.
+            let like = |e: Option<Exponent>| e.is_some_and(|e| e.digits == usual.digits);
+            let is_odd = |e| short(e) || unsigned(e);
+            let alike = self.exponents.number(|e| like(e) && !is_odd(e));
+            let mut others = self.exponents.kinds().filter(|kind| !is_odd(kind.key));
+            let lost = self.exponents.first(is_odd)?;
+            let is_large =
+                others.all(|kind| lost.value.abs() > OF_NO_MOTION * kind.largest.value.abs());
+            return Some(lost).filter(|_| odd == 1 && alike + 1 == all && is_large);
         }
         // Some programs print no plus.
         let is_lost = |at: &&Place| {
@@ -324,8 +385,18 @@ impl Forms {
     fn lacks_exponent(&self) -> Option<&Place> {
         let (with, without) = (self.with.count, self.without.count);
         let few = with + without > MANY && without <= with / 100 + 1;
-        let bare = self.exponents.first(|e| e.is_none()).filter(|_| few)?;
         let usual = self.with.usual()?;
+        // Values from a tenth to 1 with a decimal more than the mantissas, and as many digits: no mantissa of
+        // these lost its exponent, and list-directed output of Fortran prints such values so.
+        let most_digits = self.with.kinds().map(|kind| kind.most_digits).max();
+        let is_of_list = |kind: &&Kind<Option<usize>>| {
+            kind.key > usual.key
+                && kind.key == Some(kind.shortest.digits)
+                && Some(kind.shortest.digits) >= most_digits
+                && kind.largest.value.abs() < 1.0
+        };
+        let mut others = self.without.kinds().filter(|kind| !is_of_list(kind));
+        let bare = others.next().map(|kind| &kind.first).filter(|_| few)?;
         let is_constant = are_few(with - usual.count, with);
         // Of a writer that has whole numbers without a point; one that was cut off is far from its neighbours.
         let all_whole = self.wholes.count >= without && is_constant;
@@ -355,7 +426,8 @@ impl Forms {
     /// Writers that leave out zeros at the end print whole numbers without one, which are about as large as others.
     fn lacks_point(&self) -> Option<(&Place, usize)> {
         let is_pointed = |decimals: Option<usize>| decimals.is_some();
-        let usual = self.without.usual()?.key.filter(|usual| *usual > 0)?;
+        let most = self.without.usual()?;
+        let usual = most.key.filter(|usual| *usual > 0)?;
         let pointed = self.without.number(is_pointed);
         if pointed < MANY_POINTS || self.implies_points {
             return None;
@@ -364,16 +436,35 @@ impl Forms {
             return Some((first, usual));
         }
         let wholes = self.without.kinds().find(|kind| !is_pointed(kind.key))?;
-        let is_fixed = self.has_constant_decimals() && are_few(wholes.count, pointed);
+        let has_zeros = keeps_zeros(most);
+        let is_fixed = has_zeros && self.has_constant_decimals() && are_few(wholes.count, pointed);
         if is_fixed && (pointed > MANY_DECIMALS || !self.wholes.follow()) {
             return Some((&wholes.first, usual));
         }
-        let others = self.without.kinds().filter(|kind| is_pointed(kind.key));
-        let largest = others.fold(0.0_f64, |most, kind| most.max(kind.largest.value.abs()));
+        let others = || self.without.kinds().filter(|kind| is_pointed(kind.key));
+        let largest = others().fold(0.0_f64, |most, kind| most.max(kind.largest.value.abs()));
+        let most_digits = others().map(|kind| kind.most_digits).max().unwrap_or(0);
+        let at = &wholes.largest;
+        let size = at.value.abs();
         let is_far = wholes.count <= pointed / 100 + 1
-            && wholes.largest.value.abs() > FAR * largest
+            && size > FAR * largest
             && self.wholes.far > FAR * self.wholes.usual;
-        is_far.then_some((&wholes.largest, usual))
+        // A number as long as the others have digits is what `%.5g` prints of large values, next to which there
+        // are other large ones, with one decimal or without.
+        let is_alone = self.wholes.largest[1] <= FAR * largest;
+        let is_of_size = at.digits < most_digits || is_alone && size > OF_ANOTHER_SIZE * largest;
+        (is_far && is_of_size && self.may_have_had_point(at, has_zeros, largest))
+            .then_some((at, usual))
+    }
+
+    /// Whether a whole number may be one of the others without its point, by its digits: with the point behind the
+    /// first one, or before it, it is about as large as they are, and it ends in no zero where none is printed.
+    fn may_have_had_point(&self, at: &Place, has_zeros: bool, largest: f64) -> bool {
+        let behind = at
+            .digits
+            .saturating_sub(usize::from(!self.begin_with_point));
+        let least = at.value.abs() / 10.0_f64.powi(behind as i32);
+        behind > 0 && (has_zeros || !at.ends_in_zero) && least <= FAR * largest
     }
 
     /// The first value with an exponent among many others without one that no writer prints with it, and the decimals
@@ -458,8 +549,8 @@ impl Forms {
             );
             return refused(at, message, &or_as_others(at, decimals));
         }
-        for tally in [&self.with, &self.without] {
-            if let Some((at, usual)) = lacks_decimals(tally) {
+        for (tally, have_exponents) in [(&self.with, true), (&self.without, false)] {
+            if let Some((at, usual)) = lacks_decimals(tally, have_exponents) {
                 let message = format!(
                     "\"{}\" lacks a digit: the other values have {usual} decimals",
                     at.shown()

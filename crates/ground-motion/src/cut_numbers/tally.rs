@@ -14,12 +14,23 @@ pub(super) struct Place {
     /// From 0.
     pub column: usize,
     pub value: f64,
+    /// Significant digits of the mantissa.
+    pub digits: usize,
+    /// Whether a zero ends the mantissa.
+    pub ends_in_zero: bool,
     field: [u8; KEPT],
     length: usize,
 }
 
 impl Place {
-    pub(super) fn new(line: usize, column: usize, value: f64, bytes: &[u8]) -> Self {
+    pub(super) fn new(
+        line: usize,
+        column: usize,
+        value: f64,
+        digits: usize,
+        ends_in_zero: bool,
+        bytes: &[u8],
+    ) -> Self {
         let mut field = [0; KEPT];
         let length = bytes.len().min(KEPT);
         field[..length].copy_from_slice(&bytes[..length]);
@@ -27,6 +38,8 @@ impl Place {
             line,
             column,
             value,
+            digits,
+            ends_in_zero,
             field,
             length,
         }
@@ -48,6 +61,40 @@ pub(super) struct Kind<K> {
     pub count: usize,
     pub first: Place,
     pub largest: Place,
+    /// The first one with the fewest significant digits, and how many digits others have at most.
+    pub shortest: Place,
+    pub most_digits: usize,
+    /// Values with two significant digits and more, and values whose mantissa ends in a zero.
+    pub of_two_digits: usize,
+    pub end_in_zero: usize,
+}
+
+impl<K> Kind<K> {
+    fn of(key: K, place: Place) -> Self {
+        Self {
+            key,
+            count: 0,
+            first: place,
+            largest: place,
+            shortest: place,
+            most_digits: 0,
+            of_two_digits: 0,
+            end_in_zero: 0,
+        }
+    }
+
+    fn see(&mut self, place: Place) {
+        self.count += 1;
+        if place.value.abs() > self.largest.value.abs() {
+            self.largest = place;
+        }
+        if place.digits < self.shortest.digits {
+            self.shortest = place;
+        }
+        self.most_digits = self.most_digits.max(place.digits);
+        self.of_two_digits += usize::from(place.digits >= 2);
+        self.end_in_zero += usize::from(place.ends_in_zero);
+    }
 }
 
 /// Values by their kind.
@@ -69,18 +116,13 @@ impl<K> Default for Tally<K> {
 impl<K: Copy + PartialEq> Tally<K> {
     pub(super) fn see(&mut self, key: K, place: Place) {
         self.count += 1;
-        if let Some(kind) = self.kinds.iter_mut().find(|kind| kind.key == key) {
-            kind.count += 1;
-            if place.value.abs() > kind.largest.value.abs() {
-                kind.largest = place;
-            }
-        } else if self.kinds.len() < KINDS {
-            self.kinds.push(Kind {
-                key,
-                count: 1,
-                first: place,
-                largest: place,
-            });
+        let known = self.kinds.iter().position(|kind| kind.key == key);
+        if known.is_none() && self.kinds.len() < KINDS {
+            self.kinds.push(Kind::of(key, place));
+        }
+        let at = known.unwrap_or(self.kinds.len() - 1);
+        if let Some(kind) = self.kinds.get_mut(at).filter(|kind| kind.key == key) {
+            kind.see(place);
         }
     }
 

@@ -443,3 +443,30 @@ fn a_slow_reference_is_warned_of() {
         assert_eq!(free > 0.7, warned, "{free}");
     }
 }
+
+/// Beside a law without loss, whose collision returns 1 but for round-off, all models are asked for a restitution of 1, which
+/// leaves the motion of an elastic contact.
+#[test]
+fn models_beside_a_law_without_loss() {
+    let file = root().join("examples/three_storey_pair/case.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let law = "model = \"kuwabara_kono_1987\"\nstiffness = \"2.75e9 N/m^1.5\"\ndissipation_time = 0.0\n\n[ground_motion]";
+    let (before, after) = text.split_once("model = \"jankowski_2005\"").unwrap();
+    let after = after.split_once("[ground_motion]").unwrap().1;
+    let text = format!("{before}{law}{after}").replace("31 s", "6 s");
+    let case = Case::parse(&text, &file).unwrap();
+    let models = ["hertz_1882", "jankowski_2005", "exact_hunt_crossley"];
+    let found = compared(&case, &options(&models));
+    for model in &found.models {
+        assert!(
+            model.calibrated.is_ok(),
+            "{:?}",
+            model.calibrated.as_ref().err()
+        );
+    }
+    let force = |model| value(&found, model, QuantityKind::PeakForce, "light-heavy");
+    for model in &models[1..] {
+        let ratio = force(model) / force("hertz_1882");
+        assert!((ratio - 1.0).abs() < 1e-6, "{model}: {ratio}");
+    }
+}

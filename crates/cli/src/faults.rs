@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};
-use pounding_case::Case;
+use pounding_case::{Analysis, Case};
 use pounding_files::FileUse;
 use pounding_results::check_size;
 use pounding_study::faults;
@@ -19,16 +19,13 @@ pub fn read_case(path: &Path, own_record: bool) -> Result<Case, Failure> {
     faults::read_case(path, own_record).map_err(|e| Failure::case(*e.error, &e.source_text))
 }
 
-/// Step of the output (s) where a case gives none.
-const USUAL_STEP: f64 = 0.01;
-
 /// Refuses a grid of output times that no disk has room for.
 pub fn responses_fit(assembly: &Assembly, case: &Case) -> Result<(), Failure> {
     let duration = assembly.options.duration;
     check_size(&assembly.system, duration, assembly.output_step).map_err(|e| {
         // The one that is further from what is usual.
         let long = e.duration / assembly.system.record_duration().max(1.0);
-        let keys = match long > USUAL_STEP / assembly.output_step {
+        let keys = match long > Analysis::OUTPUT_STEP / assembly.output_step {
             true => ["duration", "output_step"],
             false => ["output_step", "duration"],
         };

@@ -1088,3 +1088,46 @@ fn messages_say_what_stands_there() {
     let every = told(CASE, &["status", "shards", "--watch", "--every", "1e300 s"]);
     assert!(every.contains("--every: \"1e300 s\" is no time"), "{every}");
 }
+
+/// What is far out of range is pointed at itself, not at the name of its building or at the file alone.
+#[test]
+fn values_out_of_range_are_pointed_at() {
+    for (from, to, place, said) in [
+        ("\"25 t\"", "\"1e300 kg\"", "case.toml:6:8", "mass = 1e300"),
+        (
+            "\"3.46 MN/m\"",
+            "\"1e-300 N/m\"",
+            "case.toml:7:13",
+            "stiffness = 1e-300",
+        ),
+        (
+            "height = \"3 m\"",
+            "height = \"1e300 m\"",
+            "case.toml:8:10",
+            "height = 1e300",
+        ),
+        (
+            "\"93.5 MN/m\"",
+            "\"1e300 N/m\"",
+            "case.toml:20:9",
+            "stops a floor",
+        ),
+        ("\"2 s\"", "\"1e300 s\"", "case.toml:26:12", "steps over"),
+        (
+            "\"2 s\"",
+            "\"1e8 s\"\noutput_step = \"0.01 s\"",
+            "case.toml:26:12",
+            "100 GB are the most",
+        ),
+        (
+            "\"2 s\"",
+            "\"2 s\"\noutput_step = \"1e-300 s\"",
+            "case.toml:27:15",
+            "100 GB are the most",
+        ),
+    ] {
+        let case = CASE.replacen(from, to, 1);
+        assert_ne!(case, CASE, "{from}");
+        refused(&case, &record(), &[place, said]);
+    }
+}

@@ -45,7 +45,7 @@ impl From<Table<AnalysisTable>> for Analysis {
                 span: 0..0,
             }),
             duration: value.duration.number(),
-            output_step: value.output_step.number().unwrap_or(0.01),
+            output_step: value.output_step.number().unwrap_or(Self::OUTPUT_STEP),
             step: match value.step.is_wrong() {
                 true => Some(STEP),
                 false => value.step.number(),

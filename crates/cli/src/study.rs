@@ -469,6 +469,7 @@ impl From<StudyError> for Failure {
             e @ (StudyError::Evaluation { .. } | StudyError::NoDemand { .. }) => {
                 Self::computation(e.to_string(), help)
             }
+            e if e.is_short_of_files() => Self::computation(e.to_string(), help),
             e @ StudyError::Interrupted { .. } => Self::interrupted(e.to_string(), help),
             e => Self::input(e.to_string(), help),
         }

@@ -162,6 +162,7 @@ def test_pictures_are_drawn() -> None:
         lambda: plot.displacements(result, storey=9),
         lambda: plot.forces(result, "nowhere"),
         lambda: plot.forces(rigid),
+        *(lambda draw=draw: draw(None) for draw in (plot.displacements, plot.opening, plot.forces, plot.energy)),
         lambda: plot.spectra(5),
         lambda: plot.spectra([5]),
     ):

@@ -225,12 +225,6 @@ pub enum StudyError {
     },
 }
 
-/// Whether the system allows this process, or all of them, no more open files.
-fn is_short_of_files(error: &std::io::Error) -> bool {
-    // `EMFILE` and `ENFILE`, which Windows has not.
-    cfg!(unix) && matches!(error.raw_os_error(), Some(24 | 23))
-}
-
 /// So many records of all.
 fn unread(count: usize, of: usize) -> String {
     match of {
@@ -257,6 +251,18 @@ impl StudyError {
         }
     }
 
+    /// Whether the system allows this process, or all of them, no more open files: no fault of the
+    /// input.
+    #[must_use]
+    pub fn is_short_of_files(&self) -> bool {
+        // `EMFILE` and `ENFILE`, which Windows has not.
+        let short = |error: &std::io::Error| matches!(error.raw_os_error(), Some(24 | 23));
+        let (Self::File { source, .. } | Self::Store { source, .. }) = self else {
+            return false;
+        };
+        cfg!(unix) && short(source)
+    }
+
     /// What to try.
     #[must_use]
     pub fn help(&self) -> Option<String> {
@@ -269,7 +275,7 @@ impl StudyError {
             Self::Records { .. } => {
                 "correct the paths or the files; with --keep-going their runs are recorded as failed and all others are computed"
             }
-            Self::File { source, .. } if is_short_of_files(source) => {
+            Self::File { .. } | Self::Store { .. } if self.is_short_of_files() => {
                 "allow more open files (`ulimit -n`), or name no table beside the result; runs that have finished are stored, and --resume goes on with them"
             }
             Self::File { .. } => {

@@ -3,7 +3,9 @@
 use pounding_gap_element::published::restitution::REFERENCES;
 use pounding_gap_element::registry;
 
-use super::{close, equal, has, json, text, text_in};
+use serde_json::Value;
+
+use super::{close, equal, example, has, json, run_in, text, text_in};
 
 const JANKOWSKI: [f64; 10] = [
     0.0933241, 0.1914793, 0.2917464, 0.3929765, 0.4945878, 0.5962485, 0.6977491, 0.7989438,
@@ -26,6 +28,25 @@ fn the_detailed_table_of_one_model() {
     for (row, achieved) in result["rows"].as_array().unwrap().iter().zip(JANKOWSKI) {
         close(&row["achieved"], achieved, 1e-6);
     }
+}
+
+/// A model whose collisions do not end keeps no table of the others back.
+#[test]
+fn the_others_are_tabulated_where_one_does_not_end() {
+    let arguments = "lapshin_yurin_2016|jankowski_2005|--example|--table|--velocity|1e8 m/s";
+    let output = run_in(&example(), &format!("{arguments}|--json"));
+    assert_eq!(output.status.code(), Some(3));
+    let found: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let models = found["models"].as_array().unwrap();
+    assert_eq!(models.len(), 1, "{found}");
+    close(&models[0]["rows"][5]["achieved"], JANKOWSKI[5], 1e-6);
+    assert_eq!(found["failed"][0]["model"], "lapshin_yurin_2016");
+    let output = run_in(&example(), arguments);
+    assert_eq!(output.status.code(), Some(3));
+    let shown = String::from_utf8(output.stdout).unwrap();
+    has(&shown, &["0.5962485"]);
+    let said = String::from_utf8(output.stderr).unwrap();
+    has(&said, &["lapshin_yurin_2016: the collision did not end within"]);
 }
 
 /// Reference tables of all models that take the parameters of their examples.
@@ -103,7 +124,7 @@ fn bodies_that_stay_in_contact_have_no_contact_time() {
     let folder = tempfile::tempdir().unwrap();
     let call = "ye_li_2009|--example|--table|--drop|--velocity|1";
     let result = json(call);
-    let staying = |row: &serde_json::Value| row["stays_in_contact"] == true;
+    let staying = |row: &Value| row["stays_in_contact"] == true;
     let rows = result["rows"].as_array().unwrap();
     assert!(staying(&rows[0]) && !staying(&rows[9]));
     for row in rows {

@@ -40,6 +40,41 @@ fn more_shards_than_open_files_are_merged() {
     assert!(bench.bytes("merged.csv") == bench.bytes("whole.csv"));
 }
 
+/// A sweep that may open too few files is no fault of the study: it says what is short, and with more
+/// it goes on to the same bytes.
+#[test]
+fn a_lack_of_open_files_is_named_as_such() {
+    let bench = Bench::new(MIXED);
+    bench.text("sweep study.toml -o whole.h5 --csv whole.csv");
+    let mut short = 0;
+    for limit in 6..=20 {
+        let script = format!(
+            "ulimit -n {limit}; exec {} sweep study.toml -o few.h5 --csv few.csv --threads 1 --resume",
+            env!("CARGO_BIN_EXE_pounding")
+        );
+        let output = Command::new("bash")
+            .args(["-c", &script])
+            .env("NO_COLOR", "1")
+            .current_dir(bench.folder.path())
+            .output()
+            .unwrap();
+        let told = String::from_utf8_lossy(&output.stderr);
+        if output.status.success() {
+            continue;
+        }
+        // With fewer still not even the study can be read.
+        assert!(told.contains("open files"), "{told}");
+        if told.contains("finished runs") || told.contains("store runs") {
+            short += 1;
+            assert!(matches!(output.status.code(), Some(3 | 4)), "{told}");
+            assert!(told.contains("allow more open files"), "{told}");
+        }
+    }
+    assert!(short > 0);
+    assert!(bench.bytes("few.h5") == bench.bytes("whole.h5"));
+    assert!(bench.bytes("few.csv") == bench.bytes("whole.csv"));
+}
+
 /// In any tree of partial merges the result has the bytes of one call.
 #[test]
 fn partial_merges_are_merged_again() {

@@ -35,9 +35,17 @@ def _axes(axes: Axes | None) -> Axes:
     return made
 
 
+def _of_run(result: object) -> Result:
+    if isinstance(result, Result):
+        return result
+    what = f"a {type(result).__name__} is given as a result"
+    raise refused(what, "give a Result, such as `run` returns", CaseTypeError)
+
+
 def displacements(result: Result, *, storey: int | None = None, axes: Axes | None = None) -> Axes:
     """Displacements (mm) of one storey, from 1, of each building that has it over time; the roofs
     by default."""
+    result = _of_run(result)
     highest = max((b.displacement.shape[1] for b in result.buildings.values()), default=0)
     if storey is not None:
         if isinstance(storey, bool) or not hasattr(storey, "__index__"):
@@ -60,7 +68,7 @@ def displacements(result: Result, *, storey: int | None = None, axes: Axes | Non
 
 
 def _gap(result: Result, gap: str | None) -> str:
-    names = list(result.gaps)
+    names = list(_of_run(result).gaps)
     if gap is None:
         if not names:
             raise refused("the case has no gap", "draw `displacements`, or add a gap to the case")
@@ -106,8 +114,8 @@ def forces(result: Result, gap: str | None = None, *, axes: Axes | None = None) 
 
 def energy(result: Result, *, axes: Axes | None = None) -> Axes:
     """The energy ledger (kJ) over time, parts on top of one another."""
+    ledger = _of_run(result).energy / 1e3
     drawn = _axes(axes)
-    ledger = result.energy / 1e3
     parts = ["kinetic", "strain", "viscous", "hysteretic", "impact"]
     parts = [part for part in parts if np.any(ledger[part] != 0.0)]
     drawn.stackplot(ledger.index, [ledger[part] for part in parts], labels=parts, alpha=0.8)

@@ -26,31 +26,41 @@ pub struct Failed {
     reason: String,
 }
 
-/// Puts every model through the collision. Of several models those whose collision does not end keep the others from
-/// nothing.
+/// Puts every model through the collision.
 pub fn collide_all<'a>(
     chosen: &'a [Specimen],
     setting: &Setting,
 ) -> Result<(Vec<Collided<'a>>, Vec<Failed>), Failure> {
-    let (mut collided, mut failed) = (Vec::new(), Vec::new());
+    let collide =
+        |one: &Specimen| collide_with(one.build()?.as_ref(), &setting.bodies, &setting.options);
+    let (collided, failed) = of_each(chosen, collide)?;
+    let collided = collided.into_iter();
+    let collided = collided.map(|(chosen, outcome)| Collided { chosen, outcome });
+    Ok((collided.collect(), failed))
+}
+
+/// The results of models, and those of several whose collision does not end: they keep the others
+/// from nothing.
+pub fn of_each<'a, T>(
+    chosen: impl IntoIterator<Item = &'a Specimen, IntoIter: ExactSizeIterator>,
+    result: impl Fn(&Specimen) -> Result<T, GapElementError>,
+) -> Result<(Vec<(&'a Specimen, T)>, Vec<Failed>), Failure> {
+    let (mut results, mut failed) = (Vec::new(), Vec::new());
+    let chosen = chosen.into_iter();
+    let several = chosen.len() > 1;
     for one in chosen {
-        let refused = |e| refused(one, e);
-        let model = one.build().map_err(refused)?;
-        match collide_with(model.as_ref(), &setting.bodies, &setting.options) {
-            Ok(outcome) => collided.push(Collided {
-                chosen: one,
-                outcome,
-            }),
-            Err(error @ GapElementError::Unfinished { .. }) if chosen.len() > 1 => {
+        match result(one) {
+            Ok(result) => results.push((one, result)),
+            Err(error @ GapElementError::Unfinished { .. }) if several => {
                 failed.push(Failed {
                     model: one.descriptor.name,
                     reason: error.to_string(),
                 });
             }
-            Err(error) => return Err(refused(error)),
+            Err(error) => return Err(refused(one, error)),
         }
     }
-    Ok((collided, failed))
+    Ok((results, failed))
 }
 
 /// What is to be said of models whose collision does not end, behind the results of the others.

@@ -9,9 +9,9 @@ use serde::Serialize;
 
 use super::Models;
 use super::chosen;
-use super::collisions::right_aligned;
+use super::collisions::{Failed, of_each, right_aligned, told};
 use super::remarks::remarks;
-use super::setting::{Setting, refused};
+use super::setting::Setting;
 use crate::arguments::{FigureArguments, ImpactArguments};
 use crate::failure::Failure;
 use crate::output::{comma_separated, pretty, print, written};
@@ -46,14 +46,24 @@ pub fn table(
             Some("leave --table out to see what such a model returns".to_owned()),
         ));
     }
-    let tables = taking
-        .into_iter()
-        .map(|chosen| tabulate(chosen, setting))
-        .collect::<Result<Vec<_>, _>>()?;
-    if let Some(path) = &arguments.csv {
+    let tabulate = |one: &Specimen| {
+        let (bodies, options) = (&setting.bodies, &setting.options);
+        restitution_table(one.descriptor, &one.parameters, bodies, options)
+    };
+    let several = taking.len() > 1;
+    let (tables, failed) = of_each(taking, tabulate)?;
+    let tables = tables.into_iter();
+    let tables: Vec<_> = tables
+        .map(|(chosen, table)| Tabulated { chosen, table })
+        .collect();
+    let any = !tables.is_empty();
+    if !any && !arguments.json {
+        return told(&failed);
+    }
+    if let Some(path) = arguments.csv.as_ref().filter(|_| any) {
         write_csv(path, &tables, setting)?;
     }
-    if let Some(path) = &arguments.svg {
+    if let Some(path) = arguments.svg.as_ref().filter(|_| any) {
         write_svg(path, &tables, &arguments.figure)?;
     }
     if arguments.json {
@@ -61,14 +71,11 @@ pub fn table(
         let left_out = left_out.map(|(model, reason)| Reason { model, reason });
         let left_out = LeftOut {
             left_out: left_out.collect(),
+            failed: &failed,
         };
         let models = tables.iter().map(|one| (one.chosen, &one.table));
-        return print(&pretty(&Models::new(
-            models,
-            left_out,
-            setting,
-            tables.len() > 1,
-        ))?);
+        print(&pretty(&Models::new(models, left_out, setting, several))?)?;
+        return told(&failed);
     }
     let mut text = format!("{}\n", setting.description);
     text.push_str(&match tables.as_slice() {
@@ -85,18 +92,8 @@ pub fn table(
         arguments.csv.as_deref(),
         arguments.svg.as_deref(),
     ]));
-    print(&text)
-}
-
-fn tabulate<'a>(chosen: &'a Specimen, setting: &Setting) -> Result<Tabulated<'a>, Failure> {
-    let table = restitution_table(
-        chosen.descriptor,
-        &chosen.parameters,
-        &setting.bodies,
-        &setting.options,
-    )
-    .map_err(|e| refused(chosen, e))?;
-    Ok(Tabulated { chosen, table })
+    print(&text)?;
+    told(&failed)
 }
 
 fn reason(chosen: &Specimen) -> &'static str {
@@ -186,6 +183,9 @@ fn matrix(tables: &[Tabulated<'_>]) -> String {
 #[derive(Serialize)]
 struct LeftOut<'l> {
     left_out: Vec<Reason<'l>>,
+    /// Models of which there is no table.
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    failed: &'l [Failed],
 }
 
 /// Why a model is not in the table.

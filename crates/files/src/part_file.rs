@@ -412,13 +412,14 @@ fn made_beside(folder: &Path, error: &Error) -> Error {
         return Error::new(kind, text);
     }
     let text = error.to_string();
-    // The system's words, before which the name of the part file stands in the error of the crate.
-    match error.raw_os_error() {
+    // The system's words, behind which the name of the part file stands in the error of the crate; it
+    // keeps the system's number in these words alone.
+    let reason = text.split(" at path ").next().unwrap_or(&text);
+    let number = reason.rsplit_once("(os error ");
+    let number = number.and_then(|(_, rest)| rest.trim_end_matches(')').parse().ok());
+    match error.raw_os_error().or(number) {
         Some(code) => Error::from_raw_os_error(code),
-        None => {
-            let reason = text.split(" at path ").next().unwrap_or(&text);
-            Error::new(kind, reason.to_owned())
-        }
+        None => Error::new(kind, reason.to_owned()),
     }
 }
 

@@ -46,7 +46,10 @@ fn the_others_are_tabulated_where_one_does_not_end() {
     let shown = String::from_utf8(output.stdout).unwrap();
     has(&shown, &["0.5962485"]);
     let said = String::from_utf8(output.stderr).unwrap();
-    has(&said, &["lapshin_yurin_2016: the collision did not end within"]);
+    has(
+        &said,
+        &["lapshin_yurin_2016: the collision did not end within"],
+    );
 }
 
 /// Reference tables of all models that take the parameters of their examples.

@@ -384,12 +384,12 @@ const WRONG: &[(&str, usize, &str)] = &[
     (
         "scale = { psa = \"1 g\", period = 1, damping = 1 }",
         46,
-        "damping ratio 1 is not in 0..1",
+        "damping ratio 1 is not from 0 to below 1",
     ),
     (
         "scale = { target = \"a\", from = 1, to = 2, damping = \"120 %\" }",
         53,
-        "damping ratio 1.2 is not in 0..1",
+        "damping ratio 1.2 is not from 0 to below 1",
     ),
     (
         "scale = { pga = \"1 g\", damping = 0.05 }",

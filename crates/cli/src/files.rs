@@ -82,6 +82,7 @@ pub fn inputs_stay(files: &FileUse) -> Result<(), Failure> {
 pub fn inputs_stay_meanwhile(files: &FileUse) -> Result<AskedOfTargets, Failure> {
     files.check()?;
     results_have_names_of_text(files)?;
+    no_new_file_is_called_toml(files)?;
     let files = files.clone();
     Ok(ask_of_targets(move |target| {
         files.check_output(target).map_err(|e| e.to_string())
@@ -102,6 +103,27 @@ fn results_have_names_of_text(files: &FileUse) -> Result<(), Failure> {
             Some("name it in UTF-8: HDF5 opens no other".to_owned()),
         )),
     }
+}
+
+/// A result with the name of a case could not be replaced by the next one, and would be taken for a case.
+fn no_new_file_is_called_toml(files: &FileUse) -> Result<(), Failure> {
+    let mut outputs = files.outputs();
+    match outputs.find(|path| is_toml(path) && !holds_something(path)) {
+        None => Ok(()),
+        Some(path) => Err(Failure::input(
+            format!(
+                "{} has the name of a file in TOML, which no command writes",
+                path.display()
+            ),
+            Some("give it another ending, such as .h5, .json, .csv or .svg".to_owned()),
+        )),
+    }
+}
+
+/// Whether a file has the name of cases, studies and rules.
+fn is_toml(name: &Path) -> bool {
+    let ending = name.extension().unwrap_or_default();
+    ending.eq_ignore_ascii_case("toml")
 }
 
 /// Outputs of which it was said already what they take the place of, or that there is nothing to say.
@@ -284,10 +306,6 @@ fn nothing_written_by_hand_stands(path: &Path) -> Result<(), Failure> {
     if !holds_something(path) {
         return Ok(());
     }
-    let is_toml = |name: &Path| {
-        let ending = name.extension().unwrap_or_default();
-        ending.eq_ignore_ascii_case("toml")
-    };
     let what = match names_of(path).into_iter().find(|name| is_toml(name)) {
         Some(_) => "in TOML, as cases, studies and rules are".to_owned(),
         None => match text_of(path).as_deref().and_then(written_by_hand) {
@@ -648,6 +666,13 @@ impl Replaced<'_> {
 /// Results of shards that arguments name, with those in folders: files there that are called as
 /// shards are, or as results that were merged from some of them.
 pub fn shard_files(given: &[InputPath]) -> Result<Vec<PathBuf>, Failure> {
+    // One that is missing among others is a shard that is not there; where none is, the names are wrong.
+    if let (Some(first), true) = (given.first(), given.iter().all(|path| !path.exists())) {
+        return Err(Failure::input(
+            format!("{} does not exist", first.display()),
+            Some("name results of shards, or the folder that --into named".to_owned()),
+        ));
+    }
     let mut files = Vec::new();
     for path in given {
         if !path.is_dir() {

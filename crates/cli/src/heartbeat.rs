@@ -68,12 +68,22 @@ pub struct Beat {
     pub command: Vec<String>,
     /// How it ended.
     pub message: String,
+    /// When the file was written by the file system that all machines share: seconds since 1970.
+    #[serde(skip)]
+    written: Option<u64>,
 }
 
 impl Beat {
-    /// Seconds since this was written.
+    /// Seconds since this was written: by the clock of the machine that computes, and by the file
+    /// system where that clock and the file differ by more than files lag. By a clock that is ahead
+    /// a shard that has ended would seem to run, by one that is behind one that runs to have ended.
     pub fn silent(&self) -> u64 {
-        now().saturating_sub(self.updated)
+        let lags = |written: &u64| written.abs_diff(self.updated) <= SILENT.as_secs();
+        let since = match self.written {
+            Some(written) if !lags(&written) => written,
+            _ => self.updated,
+        };
+        now().saturating_sub(since)
     }
 
     /// Whether its numbers are of one shard: what a program writes that counts runs.
@@ -153,6 +163,7 @@ impl Heartbeat {
                 folder: std::env::current_dir().unwrap_or_default(),
                 command: this_command(),
                 message: String::new(),
+                written: None,
             },
         })
     }
@@ -229,7 +240,10 @@ pub fn read(folder: &Path, shard: &ShardName) -> Option<Beat> {
 fn read_at(path: &Path) -> Option<Beat> {
     let text = pounding_files::input::read(path).ok()?;
     let beat: Option<Beat> = serde_json::from_slice(&text).ok();
+    let written = path.metadata().and_then(|file| file.modified()).ok();
+    let written = written.map(seconds);
     beat.filter(Beat::can_be)
+        .map(|beat| Beat { written, ..beat })
 }
 
 /// The file in which a shard told of itself, if it is not what a shard writes.
@@ -250,9 +264,14 @@ fn path(folder: &Path, shard: &ShardName) -> PathBuf {
     folder.join(FOLDER).join(format!("{shard}.json"))
 }
 
-/// Seconds since 1970.
+/// Seconds since 1970, now.
 fn now() -> u64 {
-    let since = SystemTime::now().duration_since(UNIX_EPOCH);
+    seconds(SystemTime::now())
+}
+
+/// Seconds since 1970.
+fn seconds(time: SystemTime) -> u64 {
+    let since = time.duration_since(UNIX_EPOCH);
     since.map_or(0, |time| time.as_secs())
 }
 

@@ -26,6 +26,7 @@ mod links_and_rows;
 mod messages;
 mod model_pages;
 mod motion;
+mod needed_options;
 mod plausibility;
 mod provisions;
 mod report;

@@ -367,7 +367,8 @@ impl GroundMotionError {
             Self::NotMatched { iterations, best_at, stalled, .. } => {
                 let mut remedy = "take a record whose own spectrum is nearer the target, or narrow the band".to_owned();
                 // The later half brought nothing: nor would another one, nor any where the method ended by itself.
-                if !stalled && best_at * 2 >= *iterations {
+                // One or two say nothing of more.
+                if !stalled && (best_at * 2 >= *iterations || *iterations < 3) {
                     remedy += ", or allow more iterations";
                 }
                 remedy

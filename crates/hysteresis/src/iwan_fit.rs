@@ -532,13 +532,23 @@ fn damped_step(
         matrix[(rows + j, j)] = damping.sqrt() * length;
     }
     right.rows_mut(0, rows).copy_from(&(-errors));
-    matrix
-        .svd(true, true)
-        .solve(&right, f64::EPSILON)
-        .map_err(|reason| HysteresisError::Fit {
-            reason: reason.to_owned(),
-            remedy: "check the measured pairs",
-        })
+    solved(matrix, &right, f64::EPSILON).ok_or_else(|| HysteresisError::Fit {
+        reason: format!("law {LAW} has no finite values at these data"),
+        remedy: "check the measured pairs and their units",
+    })
+}
+
+/// The least-squares solution by singular values, of which those below `least` count as zero; none where
+/// numbers are not finite or the values are not found.
+fn solved(matrix: DMatrix<f64>, right: &DVector<f64>, least: f64) -> Option<DVector<f64>> {
+    /// Steps of the search for the values, of which a matrix of six columns takes some tens.
+    const STEPS: usize = 10_000;
+    let mut numbers = matrix.iter().chain(right.iter());
+    if !numbers.all(|x| x.is_finite()) {
+        return None;
+    }
+    let values = matrix.try_svd(true, true, 5.0 * f64::EPSILON, STEPS)?;
+    values.solve(right, least).ok()
 }
 
 /// The data and how many unknowns are not solved for directly.
@@ -630,6 +640,16 @@ impl<'a> Problem<'a> {
             is_backbone && self.guess.residual_stiffness > 0.0,
         ];
         let shares = self.shares(&[powers, lump, residual], is_free);
+        // Nothing depends on exponent and phi_1 then, which may be anywhere.
+        let powers = match shares[0] == 0.0 {
+            true => IwanDensity {
+                exponent: self.guess.exponent,
+                phi_1: phi_2 * (self.guess.phi_1 / self.guess.phi_2),
+                density: 0.0,
+                ..powers
+            },
+            false => powers,
+        };
         IwanDensity {
             density: shares[0] * powers.density,
             slider_stiffness: shares[1],
@@ -668,7 +688,7 @@ impl<'a> Problem<'a> {
             }
             let chosen_columns: Vec<_> = chosen.iter().map(|j| columns[*j].clone()).collect();
             let matrix = DMatrix::from_columns(&chosen_columns);
-            let Ok(found) = matrix.clone().svd(true, true).solve(&ones, 1e-12) else {
+            let Some(found) = solved(matrix.clone(), &ones, 1e-12) else {
                 continue;
             };
             let miss = (&matrix * &found - &ones).norm_squared();
@@ -703,7 +723,11 @@ impl<'a> Problem<'a> {
             let above = self.errors(&shifted);
             shifted[j] -= 2.0 * width;
             let below = self.errors(&shifted);
-            slopes.set_column(j, &((above - below) / (2.0 * width)));
+            let slope = (above - below) / (2.0 * width);
+            // Where values overflow, as with an exponent that no share of sliders depends on, there is no way on.
+            if slope.iter().all(|x| x.is_finite()) {
+                slopes.set_column(j, &slope);
+            }
         }
         slopes
     }

@@ -20,6 +20,35 @@ fn document() -> IwanDensity {
     }
 }
 
+/// Bilinear backbones, of a lump of sliders and a spring without any density, are fitted: the exponent, on
+/// which nothing depends then, ran until values were no numbers, and the fit panicked or never ended.
+#[test]
+fn bilinear_backbones_are_fitted() {
+    for slope in [0.4, 0.55, 0.7] {
+        for rows in [20, 40, 150] {
+            for knee in [1.0e-4, 2.0e-4, 5.0e-4] {
+                for phi_1 in [None, Some(1.0e-5)] {
+                    let force = |x: f64| 9.0e4 * (x.min(knee) + slope * (x - knee).max(0.0));
+                    let measured: Vec<(f64, f64)> = (1..=rows)
+                        .map(|i| 1.5e-3 * f64::from(i) / f64::from(rows))
+                        .map(|x| (x, force(x)))
+                        .collect();
+                    let mut start = LawParameters::default();
+                    start.values.extend(phi_1.map(|x| ("phi_1".to_owned(), x)));
+                    let curve = MeasuredCurve::Backbone;
+                    let fit = fit_from_many(curve, &measured, &start, FitOptions::default());
+                    let fit = fit.unwrap();
+                    // The kink lies between two of the data.
+                    assert!(
+                        fit.relative_error < 1.0e-3,
+                        "{slope} {rows} {knee}: {fit:?}"
+                    );
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn a_fit_finds_the_density_that_made_the_curve() {
     let truth = document();

@@ -370,7 +370,7 @@ fn check_ratio(ratio: f64) -> Result<(), String> {
         Ok(())
     } else {
         Err(format!(
-            "ratio {ratio} is not in 0..1 (5 % of critical is 0.05)"
+            "ratio {ratio} is not from 0 to below 1 (5 % of critical is 0.05)"
         ))
     }
 }

@@ -440,4 +440,18 @@ fn ranges_over_whole_numbers_are_refused() {
     }
     assert!(of("from = 2\nto = 4\ncount = 3").is_ok());
     assert!(of("relative = true\nfrom = 0.5\nto = 1\ncount = 2").is_ok());
+    // Of many values the first after the end may be near enough to it where floors are to be level.
+    let case = case.replace("[[gap]]", "[[gap]]\nlevels = \"matching\"");
+    std::fs::write(folder.join("case.toml"), case).unwrap();
+    for count in [301, 1001] {
+        let text = format!(
+            "case = \"case.toml\"\n[[variable]]\npath = \"building.0.height\"\nfrom = \"3 m\"\nto = \"9 m\"\ncount = {count}\n"
+        );
+        let told = Study::parse(&text, &folder.join("study.toml"));
+        let told = told.unwrap_err().to_string();
+        assert!(
+            told.contains("of this range for `building.0.height`"),
+            "{told}"
+        );
+    }
 }

@@ -299,7 +299,7 @@ ranges! {
         format!(" = {value} must be zero or more"), "write zero or a value above it";
     BelowOne "A damping ratio." &[("minimum", 0.0), ("exclusiveMaximum", 1.0)],
         |value| (0.0..1.0).contains(&value),
-        format!("damping ratio {value} is not in 0..1"), "5 % of critical is 0.05 or \"5 %\"";
+        format!("damping ratio {value} is not from 0 to below 1"), "5 % of critical is 0.05 or \"5 %\"";
     BelowHalf "A Poisson's ratio of soil." &[("minimum", 0.0), ("exclusiveMaximum", 0.5)],
         |value| (0.0..0.5).contains(&value),
         format!(" = {value} must be a Poisson's ratio from 0 to below 0.5"),

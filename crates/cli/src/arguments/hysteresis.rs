@@ -40,8 +40,9 @@ pub struct HysteresisArguments {
     )]
     pub rate: Option<String>,
     /// Steps of half a cycle: speeds, energies and laws that are rates are worse with few
-    #[arg(long, default_value = "500", value_parser = clap::value_parser!(u32).range(20..=100_000))]
-    pub steps: u32,
+    /// [default: 500]
+    #[arg(long, requires = "law", value_parser = clap::value_parser!(u32).range(20..=100_000))]
+    pub steps: Option<u32>,
 
     /// Dissipation of cycles over amplitudes from the first to the second, such as
     /// "0.1 mm,10 mm", and its log-log slope
@@ -55,7 +56,7 @@ pub struct HysteresisArguments {
     )]
     pub dissipation: Vec<String>,
     /// Number of its amplitudes, evenly spaced on a logarithmic scale
-    #[arg(long, default_value = "25", value_parser = clap::value_parser!(u32).range(2..=10_000))]
+    #[arg(long, default_value = "25", requires = "dissipation", value_parser = clap::value_parser!(u32).range(2..=10_000))]
     pub points: u32,
     /// Fit iwan_six_parameter to a measured curve. CURVE is `backbone`, for a text file with the
     /// columns deformation and force on first loading, units in the header, such as
@@ -84,6 +85,13 @@ pub struct HysteresisArguments {
     /// Write the documentation's page of every law into this folder
     #[arg(long, value_name = "FOLDER", conflicts_with_all = ["law", "json"])]
     pub pages: Option<OutputFolder>,
+}
+
+impl HysteresisArguments {
+    /// Steps of half a cycle.
+    pub fn steps(&self) -> usize {
+        self.steps.unwrap_or(500) as usize
+    }
 }
 
 /// Arguments of `verify hysteresis`.

@@ -41,9 +41,10 @@ fn structures(arguments: &VerifyStructuresArguments, mut files: FileUse) -> Resu
         entered.cases().into_iter().map(|path| ("case", path)),
     )?;
     let wanted = |source| match (arguments.source.is_empty(), &arguments.data) {
+        // Who enters numbers wants them compared, beside what else is asked for.
+        (_, Some(_)) if source == StructureSource::Entered => true,
+        (true, Some(_)) => false,
         (false, _) => arguments.source.contains(&source),
-        // Who enters numbers wants them compared.
-        (true, Some(_)) => source == StructureSource::Entered,
         (true, None) => true,
     };
     let progress = Progress::working("running published cases".to_owned())?;

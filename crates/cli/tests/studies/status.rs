@@ -57,11 +57,24 @@ fn what_is_missing_is_named_and_goes_on() {
         json!({"state": "running", "host": "another", "updated": soon, "rate": 2.0, "finished": 7}),
     );
     assert_eq!(bench.run("status all --unfinished").stdout, b"3-4\n");
-    // One that has been silent does not.
+    // Nor is it taken for one that has ended where its clock is behind.
     told_by(
         2,
-        json!({"state": "running", "host": "another", "updated": 1_000_000}),
+        json!({"state": "running", "host": "another", "updated": soon - 7200}),
     );
+    assert_eq!(bench.run("status all --unfinished").stdout, b"3-4\n");
+    // One that has been silent does not compute, whatever its clock said.
+    for updated in [soon, 1_000_000] {
+        told_by(
+            2,
+            json!({"state": "running", "host": "another", "updated": updated}),
+        );
+        let file = std::fs::File::options();
+        let file = file.clone().append(true).open(bench.path(&of(2))).unwrap();
+        let long_ago = std::time::SystemTime::now() - std::time::Duration::from_secs(600);
+        file.set_modified(long_ago).unwrap();
+        assert_eq!(bench.run("status all --unfinished").stdout, b"2-4\n");
+    }
     let output = bench.run("status all --json");
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     let study = &json["studies"][0];

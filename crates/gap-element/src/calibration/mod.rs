@@ -129,6 +129,7 @@ impl DropTest {
                     quantity,
                     value,
                     unit,
+                    zero_allowed,
                 });
             }
         }
@@ -187,7 +188,7 @@ pub enum CalibrationError {
         value: f64,
     },
     /// A condition of the drop test that is negative, zero or not a finite number.
-    #[error("{quantity} = {value} {unit}, but it must be finite and greater than zero")]
+    #[error("{quantity} = {value} {unit}, but it must be finite and {}", if *zero_allowed { "not negative" } else { "greater than zero" })]
     NotPositive {
         /// The condition.
         quantity: &'static str,
@@ -195,6 +196,8 @@ pub enum CalibrationError {
         value: f64,
         /// SI unit.
         unit: &'static str,
+        /// Whether it may be zero.
+        zero_allowed: bool,
     },
     /// The body meets the slab again before its rebound is read.
     #[error(

@@ -8,7 +8,7 @@
 use std::f64::consts::PI;
 
 use crate::accelerogram::Accelerogram;
-use crate::error::{GroundMotionError, within};
+use crate::error::{GroundMotionError, bound, within};
 use crate::processing::window::with_zeros;
 use crate::step_record::StepRecord;
 
@@ -124,7 +124,14 @@ impl Butterworth {
             ("low-pass corner", self.low_pass),
         ] {
             if let Some(corner) = corner {
-                within(STEP, name, corner, least, nyquist * (1.0 - 1.0e-9))?;
+                if !(least..=nyquist * (1.0 - 1.0e-9)).contains(&corner) {
+                    return Err(GroundMotionError::OutOfRange {
+                        step: STEP,
+                        name,
+                        value: corner,
+                        range: format!("[{}, {})", bound(least), bound(nyquist)),
+                    });
+                }
             }
         }
         match (self.high_pass, self.low_pass) {

@@ -14,7 +14,7 @@ pub struct Cycle {
     pub minimum: f64,
     /// Maximum absolute force (N).
     pub peak_force: f64,
-    /// Energy dissipated (J).
+    /// Energy dissipated (J), without that of cycles within this one.
     pub dissipated: f64,
     /// Difference of the forces at the first peak and at the turning point over the range
     /// (N/m).
@@ -36,15 +36,15 @@ pub struct Loop {
 }
 
 impl Cycle {
-    fn of(states: &[LaboratoryPoint], [before, turn, after]: [usize; 3]) -> Self {
-        let (start, far, end) = (states[before], states[turn], states[after]);
+    fn of(states: &[LaboratoryPoint], [before, turn, after]: [usize; 3], dissipated: f64) -> Self {
+        let (start, far) = (states[before], states[turn]);
         let range = start.deformation - far.deformation;
         let forces = states[before..=after].iter().map(|s| s.force.abs());
         let mut cycle = Self {
             maximum: start.deformation.max(far.deformation),
             minimum: start.deformation.min(far.deformation),
             peak_force: forces.fold(0.0, f64::max),
-            dissipated: end.dissipated - start.dissipated,
+            dissipated,
             secant_stiffness: (force_at(states, before) - force_at(states, turn)) / range,
             equivalent_damping_ratio: None,
         };
@@ -91,7 +91,17 @@ impl Loop {
             let deformation = s.deformation;
             return Err(LaboratoryError::Overflow { deformation });
         }
-        let cycles = path.cycles.iter().map(|c| Cycle::of(&states, *c)).collect();
+        // Those that no later one contains so far: where they begin, and their energy with that of all within.
+        let mut outermost: Vec<(usize, f64)> = Vec::new();
+        let cycle_without_inner = |&[before, turn, after]: &[usize; 3]| {
+            let first_within = outermost.partition_point(|(begin, _)| *begin < before);
+            let within = outermost.drain(first_within..).map(|(_, energy)| energy);
+            let within: f64 = within.sum();
+            let all = states[after].dissipated - states[before].dissipated;
+            outermost.push((before, all));
+            Cycle::of(&states, [before, turn, after], all - within)
+        };
+        let cycles = path.cycles.iter().map(cycle_without_inner).collect();
         Ok(Self { states, cycles })
     }
 

@@ -22,7 +22,8 @@ pub struct LoadPath {
     pub start: f64,
     /// Time at the end of each step (s).
     pub times: Vec<f64>,
-    /// Cycles as numbers of steps taken: before, at the turning point, and after.
+    /// Cycles as numbers of steps taken: before, at the turning point, and after. One that lies within
+    /// another stands before it.
     pub cycles: Vec<[usize; 3]>,
 }
 
@@ -193,27 +194,32 @@ impl LoadPath {
         turning
     }
 
-    /// Cycles of a history, not overlapping: from a turning point over the next one back to
-    /// the same deformation, or nearly there.
+    /// Cycles of a history: from a turning point over the next one back to the same deformation, or
+    /// nearly there. Smaller ones within a larger one, such as ripples of a measured history, are found
+    /// first and left out of its way, as in rainflow counting (Downing and Socie, International Journal of
+    /// Fatigue 4 (1982) 31).
     fn find_cycles(&mut self) {
         let mut turning = self.turning_points();
-        let mut first = 0;
-        while let Some(&[before, turn, next]) = turning.get(first..first + 3) {
-            let (start, far) = (self.position(before), self.position(turn));
-            let (side, range) = ((start - far).signum(), (start - far).abs());
-            let left = |path: &Self, taken| side * (start - path.position(taken));
-            if left(self, next) > NEARLY * range {
-                first += 1;
-                continue;
+        let mut open: Vec<usize> = Vec::new();
+        for place in 0..turning.len() {
+            while let &[.., before, turn] = open.as_slice() {
+                let next = turning[place];
+                let (start, far) = (self.position(before), self.position(turn));
+                let (side, range) = ((start - far).signum(), (start - far).abs());
+                let left = |path: &Self, taken| side * (start - path.position(taken));
+                if left(self, next) > NEARLY * range {
+                    break;
+                }
+                let back = (turn..=next).find(|k| left(self, *k) <= 0.0);
+                let after = back.unwrap_or(next);
+                if left(self, after) < 0.0 {
+                    self.divide(after - 1, start);
+                    turning.iter_mut().skip(place).for_each(|t| *t += 1);
+                }
+                self.cycles.push([before, turn, after]);
+                open.truncate(open.len() - 2);
             }
-            let back = (turn..=next).find(|k| left(self, *k) <= 0.0);
-            let after = back.unwrap_or(next);
-            if left(self, after) < 0.0 {
-                self.divide(after - 1, start);
-                turning.iter_mut().skip(first + 2).for_each(|t| *t += 1);
-            }
-            self.cycles.push([before, turn, after]);
-            first += 2;
+            open.push(turning[place]);
         }
     }
 

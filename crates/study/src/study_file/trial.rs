@@ -50,19 +50,34 @@ impl Trial<'_> {
         }))
     }
 
-    /// Whether the case takes a number within a range, which begins at this place, as it does its ends: it does
-    /// not where numbers are to be whole.
+    /// Whether the case takes numbers within a range, which begins at this place, as it does its ends: it does
+    /// not where numbers are to be whole, or floors level.
     pub(super) fn inner(&self, values: &Values, place: Range<usize>) -> Option<()> {
-        let number = match values {
-            Values::Range { count: Some(2), .. } => return Some(()),
-            Values::Range { count: Some(_), .. } => values.at(1),
-            Values::Range { count: None, .. } | Values::Random(_) => values.sample(0.4),
+        /// Parts of a range of many values, at whose ends they are tried: a case is read and assembled for each.
+        const PARTS: usize = 16;
+        let numbers: Vec<Value> = match values {
+            Values::Range {
+                count: Some(count), ..
+            } => {
+                let last = count.saturating_sub(1);
+                let mut places: Vec<usize> = (0..=PARTS).map(|part| last * part / PARTS).collect();
+                places.push(1);
+                places.sort_unstable();
+                places.dedup();
+                let within = places.into_iter().filter(|k| (1..last).contains(k));
+                within.map(|k| values.at(k)).collect()
+            }
+            Values::Range { count: None, .. } | Values::Random(_) => vec![values.sample(0.4)],
             _ => return Some(()),
         };
-        let Value::Number(x) = number else {
-            return Some(());
-        };
-        let Err(refusal) = self.refusal(&set_numbers(&self.entries, x)) else {
+        let refused = numbers.iter().find_map(|number| {
+            let Value::Number(x) = number else {
+                return None;
+            };
+            let refusal = self.refusal(&set_numbers(&self.entries, *x)).err()?;
+            Some((*x, refusal))
+        });
+        let Some((x, refusal)) = refused else {
             return Some(());
         };
         if let Some(refused) = self.refused_alone {

@@ -222,10 +222,14 @@ fn by_code(check: &GapCheck, gap: &GapReport, answer: &CodeAnswer) -> String {
         });
     }
     text.push_str(&format!(
-        "  the records themselves: {} demand {:.1} mm, {} the provided width\n{}",
+        "  the records themselves: {} demand {:.1} mm, {} the provided width\n{}{}",
         answer.statistic.name(),
         answer.demand * 1e3,
         records_that_close(gap),
+        match check.options.target_probability {
+            allowed if allowed > 0.0 => format!("  the probability of contact that is allowed, {allowed}, decides nothing here: the code does\n"),
+            _ => String::new(),
+        },
         driven(gap)
     ));
     let width = gap

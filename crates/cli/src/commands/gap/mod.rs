@@ -109,10 +109,11 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
 fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failure> {
     let mut separation = case.separation.clone();
     let key = |text: &String| text.split('=').next().unwrap_or_default().trim().to_owned();
+    let keys: Vec<String> = arguments.set.iter().map(key).collect();
     let mut failures = Vec::new();
     for (place, text) in arguments.set.iter().enumerate() {
-        let key_here = key(text);
-        if arguments.set[..place].iter().any(|t| key(t) == key_here) {
+        let key_here = &keys[place];
+        if keys[..place].contains(key_here) {
             failures.push(Failure::input(
                 format!("--set {text}: {key_here} is given twice"),
                 Some("leave one out".to_owned()),
@@ -124,6 +125,7 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
             Err(error) => failures.push(Failure::case(error, text)),
         }
     }
+    failures.extend(decided_twice(arguments, &keys));
     if !failures.is_empty() {
         return Err(Failure::together(failures));
     }
@@ -137,6 +139,35 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
             rules: arguments.rules.as_deref(),
         },
     )
+}
+
+/// Words that `--set` (of these keys) and options give the same provisions or verdict, of which one
+/// would go unheard.
+fn decided_twice(arguments: &GapArguments, set: &[String]) -> Option<Failure> {
+    let options = [
+        ("code", arguments.code.is_some()),
+        ("country", arguments.country.is_some()),
+        ("date", arguments.date.is_some()),
+        ("provisions", !arguments.provisions.is_empty()),
+    ];
+    let is_set = |key: &str| set.iter().any(|set| set == key);
+    let one_of_them = |words: String| {
+        let help = "leave one of them out".to_owned();
+        Some(Failure::input(
+            format!("{words} are both given"),
+            Some(help),
+        ))
+    };
+    let twice = options.iter().find(|(key, given)| *given && is_set(key));
+    if let Some((key, _)) = twice {
+        return one_of_them(format!("--set {key} and --{key}"));
+    }
+    let [code, country] = [&options[0], &options[1]].map(|(key, given)| *given || is_set(key));
+    // Both by options are refused where they are put together.
+    match code && country && !(options[0].1 && options[1].1) {
+        true => one_of_them("`code` and `country`".to_owned()),
+        false => None,
+    }
 }
 
 fn options(arguments: &GapArguments) -> Result<GapCheckOptions, Failure> {

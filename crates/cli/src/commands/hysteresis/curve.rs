@@ -74,7 +74,7 @@ pub fn curve(
         .map(|i| from * (to / from).powf(f64::from(i) / last))
         .collect();
     let cycling = Cycling {
-        steps: 2 * arguments.steps as usize,
+        steps: 2 * arguments.steps(),
         cycles_before: 1,
         period: period(arguments)?,
     };

@@ -54,7 +54,8 @@ pub fn hysteresis(arguments: &HysteresisArguments) -> Result<(), Failure> {
     // Parameters are judged even where nothing moves: a refusal says more than the lack.
     chosen::choose(law, &arguments.set)?;
     let asked = !arguments.set.is_empty() || arguments.csv.is_some() || arguments.svg.is_some();
-    if asked || arguments.period.is_some() || arguments.rate.is_some() {
+    let paced = arguments.period.is_some() || arguments.rate.is_some();
+    if asked || paced || arguments.steps.is_some() {
         return Err(Failure::input(
             format!("nothing moves the element of law {}", law.name),
             Some(

@@ -45,7 +45,7 @@ pub fn path(
         Pace::Steady(speed) => format!(", at a speed of {} m/s", significant(speed)),
     };
     Ok(Some((
-        LoadPath::full_cycles(law, &amplitudes, pace, arguments.steps as usize),
+        LoadPath::full_cycles(law, &amplitudes, pace, arguments.steps()),
         format!("Full cycles, each from its positive peak back there{how}"),
     )))
 }

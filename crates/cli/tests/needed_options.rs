@@ -1,0 +1,148 @@
+//! Options that need another one, or would go unheard, are refused in every company.
+#![allow(clippy::unwrap_used)]
+
+use crate::support::Bench;
+
+/// A pair under a record of the repository.
+const CASE: &str = r#"
+title = "pair"
+[[building]]
+name = "a"
+storeys = 1
+mass = "25 t"
+stiffness = "3.46 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[[building]]
+name = "b"
+storeys = 1
+mass = "100 t"
+stiffness = "30 MN/m"
+height = "3 m"
+damping = { stiffness_proportional = 0.05 }
+[[gap]]
+between = ["a", "b"]
+width = "20 mm"
+model = "anagnostopoulos_2004"
+stiffness = "93.5 MN/m"
+restitution = 0.65
+[ground_motion]
+file = "MOTIONS/el_centro_1940_ns.csv"
+[analysis]
+duration = "2 s"
+"#;
+
+const STUDY: &str =
+    "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"10 mm\", \"20 mm\"]\n";
+
+/// What an option needs is asked for, although a third option of the call excludes it.
+#[test]
+fn options_without_what_they_need_are_refused() {
+    let bench = Bench::with(CASE);
+    bench.write("study.toml", STUDY);
+    let record = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../ground_motions/el_centro_1940_ns.csv"
+    );
+    let law = "jankowski_2005 -p stiffness=2.75e9 -p restitution=0.65";
+    for (arguments, needed) in [
+        (
+            format!("impact {law} --velocity-right 0.1 --height 5m"),
+            "--drop",
+        ),
+        (
+            format!("impact {law} --velocity-right 0.1 --gravity 9.8"),
+            "--drop",
+        ),
+        (format!("impact {law} --table --shift 1"), "--against"),
+        (format!("impact {law} --table --threshold 5%"), "--against"),
+        (
+            format!("motion spectrum {record} --fourier --second-file nowhere.csv"),
+            "--rotated",
+        ),
+        (
+            format!("motion spectrum {record} --damping 0.05 --smoothing 40"),
+            "--fourier",
+        ),
+        ("gap case.toml --points 0 --pages new".to_owned(), "--list"),
+        ("gap case.toml --merge all --into new".to_owned(), "--shard"),
+        ("sweep study.toml --show 1 --shards 4".to_owned(), "--plan"),
+        (
+            "sweep study.toml --shard 1/1 --into all --time 2h".to_owned(),
+            "--plan",
+        ),
+        (
+            "hysteresis bilinear --cycles 10mm --points 9".to_owned(),
+            "--dissipation",
+        ),
+    ] {
+        bench.refused(
+            &arguments,
+            &["required arguments were not provided", needed],
+        );
+    }
+    assert!(!bench.folder().join("all").exists() && !bench.folder().join("new").exists());
+    // What one option takes the place of is not asked for.
+    for arguments in [
+        "gap --list",
+        "impact --all --example",
+        "hysteresis bilinear --cycles 10mm --steps 50",
+        "sweep study.toml --plan --shards 2",
+    ] {
+        bench.text(arguments);
+    }
+}
+
+/// Values that another one would decide over are refused, and so is what nothing moves.
+#[test]
+fn options_that_would_go_unheard_are_refused() {
+    let bench = Bench::with(CASE);
+    bench.refused(
+        "hysteresis bilinear --steps 30",
+        &["nothing moves the element of law bilinear"],
+    );
+    let code = "--set code=\"asce_7_2010\"";
+    for (arguments, words) in [
+        (
+            format!("{code} --set country=\"Italy\""),
+            "`code` and `country` are both given",
+        ),
+        (
+            format!("{code} --country Italy"),
+            "`code` and `country` are both given",
+        ),
+        (
+            format!("{code} --code ntc_2018"),
+            "--set code and --code are both given",
+        ),
+        (
+            "--code ntc --set date=\"2018-03-22\" --date 2021-01-01".to_owned(),
+            "--set date and --date are both given",
+        ),
+    ] {
+        bench.refused(
+            &format!("gap case.toml --points 0 {arguments}"),
+            &[words, "leave one"],
+        );
+    }
+    for name in ["new.toml", "new.TOML"] {
+        bench.refused(
+            &format!("run case.toml -o {name}"),
+            &["has the name of a file in TOML", "another ending"],
+        );
+        assert!(!bench.folder().join(name).exists());
+    }
+    bench.refused(
+        "merge nowhere --check",
+        &["nowhere does not exist", "name results of shards"],
+    );
+    let result = "run case.toml -o result.h5";
+    bench.text(result);
+    bench.refused(
+        "check result.h5",
+        &[
+            "the file is in HDF5, as results are",
+            "`pounding report` shows a result",
+        ],
+    );
+}

@@ -199,7 +199,7 @@ const ROWS: &[Row] = &[
         &[(
             9,
             9,
-            "`range` needs one of `from` with `to` (and `count`) or `around` none of them is given",
+            "`range` needs one of `from` with `to` (and `count`) or `around` give one of them: none is there",
         )],
     ),
     (

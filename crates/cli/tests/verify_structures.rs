@@ -103,6 +103,11 @@ fn numbers_that_users_enter_are_compared() {
     assert_eq!(output.status.code(), Some(1));
     let shown = String::from_utf8(output.stdout).unwrap();
     assert!(shown.contains("1 do not come out as said"), "{shown}");
+    // Beside a source that is named, too.
+    let output = support::run("verify", &format!("structures --data {far} --source laws"));
+    assert_eq!(output.status.code(), Some(1));
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert!(shown.contains("1 do not come out as said"), "{shown}");
 }
 
 /// An entry with a case of the user's, beside the data file.

@@ -453,7 +453,7 @@ impl<'r> Value<'r> {
         Err(Error::New(match kinds {
             Some(kinds) if count == 0 => Fault::new(
                 format!("{name} needs one of {kinds}"),
-                "none of them is given",
+                "give one of them: none is there",
             ),
             Some(kinds) => Fault::new(
                 format!("{name} must be of one kind, not {count}"),

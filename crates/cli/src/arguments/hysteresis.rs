@@ -79,7 +79,7 @@ pub struct HysteresisArguments {
     pub svg: Option<OutputPath>,
     #[command(flatten)]
     pub figure: FigureArguments,
-    /// Print one JSON object
+    /// Print JSON: one object of a laboratory, a list of descriptors
     #[arg(long)]
     pub json: bool,
     /// Write the documentation's page of every law into this folder

@@ -129,7 +129,7 @@ pub enum Command {
     Models {
         /// Model or alias
         name: Option<String>,
-        /// Print one JSON object
+        /// Print JSON, a list of descriptors
         #[arg(long)]
         json: bool,
         /// Write the documentation's page of every model into this folder

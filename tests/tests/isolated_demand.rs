@@ -8,7 +8,8 @@ use std::sync::Arc;
 use pounding_assembly::assemble;
 use pounding_case::Case;
 use pounding_time_history::{
-    Floor, GroundAcceleration, MethodChoice, Peak, RunOptions, System, isolated_demand, run,
+    Floor, GroundAcceleration, MethodChoice, Peak, RelativeDisplacement, RunOptions, System,
+    isolated_demand, run,
 };
 
 /// The three-storey pair of the examples under a record of the repository, with the
@@ -137,4 +138,36 @@ fn walls_on_both_sides() {
     let greatest = demand.iter().fold(0.0_f64, |m, p| m.max(p.value));
     assert!((greatest / peak.value - 1.0).abs() < 1.0e-9);
     assert!(demand.iter().all(|p| p.value > 0.5 * peak.value));
+}
+
+/// A recorder of another system, and a gap of a building with itself, are refused.
+#[test]
+fn floors_of_another_system_are_refused() {
+    let (system, options) = pair("three_storey_pair", 9.80665, 0);
+    let small = System::new(system.buildings()[..1].to_vec(), system.ground().clone());
+    let mut other = RelativeDisplacement::of_levels(&system);
+    let error = run(&small, &options, &mut [&mut other], &mut |_| {}).unwrap_err();
+    assert!(error.to_string().contains("same buildings"), "{error}");
+
+    let model = Arc::clone(&system.levels()[0].model);
+    let names = || ["light".to_owned(), "heavy".to_owned()];
+    let mut own = system.isolated();
+    let floors = |a, b| {
+        vec![(
+            Floor::Storey(0, a),
+            Floor::Storey(0, b),
+            0.02,
+            Arc::clone(&model),
+        )]
+    };
+    for (a, b) in [(0, 0), (0, 2)] {
+        let error = own.add_gap("own", names(), floors(a, b)).unwrap_err();
+        assert!(error.to_string().contains("both of building 1"), "{error}");
+    }
+    let across = (Floor::Storey(0, 0), Floor::Storey(1, 0), 0.02, model);
+    for tolerance in [f64::NAN, -0.1] {
+        let pairs = vec![across.clone()];
+        let error = own.add_gap_with_tolerance("own", names(), pairs, tolerance);
+        assert!(error.unwrap_err().to_string().contains("tolerance"));
+    }
 }

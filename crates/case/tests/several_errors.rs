@@ -242,18 +242,17 @@ fn encodings() {
             [b"\x89HDF\r\n\x1a\n".as_slice(), &[0; 40]].concat(),
             1,
             1,
-            "0x89",
+            "HDF5",
         ),
     ] {
         let error = read(&bytes).unwrap_err();
         assert_eq!((error.line, error.column), (line, column), "{error}");
         assert!(error.message.contains(says), "{error}");
-        assert!(
-            error
-                .help
-                .unwrap()
-                .contains(if says == "0x00" { "byte" } else { "UTF-8" })
-        );
+        assert!(error.help.unwrap().contains(match says {
+            "0x00" => "byte",
+            "HDF5" => "TOML",
+            _ => "UTF-8",
+        }));
     }
     assert_eq!(
         read("\u{feff}title = \"ä\"\n".as_bytes()).unwrap(),

@@ -311,8 +311,12 @@ fn editions_by_date() {
             "cannot be used with",
         ),
         (
-            &["--set", "code=\"ntc\"", "--set", "country=\"Atlantis\""],
+            &["--set", "country=\"Atlantis\""],
             "no code of \"Atlantis\"",
+        ),
+        (
+            &["--set", "code=\"ntc\"", "--set", "country=\"Italy\""],
+            "`code` and `country` are both given",
         ),
         (
             &["--code", "ntc_2018, damping=0.03"],

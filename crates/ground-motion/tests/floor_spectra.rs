@@ -187,4 +187,22 @@ fn what_has_no_spectrum_is_refused() {
             floor_spectrum(&[piece(length)], &[period], damping).unwrap_err();
         assert!(error.to_string().contains(part), "{error}");
     }
+    // A motion that is no number is no peak of zero.
+    for value in [f64::NAN, f64::INFINITY] {
+        for (part, change) in [
+            ("acceleration of the ground", 0),
+            ("displacement of the floor", 1),
+            ("velocity of the floor", 2),
+        ] {
+            let mut wrong = piece(0.01);
+            match change {
+                0 => wrong.ground[1] = value,
+                1 => wrong.displacement[1] = value,
+                _ => wrong.velocity[0] = value,
+            }
+            let motion = [piece(0.01), wrong];
+            let error = floor_spectrum(&motion, &[0.1], 0.05).unwrap_err();
+            assert!(error.to_string().contains(part), "{error}");
+        }
+    }
 }

@@ -12,7 +12,7 @@ use pounding_time_history::{Outcome, Recorder, RunOptions, System, run};
 use crate::error::Error;
 use crate::help;
 use crate::progress::Progress;
-use crate::record::GroundMotion;
+use crate::record::{GroundMotion, wherever};
 use crate::units::Time;
 
 /// A simulation whose every part was checked: the system, the record and the options that the
@@ -255,8 +255,9 @@ impl Model {
         let told = assembly.warnings_of_buildings();
         let mut files = vec![("case", case.file.clone())];
         files.extend(case.files());
+        let files = files.into_iter().map(|(role, file)| (role, wherever(file)));
         Ok(Self {
-            files,
+            files: files.collect(),
             system: assembly.system,
             accelerogram: assembly.accelerogram,
             options: assembly.options,

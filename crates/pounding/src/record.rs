@@ -29,7 +29,7 @@ impl GroundMotion {
     pub fn read(path: impl AsRef<Path>) -> Result<Self, Error> {
         Ok(Self {
             accelerogram: read(path.as_ref(), &ReadOptions::default())?,
-            file: Some(path.as_ref().to_owned()),
+            file: Some(wherever(path.as_ref().to_owned())),
         })
     }
 
@@ -70,6 +70,11 @@ impl GroundMotion {
     }
 }
 
+/// A file under a name by which it is found when the working folder is another one.
+pub(crate) fn wherever(file: PathBuf) -> PathBuf {
+    std::path::absolute(&file).unwrap_or(file)
+}
+
 impl From<Accelerogram> for GroundMotion {
     fn from(accelerogram: Accelerogram) -> Self {
         match accelerogram.origin() {
@@ -81,7 +86,7 @@ impl From<Accelerogram> for GroundMotion {
                 let file = PathBuf::from(&origin.file);
                 Self {
                     // Of a motion in memory it is a name.
-                    file: Some(file).filter(|file| file.is_file()),
+                    file: Some(file).filter(|file| file.is_file()).map(wherever),
                     accelerogram,
                 }
             }

@@ -114,8 +114,9 @@ impl Simulation {
         }
         let motion = self.motion.as_ref().ok_or(Error::NoGroundMotion)?;
         let accelerogram = motion.accelerogram().clone();
-        self.check_names()?;
+        // Before names, which two such gaps share where nobody gave them any.
         self.one_gap_between_two()?;
+        self.check_names()?;
         let buildings = self.buildings.iter().map(Building::build);
         let buildings = buildings.collect::<Result<Vec<_>, _>>()?;
         let ground = GroundAcceleration {

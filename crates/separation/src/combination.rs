@@ -90,7 +90,8 @@ impl CombinationRule {
     }
 
     /// The gap (m) for peak displacements (m) of two buildings and their correlation
-    /// coefficient (-), which only [`CombinationRule::DoubleDifference`] uses.
+    /// coefficient (-), from -1 to 1, which only [`CombinationRule::DoubleDifference`] uses; NaN for what is
+    /// no number.
     #[must_use]
     pub fn gap(self, left: f64, right: f64, correlation: f64) -> f64 {
         match self {
@@ -99,9 +100,12 @@ impl CombinationRule {
             Self::DoubleDifference => {
                 let product = 2.0 * (1.0 - correlation) * left.abs() * right.abs();
                 // (a - b)^2 + 2 (1 - rho) a b: exactly zero for identical buildings.
-                ((left.abs() - right.abs()).powi(2) + product)
-                    .max(0.0)
-                    .sqrt()
+                let squares = (left.abs() - right.abs()).powi(2) + product;
+                // What is no number stays none.
+                match squares < 0.0 {
+                    true => 0.0,
+                    false => squares.sqrt(),
+                }
             }
         }
     }
@@ -174,6 +178,18 @@ mod tests {
 
     fn rho(ta: f64, tb: f64, xa: f64, xb: f64) -> f64 {
         correlation_coefficient(oscillator(ta, xa), oscillator(tb, xb)).unwrap()
+    }
+
+    /// What is no number is no gap of zero.
+    #[test]
+    fn what_is_no_number_stays_none() {
+        for rule in CombinationRule::ALL {
+            assert!(rule.gap(f64::NAN, 0.2, 0.0).is_nan(), "{}", rule.name());
+            assert!(rule.gap(0.1, f64::NAN, 0.0).is_nan(), "{}", rule.name());
+        }
+        let rule = CombinationRule::DoubleDifference;
+        assert!(rule.gap(0.1, 0.2, f64::NAN).is_nan());
+        assert_eq!(rule.gap(0.1, 0.1, 1.0), 0.0);
     }
 
     /// Covariance of two responses to the same white noise (Lyapunov equation), six

@@ -229,8 +229,9 @@ impl ProvisionDescriptor {
         })
     }
 
-    /// Refuses structures on isolators, of which a rule for fixed bases says nothing.
+    /// Refuses structures that cannot be, and those on isolators, of which a rule for fixed bases says nothing.
     fn speaks_of(&self, structures: &[&Structure]) -> Result<(), SeparationError> {
+        possible(structures)?;
         // What spans a gap between bridges is no rule of their bases.
         if self.is_of_isolated_structures() || self.place() == Place::Seat {
             return Ok(());
@@ -296,6 +297,25 @@ impl ProvisionDescriptor {
             names.join(" and ")
         ))
     }
+}
+
+/// Refuses heights that no structure has.
+fn possible(structures: &[&Structure]) -> Result<(), SeparationError> {
+    for structure in structures {
+        for (quantity, value) in [
+            ("height", structure.height),
+            ("elevation", structure.elevation),
+        ] {
+            if !(value.is_finite() && value >= 0.0) {
+                return Err(SeparationError::OutOfRange {
+                    quantity,
+                    value,
+                    range: "[0, inf)",
+                });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// A code that is known to speak of gaps, with no formula here.

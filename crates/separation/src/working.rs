@@ -181,6 +181,13 @@ impl Working {
 
     fn of(&mut self, s: &Structure, value: Option<f64>, input: Input, symbol: &str) -> Number {
         let value = self.need(value, input, &s.name)?;
+        if !(value.is_finite() && value > 0.0) {
+            return Err(SeparationError::OutOfRange {
+                quantity: input.key(),
+                value,
+                range: "(0, inf)",
+            });
+        }
         Ok(self.note(format!("{symbol}({})", s.name), value, "-"))
     }
 

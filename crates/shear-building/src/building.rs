@@ -280,6 +280,14 @@ impl ShearBuilding {
                 });
             }
         }
+        let of_responses = responses.iter().map(|r| &r.weights);
+        let weights = drifts.iter().flatten().chain(&sections).chain(of_responses);
+        if let Some(value) = weights.flatten().find(|weight| !weight.is_finite()) {
+            return Err(ShearBuildingError::Weight {
+                building: parts.name,
+                value: *value,
+            });
+        }
         let across = |c: &Coordinate| c.excitation != Excitation::Along;
         let still = further.iter().map(across);
         let influence = (vec![false; floors].into_iter().chain(still))

@@ -196,9 +196,11 @@ impl Damping {
                 if matrix.nrows() != n || matrix.ncols() != n {
                     return Err(format!("a matrix of {} rows for {n} coordinates", matrix.nrows()));
                 }
-                if matrix.iter().any(|c| !c.is_finite()) {
-                    return Err("an entry of its matrix is not finite".to_owned());
-                }
+                // By which road it came: a matrix of its own may be made without `from_rows`.
+                let rows: Vec<Vec<f64>> = (0..n)
+                    .map(|row| matrix.row(row).iter().copied().collect())
+                    .collect();
+                Self::from_rows(&rows).map_err(|error| error.to_string())?;
                 Ok(DampingMatrix::Dense(matrix.clone()))
             }
             Self::Dashpots { .. } if matches!(stiffness, StiffnessMatrix::Dense(_)) => Err(

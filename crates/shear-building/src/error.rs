@@ -84,6 +84,30 @@ pub enum ShearBuildingError {
         /// Inertia (kg or kg m2).
         value: f64,
     },
+    /// A response that is a sum of no numbers.
+    #[error(
+        "building {building}: a weight of its drifts, sections or responses is {value}; it must be finite"
+    )]
+    Weight {
+        /// Name of the building.
+        building: String,
+        /// The weight.
+        value: f64,
+    },
+    /// Gravity or a length of a foundation that cannot be.
+    #[error(
+        "building {building}: {quantity} = {value} {unit} of its foundation must be finite and greater than zero"
+    )]
+    FoundationSize {
+        /// Name of the building.
+        building: String,
+        /// Quantity.
+        quantity: &'static str,
+        /// Value.
+        value: f64,
+        /// Its unit.
+        unit: &'static str,
+    },
     /// Columns that cannot have points with mass.
     #[error("building {building}: its columns cannot be hit at points with a mass: {reason}")]
     ContactPoints {

@@ -97,8 +97,8 @@ impl ShearBuilding {
     /// Modes, damping and the rows of its forces are those of the elastic building.
     ///
     /// # Errors
-    /// A building with further coordinates or on isolators that follow a law, gravity that
-    /// overturns building and foundation, and values so far apart that the modes cannot be
+    /// Gravity or a length that is not above zero, a building with further coordinates or on isolators that follow a
+    /// law, gravity that overturns building and foundation, and values so far apart that the modes cannot be
     /// resolved.
     pub fn on_foundation(
         self,
@@ -113,6 +113,17 @@ impl ShearBuilding {
                 storey: 1,
                 reason: "isolators stand on no foundation that sways or rocks".to_owned(),
             });
+        }
+        let sizes = [("gravity", Some(gravity), "m/s2"), ("length", length, "m")];
+        for (quantity, value, unit) in sizes {
+            if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
+                return Err(ShearBuildingError::FoundationSize {
+                    building: self.name().to_owned(),
+                    quantity,
+                    value,
+                    unit,
+                });
+            }
         }
         let n = self.storeys();
         let stiffness = self

@@ -7,12 +7,15 @@ pub fn fractiles(mut values: Vec<f64>) -> [f64; 3] {
     [0.16, 0.5, 0.84].map(|p| fractile(&values, p))
 }
 
-/// A fractile of values in rising order, linear between them; NaN without any.
+/// A fractile of values in rising order, linear between them; NaN without any, and for what is no probability.
 #[must_use]
 pub fn fractile(sorted: &[f64], probability: f64) -> f64 {
     let Some(last) = sorted.len().checked_sub(1) else {
         return f64::NAN;
     };
+    if !(0.0..=1.0).contains(&probability) {
+        return f64::NAN;
+    }
     let place = probability * last as f64;
     let below = place.floor() as usize;
     let above = (below + 1).min(last);
@@ -26,7 +29,16 @@ pub fn fractile(sorted: &[f64], probability: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::fractiles;
+    use super::{fractile, fractiles};
+
+    #[test]
+    fn what_is_no_probability_has_no_fractile() {
+        let values = [1.0, 2.0, 3.0];
+        assert_eq!(fractile(&values, 1.0), 3.0);
+        for p in [-0.1, 1.5, f64::NAN] {
+            assert!(fractile(&values, p).is_nan());
+        }
+    }
 
     /// By hand: places 0.16, 0.5 and 0.84 of the way from the first to the last value.
     #[test]

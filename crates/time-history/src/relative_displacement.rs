@@ -44,7 +44,15 @@ impl RelativeDisplacement {
 }
 
 impl Recorder for RelativeDisplacement {
-    fn begin(&mut self, _system: &System, _start: &History) -> Result<(), TimeHistoryError> {
+    fn begin(&mut self, system: &System, _start: &History) -> Result<(), TimeHistoryError> {
+        let (own, of_run) = (self.start.len(), system.degrees_of_freedom());
+        if own != of_run {
+            return Err(TimeHistoryError::Option {
+                option: "degrees of freedom of the system whose relative displacements are recorded",
+                value: own as f64,
+                reason: "as many as the system that is run has: make the recorder of a system with the same buildings",
+            });
+        }
         let at = |floor: Option<usize>| floor.map_or(0.0, |i| self.start[i]);
         for ((left, right, terms), peak) in self.pairs.iter().zip(&mut self.peaks) {
             let further = terms.sum_of(|i| self.start[i]);

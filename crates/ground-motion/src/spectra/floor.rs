@@ -46,7 +46,8 @@ impl FloorMotion {
 /// Nigam and Jennings (1969) over each piece of the motion. Peaks are those up to its end.
 ///
 /// # Errors
-/// A damping ratio outside [0, 1), a period that is not above zero, and a piece without a length.
+/// A damping ratio outside [0, 1), a period that is not above zero, a piece without a length, and motions that are not
+/// finite.
 pub fn floor_spectrum(
     motion: &[FloorMotion],
     periods: &[f64],
@@ -65,6 +66,15 @@ pub fn floor_spectrum(
             f64::MAX,
         )?;
         longest = longest.max(piece.length);
+        for (quantity, values) in [
+            ("acceleration of the ground", piece.ground),
+            ("displacement of the floor", piece.displacement),
+            ("velocity of the floor", piece.velocity),
+        ] {
+            for value in values {
+                within(STEP, quantity, value, -f64::MAX, f64::MAX)?;
+            }
+        }
     }
     check(periods, damping, longest)?;
     let before = std::iter::once(motion.first().map_or(0.0, |first| first.velocity[0]));

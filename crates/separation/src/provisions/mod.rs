@@ -546,6 +546,35 @@ mod tests {
         }
     }
 
+    /// Factors that are not above zero, and heights below it, give no width, but are named.
+    #[test]
+    fn impossible_structures_are_refused() {
+        let refusal = |change: &dyn Fn(&mut Structure)| {
+            let mut situation = complete(0.1, 0.05);
+            change(&mut situation.left);
+            let all = ALL.iter().map(|d| d.between(&situation));
+            let refused = all.filter_map(|width| match width {
+                Err(error @ SeparationError::OutOfRange { .. }) => Some(error.to_string()),
+                Err(_) => None,
+                Ok(width) => {
+                    assert!(width.width >= 0.0, "{width:?}");
+                    None
+                }
+            });
+            refused.collect::<Vec<_>>()
+        };
+        assert!(refusal(&|_| ()).is_empty());
+        for value in [-1.0, 0.0, f64::NAN, f64::INFINITY] {
+            let told = refusal(&|s| s.importance = Some(value));
+            assert!(told.contains(&format!("importance = {value} is outside (0, inf)")));
+        }
+        for value in [-9.0, f64::NAN] {
+            // No rule speaks of it.
+            assert_eq!(refusal(&|s| s.height = value).len(), ALL.len());
+            assert_eq!(refusal(&|s| s.elevation = value).len(), ALL.len());
+        }
+    }
+
     /// Floors at 22 and 19.2 m, by hand in mm: each building's own where a distance is asked of each,
     /// the higher one where one distance is asked of both, and of a new building, by its own height
     /// and storeys, the wider.

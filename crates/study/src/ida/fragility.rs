@@ -15,6 +15,13 @@ pub struct Counts {
     pub reached: usize,
 }
 
+impl Counts {
+    /// Runs that did not reach it; none where more reached it than were made.
+    fn missed(&self) -> usize {
+        self.runs.saturating_sub(self.reached)
+    }
+}
+
 /// `P(state | intensity) = Phi(ln(intensity/median)/dispersion)`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Fragility {
@@ -247,7 +254,7 @@ fn likelihood(used: &[&Counts], a: f64, b: f64, centre: f64) -> Likelihood {
         // Both sides of the law by themselves, so that neither tail is lost.
         for (count, side, sign) in [
             (c.reached, normal_distribution(z), 1.0),
-            (c.runs - c.reached, normal_distribution(-z), -1.0),
+            (c.missed(), normal_distribution(-z), -1.0),
         ] {
             if count == 0 {
                 continue;
@@ -385,6 +392,18 @@ mod tests {
             FragilityFit::Lognormal(f) => f,
             other => panic!("{other:?}"),
         }
+    }
+
+    /// Counts that cannot be are those of which all reached the state.
+    #[test]
+    fn more_that_reached_the_state_than_runs_are_all_of_them() {
+        let more = fit(&counts(&[(0.2, 40, 6), (0.5, 40, 27), (0.8, 40, 41)]));
+        let all = fit(&counts(&[(0.2, 40, 6), (0.5, 40, 27), (0.8, 40, 40)]));
+        let median = |fit: FragilityFit| match fit {
+            FragilityFit::Lognormal(fit) => fit.median,
+            other => panic!("{other:?}"),
+        };
+        assert!((median(more) / median(all) - 1.0).abs() < 0.05);
     }
 
     /// With two intensities the curve goes through both fractions: a closed form.

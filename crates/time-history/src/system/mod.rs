@@ -338,6 +338,14 @@ impl System {
         pairs: Vec<(Floor, Floor, f64, Arc<dyn ImpactModel>)>,
         elevation_tolerance: f64,
     ) -> Result<(), TimeHistoryError> {
+        if !(elevation_tolerance.is_finite() && elevation_tolerance >= 0.0) {
+            return Err(TimeHistoryError::GapDefinition {
+                gap: name.to_owned(),
+                reason: format!(
+                    "the elevation tolerance is {elevation_tolerance} m; it must be zero or more"
+                ),
+            });
+        }
         let first_level = self.levels.len();
         let count = pairs.len();
         for (left, right, width, model) in pairs {
@@ -390,6 +398,16 @@ impl System {
         if !(width.is_finite() && width >= 0.0) {
             return Err(wrong(format!(
                 "width is {width} m; it must be zero or more"
+            )));
+        }
+        if let (Floor::Storey(b, i), Floor::Storey(c, j)) = (left, right)
+            && b == c
+        {
+            return Err(wrong(format!(
+                "floors {} and {} are both of building {}: what touches are neighbours",
+                i + 1,
+                j + 1,
+                b + 1
             )));
         }
         let restitution = model.rigid_restitution();

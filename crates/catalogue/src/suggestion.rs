@@ -20,14 +20,15 @@ pub fn nearest_within<T: AsRef<str>>(
 }
 
 /// The known name that `name` is in other case; else the one of which it is an abbreviation; else
-/// the one with the fewest letters to change, if they are no more than one and a third of those of
-/// `name`, and any letter stays.
+/// the one with the fewest letters to change, or one more in its first words (`jankovski` of
+/// `jankowski_2005`), if they are no more than one and a third of those of `name`, and any letter stays.
 pub fn misspelt<T: AsRef<str>>(name: &str, known: impl IntoIterator<Item = T>) -> Option<T> {
     let letters = name.chars().count();
     let change = |known: &T| {
         let known = known.as_ref();
         let is_same = known.to_lowercase() == name.to_lowercase();
-        let change = letters_to_change(name, known);
+        let change = letters_to_change(name, known)
+            .min(letters_to_change(name, first_words(known, name.split('_').count())) + 1);
         let is_short = is_abbreviation(name, known);
         let is_like = change <= 1 + letters / 3 && change < letters.max(known.chars().count());
         (is_same || is_short || is_like).then_some((!is_same, !is_short, change))
@@ -50,6 +51,13 @@ fn is_abbreviation(name: &str, known: &str) -> bool {
         && words
             .zip(of)
             .all(|(word, of)| word.len() >= SHORTEST_ABBREVIATION && of.starts_with(word))
+}
+
+/// So many words of a name, or all.
+fn first_words(name: &str, words: usize) -> &str {
+    let mut ends = name.match_indices('_').map(|(end, _)| end);
+    let end = words.checked_sub(1).and_then(|before| ends.nth(before));
+    &name[..end.unwrap_or(name.len())]
 }
 
 /// How many letters have to be inserted, removed or replaced (Levenshtein's distance).
@@ -90,6 +98,26 @@ mod tests {
             misspelt("rate", ["ratio", "rate_of_decay"]),
             Some("rate_of_decay")
         );
+    }
+
+    /// The first words of a name may have a slip, and the others be left away.
+    #[test]
+    fn a_slip_in_the_first_words_is_understood() {
+        let models = [
+            "anagnostopoulos_2004",
+            "jankowski_2005",
+            "ye_li_2009",
+            "hertz_1882",
+        ];
+        for (name, meant) in [
+            ("jankovski", Some("jankowski_2005")),
+            ("anagnostopolous", Some("anagnostopoulos_2004")),
+            ("ye_lee", Some("ye_li_2009")),
+            ("hertz", Some("hertz_1882")),
+            ("nothing", None),
+        ] {
+            assert_eq!(misspelt(name, models), meant, "{name}");
+        }
     }
 
     #[test]

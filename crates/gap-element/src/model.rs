@@ -146,7 +146,9 @@ pub enum Target {
     /// [`ImpactModel::stick_range`] the contact sticks; above it, it goes on in
     /// approach; below it, in restitution.
     StickOrSlip,
-    /// The contact is over, though the floors overlap.
+    /// The contact is over, though the floors overlap. For laws of [`SeparationRule::GapShift`], whose gap is
+    /// wider then: under another rule the floors, which still overlap, are in contact again at once, in
+    /// impacts without end.
     Open,
 }
 

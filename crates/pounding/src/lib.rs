@@ -369,6 +369,7 @@
 //! | [`separation`] | provisions of codes for the gap |
 //! | [`time_history`] | the solver: systems, methods, outcomes, recorders |
 //! | [`catalogue`] | parameters of models and laws, for descriptors of one's own |
+//! | `pounding-study`, a crate beside this one | many runs: gap checks, model comparison, floor spectra, IDA and fragility |
 //!
 //! [`Model::of_system`] makes a model of what [`time_history`] can and the builders cannot: several
 //! ground motions, foundations on soil, buildings that turn.

@@ -62,6 +62,7 @@ impl Amplification {
 
     /// The same with one in the place of what is not known: where nothing moves with pounding or
     /// without, pounding raises nothing.
+    #[cfg(feature = "results")]
     pub(crate) fn one_where_nothing_moves(self) -> Self {
         let known = |x: f64| if x.is_nan() { 1.0 } else { x };
         Self {

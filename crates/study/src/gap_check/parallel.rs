@@ -38,6 +38,7 @@ impl<'w> Ending<'w> {
     }
 
     /// Whether to go on with what is no run.
+    #[cfg(feature = "results")]
     pub(crate) fn goes_on(&self) -> bool {
         (self.goes_on)()
     }

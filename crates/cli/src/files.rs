@@ -155,6 +155,7 @@ pub fn say_what_is_replaced(files: &FileUse) {
         let what = match kind_of_old(target, new) {
             Old::OfThisKind => return,
             Old::OfAnother => "which was no earlier output of this kind",
+            Old::OfAnotherRecord => "which was made of another record",
             Old::Numbers => "whose numbers do not say what wrote them",
         };
         note(&format!("{} is replaced, {what}", target.display()));
@@ -170,6 +171,8 @@ enum Old {
     /// It looks like an earlier output of what made the new one, or holds nothing.
     OfThisKind,
     OfAnother,
+    /// It was written by this program, of another record.
+    OfAnotherRecord,
     /// Both begin with as many numbers, and nothing tells an earlier output from a file of the user's.
     Numbers,
 }
@@ -211,7 +214,16 @@ fn kind_of_old(old: &Path, new: &Path) -> Old {
     let (before, after) = (line(&before), line(&after));
     match (numbers_of(before.as_deref()), numbers_of(after.as_deref())) {
         (Some(old), Some(new)) if old == new => Old::Numbers,
-        _ => known(before == after),
+        _ => {
+            let is_record = |line: &Option<String>| {
+                let line = line.as_deref();
+                line.is_some_and(|line| line.starts_with("# Source: "))
+            };
+            match is_record(&before) && is_record(&after) && before != after {
+                true => Old::OfAnotherRecord,
+                false => known(before == after),
+            }
+        }
     }
 }
 

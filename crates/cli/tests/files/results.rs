@@ -493,7 +493,8 @@ fn what_is_replaced_is_named() {
     }
     // A record of another file, and the pages of a folder.
     let told = message(&run("motion convert second.csv -o mine.txt"));
-    assert!(told.contains("mine.txt is replaced"), "{told}");
+    let note = "mine.txt is replaced, which was made of another record";
+    assert!(told.contains(note), "{told}");
     // Columns of numbers name no source: they may be the user's, and are not said to be.
     let columns = "motion convert record.csv --to plain_columns -o columns.txt --output-unit";
     for (unit, told_of) in [("g", 0), ("g", 0), ("m/s2", 1)] {

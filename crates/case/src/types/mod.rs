@@ -828,7 +828,8 @@ pub fn decoded(name: &str, bytes: Vec<u8>) -> Result<String, CaseError> {
     const SAVE: &str = "save the file as UTF-8";
     if bytes.starts_with(b"\x89HDF\r\n\x1a\n") {
         let message = "the file is in HDF5, as results are, and no text";
-        let help = "give the file in TOML of which the result was made; `pounding report` shows a result";
+        let help =
+            "give the file in TOML of which the result was made; `pounding report` shows a result";
         return Err(at(0, message.to_owned(), help));
     }
     if bytes.starts_with(&[0xff, 0xfe]) || bytes.starts_with(&[0xfe, 0xff]) {

@@ -123,15 +123,14 @@ impl Butterworth {
             ("high-pass corner", self.high_pass),
             ("low-pass corner", self.low_pass),
         ] {
-            if let Some(corner) = corner {
-                if !(least..=nyquist * (1.0 - 1.0e-9)).contains(&corner) {
-                    return Err(GroundMotionError::OutOfRange {
-                        step: STEP,
-                        name,
-                        value: corner,
-                        range: format!("[{}, {})", bound(least), bound(nyquist)),
-                    });
-                }
+            let of_filter = least..=nyquist * (1.0 - 1.0e-9);
+            if let Some(value) = corner.filter(|corner| !of_filter.contains(corner)) {
+                return Err(GroundMotionError::OutOfRange {
+                    step: STEP,
+                    name,
+                    value,
+                    range: format!("[{}, {})", bound(least), bound(nyquist)),
+                });
             }
         }
         match (self.high_pass, self.low_pass) {

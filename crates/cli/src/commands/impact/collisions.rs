@@ -39,12 +39,15 @@ pub fn collide_all<'a>(
     Ok((collided.collect(), failed))
 }
 
+/// Models with what came of them.
+pub type OfEach<'a, T> = Vec<(&'a Specimen, T)>;
+
 /// The results of models, and those of several whose collision does not end: they keep the others
 /// from nothing.
 pub fn of_each<'a, T>(
     chosen: impl IntoIterator<Item = &'a Specimen, IntoIter: ExactSizeIterator>,
     result: impl Fn(&Specimen) -> Result<T, GapElementError>,
-) -> Result<(Vec<(&'a Specimen, T)>, Vec<Failed>), Failure> {
+) -> Result<(OfEach<'a, T>, Vec<Failed>), Failure> {
     let (mut results, mut failed) = (Vec::new(), Vec::new());
     let chosen = chosen.into_iter();
     let several = chosen.len() > 1;

@@ -6,9 +6,10 @@ use crate::text::in_brackets;
 mod words;
 
 use words::{
-    BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS, COUNTS, DURATIONS,
-    FACTORS, FREQUENCIES, HEADINGS, HERTZ, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES,
-    PEAKS, QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS,
+    ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS, BEFORE_VALUES,
+    BEHIND_UNITS, COUNTS, DURATIONS, FACTORS, FREQUENCIES, HEADINGS, HERTZ, LAST_UNITS, NUMBERS_OF,
+    OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS, UNITS_OF,
+    VALUES_THEMSELVES,
 };
 
 /// What stands under a key.
@@ -259,6 +260,44 @@ pub(crate) fn unit_words(key: &str) -> bool {
     words
         .iter()
         .all(|w| w.starts_with("accel") || *w == "acc" || OF_VALUES.contains(w))
+}
+
+/// What a line in lower case says in words to be the unit of the values: `values in units of g`, `data are in cm/s2
+/// (gal)`; what it says of other things stands behind commas.
+pub(crate) fn unit_in_words(lower: &str) -> Option<&str> {
+    let sentences = lower.split([',', ';', '\t', '|']);
+    let mut sentences = sentences.flat_map(|text| text.split(". "));
+    sentences.find_map(unit_of_sentence)
+}
+
+fn unit_of_sentence(text: &str) -> Option<&str> {
+    let before = text
+        .trim_matches(|c: char| "#%!*/ \"".contains(c))
+        .trim_end_matches('.');
+    let mut rest = before;
+    while let Some(behind) = first_word_of(rest, &BEFORE_VALUES) {
+        rest = behind;
+    }
+    // `data` may be what the values are of.
+    rest = first_word_of(rest, &VALUES_THEMSELVES)
+        .or_else(|| first_word_of(before, &VALUES_THEMSELVES))?;
+    while let Some(behind) = first_word_of(rest, &ARE_GIVEN) {
+        rest = behind;
+    }
+    rest = first_word_of(rest, &["in", "en", "em"])?;
+    let of = UNITS_OF.iter().find_map(|words| rest.strip_prefix(words));
+    let unit = of.unwrap_or(rest);
+    // `values in g at 0.02 s`.
+    let ends = BEHIND_UNITS.iter().filter_map(|word| unit.find(word));
+    let unit = unit[..ends.min().unwrap_or(unit.len())].trim();
+    Some(unit).filter(|unit| !unit.is_empty())
+}
+
+/// What follows the first word of a text, if it is one of these.
+fn first_word_of<'t>(text: &'t str, words: &[&str]) -> Option<&'t str> {
+    let (word, rest) = text.split_once([' ', '\t'])?;
+    let word = without_marks(word);
+    words.contains(&word.as_str()).then(|| rest.trim_start())
 }
 
 /// The keys of a line in lower case with what stands behind their colon or sign of equality; where

@@ -47,6 +47,7 @@ mod spectra;
 mod start_times;
 mod stated_directions;
 mod stated_durations;
+mod stated_in_words;
 mod stated_keys;
 mod station_xml;
 mod thousands;

@@ -13,7 +13,8 @@ use crate::formats::Format;
 use crate::formats::rows::{DecimalCommas, second_record};
 use crate::fortran::Layout;
 use crate::header_keys::{
-    Meaning, decimation, factors, is_of_another, is_rate_unit, keyed, meaning, unit_words,
+    Meaning, decimation, factors, is_of_another, is_rate_unit, keyed, meaning, unit_in_words,
+    unit_words,
 };
 use crate::number::{self, Bare};
 use crate::quantity::{Multiple, Quantity, SeriesUnit, named_with_unit, speaks_of_spectrum};
@@ -700,6 +701,14 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
         units.extend(behind);
     }
     if units.is_empty() {
+        // `VALUES IN CM/S2`.
+        let in_words = lower
+            .iter()
+            .enumerate()
+            .filter_map(|(i, line)| Some((i + 1, (SeriesUnit::parse(unit_in_words(line)?)?, ""))));
+        units.extend(in_words);
+    }
+    if units.is_empty() {
         // `ACCELERATION (GAL)`. What follows such a unit may be of a title, unless it changes it.
         let beside = lower.iter().enumerate().filter_map(|(i, line)| {
             let named = named_with_unit(line)?;
@@ -776,13 +785,12 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
         ));
     }
     if let Some((first, (unit, _))) = units.first() {
-        // `Units: cm/s2` below `IN UNITS OF G`.
+        // `Units: cm/s2` or `Values in cm/s2` below `IN UNITS OF G`.
         let keys = lower.iter().enumerate().filter_map(|(i, line)| {
-            let entry = keyed(line)
-                .into_iter()
-                .find(|entry| unit_words(entry.key))?;
-            let multiple = || Multiple::parse(entry.value)?.unit;
-            Some((i + 1, SeriesUnit::parse(entry.value).or_else(multiple)?))
+            let entry = || keyed(line).into_iter().find(|entry| unit_words(entry.key));
+            let stated = unit_in_words(line).or_else(|| Some(entry()?.value))?;
+            let multiple = || Multiple::parse(stated)?.unit;
+            Some((i + 1, SeriesUnit::parse(stated).or_else(multiple)?))
         });
         if let Some((line, other)) = keys.into_iter().find(|(_, other)| other != unit) {
             return Err(source.error(

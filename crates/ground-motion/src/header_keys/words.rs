@@ -367,6 +367,78 @@ pub(super) const OF_VALUES: [&str; 20] = [
     "medida",
     "aceleracion",
 ];
+/// Words for the values themselves, in a statement of their unit.
+pub(super) const VALUES_THEMSELVES: [&str; 16] = [
+    "values",
+    "data",
+    "amplitudes",
+    "samples",
+    "numbers",
+    "ordinates",
+    // Spanish, Portuguese and Italian.
+    "valores",
+    "datos",
+    "dados",
+    "valori",
+    "dati",
+    // French and German.
+    "valeurs",
+    "donnees",
+    "werte",
+    "daten",
+    "messwerte",
+];
+/// What may stand before them.
+pub(super) const BEFORE_VALUES: [&str; 13] = [
+    "all",
+    "the",
+    "these",
+    "acceleration",
+    "accel",
+    "acc",
+    "los",
+    "os",
+    "i",
+    "les",
+    "alle",
+    "die",
+    "data",
+];
+/// What may stand between them and the word before the unit.
+pub(super) const ARE_GIVEN: [&str; 15] = [
+    "are",
+    "is",
+    "all",
+    "given",
+    "expressed",
+    "printed",
+    "recorded",
+    "listed",
+    "stored",
+    "written",
+    "son",
+    "sao",
+    "sono",
+    "sont",
+    "sind",
+];
+/// Words between the one before a unit and the unit.
+pub(super) const UNITS_OF: [&str; 12] = [
+    "units: ",
+    "unit: ",
+    "the units of ",
+    "the unit of ",
+    "the unit ",
+    "units of ",
+    "unit of ",
+    "unidades de ",
+    "unita di ",
+    "unites de ",
+    "units ",
+    "unit ",
+];
+/// Words behind a unit with which something else begins.
+pub(super) const BEHIND_UNITS: [&str; 5] = [" at ", " with ", " from ", " for ", " sampled "];
 
 /// Words of keys that speak of the record before it was processed.
 pub(super) const OF_ANOTHER: [&str; 28] = [

@@ -606,16 +606,18 @@ fn unit_of(lower: &str) -> Unit {
     if let Some(unit) = beside_seconds(bare) {
         return Unit::Known(unit);
     }
-    let within = [
-        "in ",
-        "values in ",
-        "data in ",
-        "amplitudes in ",
-        "samples in ",
-    ];
-    let behind = within.iter().find_map(|start| bare.strip_prefix(start));
+    let behind = bare.strip_prefix("in ");
+    let behind = behind.map(|unit| unit.strip_prefix("units of ").unwrap_or(unit));
     if let Some(unit) = behind.and_then(|unit| names::motion_unit(unit.trim_end_matches('.'))) {
         return Unit::Known(unit);
+    }
+    if let Some(stated) = header_keys::unit_in_words(lower) {
+        // A word that is no unit, as in `values in ASCII`, is of something else.
+        match value_of(stated) {
+            Unit::Unknown(text) if !is_like_a_unit(&text) => {}
+            Unit::None => {}
+            stated => return stated,
+        }
     }
     for entry in keyed(lower).iter().filter(|entry| unit_words(entry.key)) {
         // Other keys may follow on the line.
@@ -663,6 +665,11 @@ fn unit_of(lower: &str) -> Unit {
         }
         _ => Unit::None,
     }
+}
+
+/// Whether what is no known unit of acceleration is a unit all the same: one of something else, or with a factor.
+fn is_like_a_unit(text: &str) -> bool {
+    names::is_foreign_unit(text) || Multiple::parse(text).is_some()
 }
 
 /// Whether a line in lower case has a key of our CSV that tells how a record was made from another one.

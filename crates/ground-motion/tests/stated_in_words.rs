@@ -1,0 +1,126 @@
+//! What headers state of units, steps and factors in sentences rather than under keys.
+#![allow(clippy::unwrap_used)]
+
+use pounding_ground_motion::{
+    AccelerationUnit, GroundMotionError, ReadOptions, Recording, read_all_bytes,
+};
+
+/// Samples of each file.
+const COUNT: usize = 300;
+
+/// Values of which none is a round number, one in a row.
+fn values() -> String {
+    let value = |i: usize| 0.3 * (0.37 * i as f64).sin() * (-0.01 * i as f64).exp() + 0.0012;
+    (0..COUNT).map(|i| format!("{:.5}\n", value(i))).collect()
+}
+
+/// A file of plain columns with these lines before the values.
+fn plain(header: &str) -> String {
+    format!("{header}\n{}", values())
+}
+
+/// A file of AT2 whose values have a step of 0.02 s, with one more line in its header.
+fn at2(unit: &str, line: &str) -> String {
+    format!(
+        "PEER STRONG MOTION DATABASE RECORD\nQUAKE, 180\n{unit}\n{line}\nNPTS= {COUNT}, DT= .02 SEC\n{}",
+        values()
+    )
+}
+
+fn read(text: &str) -> Result<Recording, GroundMotionError> {
+    read_all_bytes("file", text.as_bytes(), &ReadOptions::default())
+}
+
+/// The largest sample (m/s2).
+fn peak(recording: &Recording) -> f64 {
+    let samples = &recording.series[0].samples;
+    samples.iter().fold(0.0_f64, |most, a| most.max(a.abs()))
+}
+
+/// The file is refused at this line, in words that hold these.
+fn refused(text: &str, line: usize, words: &[&str]) {
+    let error = read(text)
+        .err()
+        .unwrap_or_else(|| panic!("read: {}", &text[..120]));
+    let shown = format!("{error}; {}", error.help().unwrap());
+    assert!(
+        shown.starts_with(&format!("file:{line}:")),
+        "{line}: {shown}"
+    );
+    for word in words {
+        assert!(shown.contains(word), "{word} is not in {shown}");
+    }
+}
+
+#[test]
+fn units_of_the_values_in_sentences() {
+    let of_g = peak(&read(&plain("units: g\ndt: 0.02 s")).unwrap());
+    for (line, unit) in [
+        ("Values in units of g", 1.0),
+        ("# Values in units of g.", 1.0),
+        ("values in units of g/10", 0.1),
+        ("All values are in g", 1.0),
+        ("Data are given in units of g", 1.0),
+        ("Data are in cm/s2 (gal)", 0.01 / 9.80665),
+        (
+            "The acceleration values are in mm/s2, baseline corrected",
+            0.001 / 9.80665,
+        ),
+        ("Values in g at 50 samples/s", 1.0),
+        ("in units of g", 1.0),
+        ("Los valores son en cm/s2", 0.01 / 9.80665),
+    ] {
+        let recording = read(&plain(&format!("{line}\ndt: 0.02 s")));
+        let found = peak(&recording.unwrap_or_else(|e| panic!("{line}: {e}")));
+        assert!(
+            (found / (unit * of_g) - 1.0).abs() < 1e-9,
+            "{line}: {found}"
+        );
+        // Beside a key with another unit, and against the option.
+        refused(
+            &plain(&format!("units: in/s2\n{line}\ndt: 0.02 s")),
+            2,
+            &["in/s2 in line 1"],
+        );
+        let options = ReadOptions {
+            unit: Some(AccelerationUnit::FootPerSecondSquared),
+            ..ReadOptions::default()
+        };
+        let text = plain(&format!("{line}\ndt: 0.02 s"));
+        let error = read_all_bytes("file", text.as_bytes(), &options).unwrap_err();
+        assert!(
+            matches!(error, GroundMotionError::Contradiction { .. }),
+            "{error}"
+        );
+    }
+    // Words that state no unit.
+    for line in [
+        "Data in columns",
+        "Values in ASCII",
+        "Data recorded in Taiwan",
+    ] {
+        let text = plain(&format!("units: g\n{line}\ndt: 0.02 s"));
+        assert!(
+            (peak(&read(&text).unwrap()) / of_g - 1.0).abs() < 1e-9,
+            "{line}"
+        );
+    }
+}
+
+#[test]
+fn units_of_the_values_in_sentences_of_at2() {
+    let in_g = "ACCELERATION TIME HISTORY IN UNITS OF G";
+    let of_g = peak(&read(&at2(in_g, "Values in g")).unwrap());
+    refused(
+        &at2(in_g, "Values in units of cm/s2"),
+        4,
+        &["cm/s2 here", "g in line 3"],
+    );
+    refused(
+        &at2(in_g, "DATA ARE IN CM/S2"),
+        4,
+        &["cm/s2 here", "g in line 3"],
+    );
+    let alone = peak(&read(&at2("QUAKE OF A DAY", "Values in cm/s2")).unwrap());
+    assert!((alone / of_g * 980.665 - 1.0).abs() < 1e-9, "{alone}");
+}

@@ -140,6 +140,35 @@ pub(crate) fn is_of_rate(entry: &Entry<'_>) -> bool {
     entry.parted && RATES.iter().any(|key| named(key))
 }
 
+/// Rate (Hz) below which a frequency is none of sampling.
+const LEAST_RATE: f64 = 20.0;
+
+/// The rate (Hz) that a line in lower case states alone, `rate: 100 hz`, `frequency (hz): 100`, and whether it is called
+/// a rate: a frequency may be of something else.
+pub(crate) fn lone_rate(lower: &str) -> Option<(f64, bool)> {
+    let entries = keyed(lower);
+    let [entry] = entries.as_slice() else {
+        return None;
+    };
+    let (found, digits, behind) = entry.number()?;
+    let inside = entry.unit_of_key();
+    let inside = inside.as_deref();
+    let unit = match behind {
+        "" => inside.unwrap_or_default(),
+        unit => unit,
+    };
+    let rest = entry.value[digits.len()..].trim();
+    let is_bare = rest.is_empty() || rest.trim_matches(['(', ')', '[', ']', '.']) == behind;
+    // `Low-pass filter, frequency = 25 Hz`, `Frequency (natural): 50 Hz`, `Rate: 5`.
+    let first = lower.trim_start_matches(|c: char| !c.is_alphanumeric());
+    let is_rate = entry.words() == "rate";
+    let is_own = meaning(entry) == Some(Meaning::Frequency)
+        && first.starts_with(entry.key)
+        && inside.is_none_or(is_rate_unit)
+        && !(is_rate && unit.is_empty());
+    (is_own && is_bare && is_rate_unit(unit) && found >= LEAST_RATE).then_some((found, is_rate))
+}
+
 /// What follows the words of a rate of sampling in a line in lower case, `200, cutoff 80 hz`.
 pub(crate) fn behind_rate(lower: &str) -> Option<&str> {
     let words = RATES.iter().filter(|key| key.contains(' '));

@@ -16,6 +16,23 @@ pub(crate) struct StatedStep {
 /// Part of a step by which two statements of it may differ.
 pub(crate) const STEP_TOLERANCE: f64 = 0.01;
 
+/// Part of the rate of the samples up to which another frequency is taken for that of a filter, which most are.
+const OF_FILTERS: f64 = 0.25;
+
+/// What to say of a frequency of a header, of which it is not known what it is of, that is not the rate of the samples;
+/// by their steps (s). One as low as those of filters is passed over.
+pub(crate) fn frequency_not_used(line: usize, stated: f64, used: f64) -> Option<String> {
+    let differs = (stated - used).abs() > STEP_TOLERANCE * used;
+    let is_of_filter = used <= OF_FILTERS * (1.0 + STEP_TOLERANCE) * stated;
+    (differs && !is_of_filter).then(|| {
+        format!(
+            "line {line}: a frequency of {} Hz is stated, but the samples are {} s apart, which is used: if it is the rate of sampling, get the record again",
+            bound(1.0 / stated),
+            bound(used)
+        )
+    })
+}
+
 /// Takes the first of the steps; all must be the same, or the user says which is right.
 pub(crate) fn state_step(draft: &mut Draft, source: &Source<'_>, stated: &[StatedStep]) {
     let Some(first) = stated.first() else {

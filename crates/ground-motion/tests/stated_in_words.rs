@@ -2,7 +2,7 @@
 #![allow(clippy::unwrap_used)]
 
 use pounding_ground_motion::{
-    AccelerationUnit, GroundMotionError, ReadOptions, Recording, read_all_bytes,
+    AccelerationUnit, GroundMotionError, ReadOptions, Recording, Sampling, read_all_bytes,
 };
 
 /// Samples of each file.
@@ -35,6 +35,19 @@ fn read(text: &str) -> Result<Recording, GroundMotionError> {
 fn peak(recording: &Recording) -> f64 {
     let samples = &recording.series[0].samples;
     samples.iter().fold(0.0_f64, |most, a| most.max(a.abs()))
+}
+
+/// The even step (s).
+fn step(recording: &Recording) -> f64 {
+    match recording.series[0].sampling {
+        Sampling::Even { time_step } => time_step,
+        Sampling::Uneven { .. } => f64::NAN,
+    }
+}
+
+fn is_warned_of(recording: &Recording, words: &str) -> bool {
+    let mut warnings = recording.series[0].origin.warnings.iter();
+    warnings.any(|warning| warning.contains(words))
 }
 
 /// The file is refused at this line, in words that hold these.
@@ -123,4 +136,81 @@ fn units_of_the_values_in_sentences_of_at2() {
     );
     let alone = peak(&read(&at2("QUAKE OF A DAY", "Values in cm/s2")).unwrap());
     assert!((alone / of_g * 980.665 - 1.0).abs() < 1e-9, "{alone}");
+}
+
+#[test]
+fn rates_beside_other_steps() {
+    let given = ReadOptions {
+        time_step: Some(0.02),
+        ..ReadOptions::default()
+    };
+    let alone = plain("units: g\nRate: 100 Hz");
+    assert_eq!(step(&read(&alone).unwrap()), 0.01);
+    let error = read_all_bytes("file", alone.as_bytes(), &given).unwrap_err();
+    assert!(
+        matches!(error, GroundMotionError::Contradiction { .. }),
+        "{error}"
+    );
+    for (header, line) in [
+        ("units: g\nRate: 100 Hz\ndt: 0.02 s", 3),
+        ("units: g\nRate (Hz): 100\ndt: 0.02 s", 3),
+        ("units: g\nSampling rate 200 Hz, 0.02 s", 2),
+        ("units: g\nSampling rate: 200 Hz (0.02 s)", 2),
+        ("units: g\nSampling rate: 200 Hz; 20 ms", 2),
+    ] {
+        refused(&plain(header), line, &["0.02 s here", "--time-step"]);
+    }
+    for (header, seconds) in [
+        ("units: g\nRate: 50 Hz\ndt: 0.02 s", 0.02),
+        ("units: g\nRate: 5\ndt: 0.02 s", 0.02),
+        ("units: g\nSampling rate 200 Hz, 0.005 s", 0.005),
+        ("units: g\nSampling rate 50 Hz, 6 s", 0.02),
+        ("units: g\nSampling rate: 50 Hz, taper (0.1 s)", 0.02),
+        ("units: g\nSampling rate: 50 Hz, delay, 0.05 s", 0.02),
+        ("units: g\nLow-pass filter, rate: 100 Hz\ndt: 0.02 s", 0.02),
+    ] {
+        let recording = read(&plain(header)).unwrap_or_else(|e| panic!("{header}: {e}"));
+        assert_eq!(step(&recording), seconds, "{header}");
+        assert!(!is_warned_of(&recording, "frequency"), "{header}");
+    }
+    let unit = "ACCELERATION TIME HISTORY IN UNITS OF G";
+    refused(
+        &at2(unit, "Rate: 100 Hz"),
+        5,
+        &["0.02 s", "0.01 s", "in line 4"],
+    );
+    assert_eq!(step(&read(&at2(unit, "Rate: 50 Hz")).unwrap()), 0.02);
+}
+
+/// A frequency alone is that of sampling; beside a step it may be of a filter or an instrument.
+#[test]
+fn frequencies_beside_other_steps() {
+    let words = "a frequency of 100 Hz is stated, but the samples are 0.02 s apart";
+    let given = ReadOptions {
+        time_step: Some(0.02),
+        ..ReadOptions::default()
+    };
+    let alone = plain("units: g\nFrequency: 100 Hz");
+    assert_eq!(step(&read(&alone).unwrap()), 0.01);
+    let recording = read_all_bytes("file", alone.as_bytes(), &given).unwrap();
+    assert_eq!(step(&recording), 0.02);
+    assert!(is_warned_of(&recording, words));
+    let unit = "ACCELERATION TIME HISTORY IN UNITS OF G";
+    for text in [
+        plain("units: g\nFrequency: 100 Hz\ndt: 0.02 s"),
+        at2(unit, "Frequency: 100 Hz"),
+    ] {
+        let recording = read(&text).unwrap();
+        assert_eq!(step(&recording), 0.02);
+        assert!(is_warned_of(&recording, words));
+    }
+    for text in [
+        plain("units: g\nFrequency: 50 Hz\ndt: 0.02 s"),
+        plain("units: g\nNatural frequency: 100 Hz\ndt: 0.02 s"),
+        // As low as a filter's.
+        plain("units: g\nFrequency: 25 Hz\ndt: 0.005 s"),
+        at2(unit, "Frequency: 50 Hz"),
+    ] {
+        assert!(!is_warned_of(&read(&text).unwrap(), "frequency of"));
+    }
 }

@@ -13,15 +13,15 @@ use crate::formats::Format;
 use crate::formats::rows::{DecimalCommas, second_record};
 use crate::fortran::Layout;
 use crate::header_keys::{
-    Meaning, decimation, factors, is_of_another, is_rate_unit, keyed, meaning, unit_in_words,
-    unit_words,
+    Meaning, decimation, factors, is_of_another, is_rate_unit, keyed, lone_rate, meaning,
+    unit_in_words, unit_words,
 };
 use crate::number::{self, Bare};
 use crate::quantity::{Multiple, Quantity, SeriesUnit, named_with_unit, speaks_of_spectrum};
 use crate::recording::Series;
 use crate::row_widths::RowWidths;
 use crate::source::Source;
-use crate::stated_step::{StatedStep, state_step};
+use crate::stated_step::{StatedStep, frequency_not_used, state_step};
 use crate::text::{Line, Lines};
 use crate::time_column::mostly_times;
 use crate::writers::peer_at2::{OTHER, RAW, UNSTATED};
@@ -222,7 +222,13 @@ fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
                 })
             })
             .collect();
-        rates
+        // `RATE: 200 HZ`.
+        let lone = lone_rate(&lower).filter(|(_, is_rate)| *is_rate);
+        let lone = lone.map(|(rate, _)| StatedStep {
+            line: i + 1,
+            step: 1.0 / rate,
+        });
+        rates.into_iter().chain(lone)
     };
     header.text.iter().enumerate().flat_map(of_line)
 }
@@ -246,6 +252,12 @@ fn keys(draft: &mut Draft, source: &Source<'_>, header: &Header) {
         // The title of a file that this program wrote is a name.
         if i == 1 && header.is_own() {
             continue;
+        }
+        let used = header.steps.first().map(|stated| stated.step);
+        let used = source.options.time_step.or(used);
+        if let (Some((rate, false)), Some(used)) = (lone_rate(&lower), used) {
+            let told = frequency_not_used(i + 1, 1.0 / rate, used);
+            draft.warnings.extend(told);
         }
         let told = factors(&lower).into_iter().map(|x| not_applied(i + 1, x));
         draft.warnings.extend(told);

@@ -11,7 +11,7 @@ use crate::header_keys::{self, Entry, Meaning, is_of_rate, keyed, meaning, unit_
 use crate::number;
 use crate::quantity::{Multiple, Quantity, SeriesUnit, named_with_unit, of_something_else};
 use crate::source::Source;
-use crate::stated_step::STEP_TOLERANCE;
+use crate::stated_step::{STEP_TOLERANCE, frequency_not_used};
 use crate::text::Line;
 
 /// Keys of our CSV that tell how a record was made from another one.
@@ -33,8 +33,6 @@ const OF_OTHER_STAGES: [&str; 8] = [
     "every ",
     "this file",
 ];
-/// Rate (Hz) below which a frequency is none of sampling.
-const LEAST_RATE: f64 = 20.0;
 /// Step (s) from which on a `delta` without a unit is none beside a count: one of a distance in degrees.
 const LONGEST_DELTA: f64 = 0.1;
 /// Number from which on one under the letter N is no count of storeys or piles.
@@ -86,7 +84,8 @@ pub(super) struct Stated {
     decimations: Vec<At<f64>>,
     /// A `delta` without a unit: a step (s), or a distance.
     delta: Option<At<f64>>,
-    /// Step (s) of a frequency that may be the rate of sampling: it counts where nothing else does.
+    /// Step (s) of a frequency that may be the rate of sampling: it counts where nothing else does, and is only
+    /// named where it is not that of the samples.
     frequency: Option<At<f64>>,
 }
 
@@ -115,9 +114,9 @@ impl Stated {
             seconds(source, line, &lower)?;
             stated.numbers(line.number, &lower);
         }
-        if let Some(At { line, value }) = stated.frequency.take()
-            && stated.steps.is_empty()
+        if stated.steps.is_empty()
             && source.options.time_step.is_none()
+            && let Some(At { line, value }) = stated.frequency.take()
         {
             stated.state_step(line, value, true);
         }
@@ -221,7 +220,6 @@ impl Stated {
                     .extend(letters.into_iter().map(|value| At { line, value }));
             }
         }
-        let alone = entries.len() == 1;
         for (i, entry) in entries.iter().enumerate() {
             let next = entries.get(i + 1);
             // What follows a number may be the key behind it.
@@ -292,19 +290,14 @@ impl Stated {
                     }
                 }
                 // Else that of a sine, a filter or a building.
-                Meaning::Frequency => {
-                    let rest = entry.value[digits.len()..].trim();
-                    let bare = rest.is_empty() || rest == behind;
-                    // `Low-pass filter, frequency = 25 Hz`, `Frequency (natural): 50 Hz`, `Rate: 5`.
-                    let first = lower.trim_start_matches(|c: char| !c.is_alphanumeric());
-                    let own = first.starts_with(entry.key)
-                        && inside.is_none_or(header_keys::is_rate_unit)
-                        && !(entry.key == "rate" && unit.is_empty());
-                    if hertz && alone && bare && own && found >= LEAST_RATE {
-                        let value = 1.0 / found;
+                Meaning::Frequency => match header_keys::lone_rate(lower) {
+                    Some((rate, true)) => step(1.0 / rate, true),
+                    Some((rate, false)) => {
+                        let value = 1.0 / rate;
                         self.frequency = Some(At { line, value });
                     }
-                }
+                    None => {}
+                },
                 Meaning::Count
                     if found >= 2.0
                         && found.fract() == 0.0
@@ -346,6 +339,12 @@ impl Stated {
                     self.peaks.push(At { line, value });
                 }
                 _ => {}
+            }
+        }
+        let is_rate = |step: &At<Step>| step.line == line && step.value.is_rate;
+        if self.steps.last().is_some_and(is_rate) && !header_keys::is_of_another(lower) {
+            for seconds in steps_beside_rate(lower) {
+                self.state_step(line, seconds, false);
             }
         }
     }
@@ -412,8 +411,9 @@ impl Stated {
         source: &Source<'_>,
         found: Option<f64>,
     ) -> Result<Option<f64>, GroundMotionError> {
+        let known = found.or(source.options.time_step);
         let Some(first) = self.steps.first() else {
-            return match (&self.delta, found.or(source.options.time_step)) {
+            return match (&self.delta, known) {
                 (Some(delta), None) => Err(source.error(
                     delta.line,
                     0,
@@ -423,9 +423,13 @@ impl Stated {
                     ),
                     "if it is the time step, write its unit or another key, `dt: 0.01 s`; or give `time_step`, `--time-step` with `pounding motion`",
                 )),
-                _ => Ok(found),
+                _ => {
+                    self.warn_of_frequency(source, known);
+                    Ok(found)
+                }
             };
         };
+        self.warn_of_frequency(source, known.or(Some(first.value.seconds)));
         let same = |step: f64| {
             let near = move |s: &&At<Step>| {
                 (s.value.seconds - step).abs() <= STEP_TOLERANCE * s.value.seconds
@@ -487,6 +491,15 @@ impl Stated {
                     )),
                 }
             }
+        }
+    }
+
+    /// Says that a frequency is not that of the samples, where their step (s) is known.
+    fn warn_of_frequency(&self, source: &Source<'_>, used: Option<f64>) {
+        if let (Some(At { line, value }), Some(used)) = (&self.frequency, used)
+            && let Some(told) = frequency_not_used(*line, *value, used)
+        {
+            source.warn(&told);
         }
     }
 
@@ -555,6 +568,26 @@ impl Stated {
             }
         }
     }
+}
+
+/// The steps (s) that stand alone right behind a rate of sampling, behind a comma or in brackets: `sampling rate 200
+/// hz, 0.005 s`. Longer ones are durations, and those behind other words, `taper (0.1 s)`, of something else.
+fn steps_beside_rate(lower: &str) -> Vec<f64> {
+    let parts = lower.split([',', ';', '|', '(', ')', '[', ']', '\t']);
+    let parts = parts.map(|part| part.trim().trim_end_matches('.'));
+    let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
+    let step = |two: &[&str]| {
+        let unit = two[0]
+            .rsplit(|c: char| c == ' ' || c.is_ascii_digit())
+            .next()?;
+        let is_rate =
+            !unit.is_empty() && header_keys::is_rate_unit(unit) || two[0].ends_with(" per second");
+        let number = two[1].trim_end_matches(|c: char| c.is_ascii_alphabetic());
+        let one = names::time_unit(&two[1][number.len()..]).filter(|_| is_rate)?;
+        let seconds = one * number::parse(number.trim_end().as_bytes()).ok()?;
+        (seconds > 0.0 && seconds <= LONGEST_DELTA).then_some(seconds)
+    };
+    parts.windows(2).filter_map(step).collect()
 }
 
 /// Refuses another unit of the times than the second under a key, which the rows do not know of: `Time unit: ms`.

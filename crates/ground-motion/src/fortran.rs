@@ -63,6 +63,14 @@ impl Layout {
         self.decimals != 0
     }
 
+    /// The fields of a row that are not blank, with their columns (from 0).
+    pub(crate) fn fields(self, row: &[u8]) -> impl Iterator<Item = (usize, &[u8])> {
+        let (margin, fields) = row.split_at(self.margin.min(row.len()));
+        let fields = fields.chunks(self.width).enumerate();
+        let placed = fields.map(move |(i, field)| (margin.len() + i * self.width, field));
+        placed.filter(|(_, field)| !field.trim_ascii().is_empty())
+    }
+
     /// The value of a field that was read as a number with a point behind its digits.
     pub(crate) fn value(self, field: &[u8], number: f64) -> f64 {
         let plain = field.trim_ascii();

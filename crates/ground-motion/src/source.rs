@@ -409,6 +409,17 @@ impl<'a> Source<'a> {
         Ok(())
     }
 
+    /// Takes the forms of the numbers of a line of fixed width into account.
+    pub(crate) fn see_row(&self, line: Line<'_>, layout: Layout, forms: &mut Forms) {
+        let mut see = |(column, field)| {
+            forms.see(line.number, column + self.options.skip_columns, field);
+        };
+        match line.bytes.contains(&b'\t') {
+            true => line.fields().for_each(&mut see),
+            false => layout.fields(line.bytes).for_each(&mut see),
+        }
+    }
+
     /// Numbers of fixed width up to the next line of text or one that starts with
     /// `/` or `|`; at most `most` of them, when the count alone tells
     /// where they end.
@@ -431,13 +442,7 @@ impl<'a> Source<'a> {
             }
             lines.next();
             self.row(line, layout, &mut values)?;
-            let (margin, fields) = line.bytes.split_at(layout.margin.min(line.bytes.len()));
-            for (i, field) in fields.chunks(layout.width).enumerate() {
-                let field = field.trim_ascii();
-                if !field.is_empty() {
-                    forms.see(line.number, margin.len() + i * layout.width, field);
-                }
-            }
+            self.see_row(line, layout, &mut forms);
         }
         forms.are_whole(self)?;
         Ok(values)

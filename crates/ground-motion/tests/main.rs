@@ -19,6 +19,7 @@ mod encodings;
 mod ensemble;
 mod excitation;
 mod factors_in_names;
+mod fixed_widths;
 mod floor_spectra;
 mod formats;
 mod generators;

@@ -366,8 +366,12 @@ impl Forms {
     fn lacks_point_of_mantissa(&self) -> Option<&Place> {
         let usual = self.with.usual()?.key.filter(|usual| *usual > 0)?;
         let all = self.with.count;
-        if all <= MANY || self.implies_points {
+        if all <= MANY {
             return None;
+        }
+        // A layout gives decimals to those without a point, which is right where many have none.
+        if self.implies_points {
+            return self.long_wholes.of(all);
         }
         // Writers that leave out zeros, and with them the point, have one digit before it.
         if let Some(first) = self.long_wholes.of(all) {
@@ -429,13 +433,17 @@ impl Forms {
         let most = self.without.usual()?;
         let usual = most.key.filter(|usual| *usual > 0)?;
         let pointed = self.without.number(is_pointed);
-        if pointed < MANY_POINTS || self.implies_points {
+        if pointed < MANY_POINTS {
             return None;
         }
         if let Some(first) = self.led_by_zero.of(pointed) {
             return Some((first, usual));
         }
         let wholes = self.without.kinds().find(|kind| !is_pointed(kind.key))?;
+        // A layout would read it as many times smaller than it stands there, which is right where many have no point.
+        if self.implies_points {
+            return are_few(wholes.count, pointed).then_some((&wholes.first, usual));
+        }
         let has_zeros = keeps_zeros(most);
         let is_fixed = has_zeros && self.has_constant_decimals() && are_few(wholes.count, pointed);
         if is_fixed && (pointed > MANY_DECIMALS || !self.wholes.follow()) {
@@ -540,7 +548,13 @@ impl Forms {
                 "\"{}\" has no decimal point, which the other values have",
                 at.shown()
             );
-            return refused(at, message, &or_as_others(at, decimals));
+            let remedy = match self.implies_points {
+                true => format!(
+                    "{REMEDY}; if its decimals are those of the format, write it with its point, as the others"
+                ),
+                false => or_as_others(at, decimals),
+            };
+            return refused(at, message, &remedy);
         }
         if let Some((at, decimals)) = self.has_stray_exponent() {
             let message = format!(

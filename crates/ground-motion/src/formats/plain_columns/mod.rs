@@ -652,6 +652,7 @@ fn fixed(
     let mut last = 0;
     let mut cards = Counter::default();
     let mut usual = None;
+    let mut forms = Forms::of(layout);
     let mut lines = rows(source).peekable();
     while let Some(line) = lines.next() {
         first = if first == 0 { line.number } else { first };
@@ -679,6 +680,7 @@ fn fixed(
             ));
         }
         read?;
+        source.see_row(Line { bytes, ..line }, layout, &mut forms);
         let found = samples.len() - before;
         let usual = *usual.get_or_insert(found);
         if found > usual || found < usual && lines.peek().is_some() {
@@ -687,6 +689,7 @@ fn fixed(
         }
     }
     cards.goes_on(source, layout.per_line + 1, true)?;
+    forms.are_whole(source)?;
     if let Some(line) = cards.first_other().filter(|_| !layout.more)
         && let Some(line) = rows(source).find(|l| l.number == line)
     {

@@ -699,3 +699,43 @@ fn values_of_list_directed_output() {
         "{said}"
     );
 }
+
+/// As list-directed output of Intel Fortran prints: exponents below a tenth, and eight digits with them.
+fn of_intel(x: f64) -> String {
+    match x.abs() {
+        x_abs if x_abs < 0.1 => of_c(x),
+        x_abs if x_abs < 1.0 => format!("{x:.7}"),
+        _ => format!("{x:.6}"),
+    }
+}
+
+/// However many values have an exponent.
+#[test]
+fn values_of_list_directed_output_of_intel() {
+    for largest in [0.1003, 0.102, 0.11, 0.13, 0.2, 0.4, 0.9, 1.1, 6.0] {
+        let values: Vec<String> = (0..COUNT)
+            .map(|i| of_intel(largest / 0.05 * (sample(i) - 1.234_567_8e-4)))
+            .collect();
+        reads(&values);
+    }
+    // A few small values among large ones, and a few larger ones.
+    let values = |few: &dyn Fn(usize) -> bool, small: f64, large: f64| -> Vec<String> {
+        let value =
+            |i: usize| if few(i) { small } else { large } * (1.0 + 0.3 * f64::sin(i as f64));
+        (0..COUNT).map(|i| of_intel(value(i))).collect()
+    };
+    reads(&values(&|i| i == 200, 0.03, 0.4));
+    reads(&values(&|i| i != 200, 0.03, 0.4));
+    // A mantissa that lost its exponent is no such value.
+    let mut damaged: Vec<String> = (0..COUNT).map(|i| of_intel(1.9 * sample(i))).collect();
+    let place = damaged
+        .iter()
+        .position(|value| value.ends_with("E-02"))
+        .unwrap();
+    damaged[place] = damaged[place].replace("E-02", "");
+    let said = read("plain_columns", &damaged).unwrap_err();
+    assert!(
+        said.contains(&damaged[place]) && said.contains("has no exponent"),
+        "{said}"
+    );
+}

@@ -33,6 +33,9 @@ const BELOW_G: f64 = 0.1;
 const BELOW_PERCENT_G: f64 = 1.0e-4;
 /// Magnitude from which on some writers print exponents.
 const LARGE: f64 = 1.0e5;
+/// Magnitudes from which on and below which list-directed output of Fortran prints no exponents.
+const BELOW_LIST: f64 = 0.1;
+const ABOVE_LIST: f64 = 1.0e7;
 
 const REMEDY: &str = "the file is damaged: correct the value, or get the record again";
 
@@ -149,6 +152,53 @@ pub(crate) struct Forms {
     implies_points: bool,
     /// Smallest value whose exponent has up to two digits.
     least: Option<f64>,
+    list: ListDirected,
+}
+
+/// What shows that values come from list-directed output of Fortran, of which some compilers print exponents of small
+/// and very large values alone, with as many digits of all: `-1.2345678E-02`, `0.1007569`, `1.007569`.
+#[derive(Debug, Default)]
+struct ListDirected {
+    /// Values without an exponent, by their digits before and behind the point; a zero before it is none.
+    bare: Tally<(usize, Option<usize>)>,
+    /// Whether one of them is of a size that is printed with an exponent.
+    is_bare_of_other_size: bool,
+    /// Whether a value that has an exponent is of a size that is printed without one, or its mantissa begins with
+    /// a zero or the point.
+    is_other_with_exponent: bool,
+}
+
+impl ListDirected {
+    fn see(&mut self, place: Place, parts: &Parts<'_>) {
+        let is_of_size = (BELOW_LIST..ABOVE_LIST).contains(&place.value.abs());
+        let leads = parts.first_digit();
+        if parts.exponent.is_some() {
+            let is_led = leads.is_some_and(|b| (b'1'..=b'9').contains(&b));
+            self.is_other_with_exponent |= is_of_size || !is_led;
+            return;
+        }
+        self.is_bare_of_other_size |= !is_of_size;
+        let digits = parts.mantissa.iter().filter(|b| b.is_ascii_digit()).count();
+        let before = digits - parts.decimals.unwrap_or(0);
+        let before = match leads {
+            Some(b'0') => before.saturating_sub(1),
+            _ => before,
+        };
+        self.bare.see((before, parts.decimals), place);
+    }
+
+    /// Whether all values are such, where mantissas have so many decimals. Those from a tenth to 1 begin with a zero, so
+    /// that none is a mantissa that lost its exponent; a motion gets to larger ones by way of them.
+    fn is_met(&self, decimals: usize) -> bool {
+        let is_of_list = |kind: &Kind<(usize, Option<usize>)>| {
+            let (before, behind) = kind.key;
+            behind.is_some_and(|behind| before + behind == decimals)
+        };
+        !self.is_bare_of_other_size
+            && !self.is_other_with_exponent
+            && self.bare.kinds().all(is_of_list)
+            && self.bare.kinds().any(|kind| kind.key.0 == 0)
+    }
 }
 
 /// Whole numbers without a point, as `%d` of MATLAB writes them where a value is whole, and how far they
@@ -274,6 +324,7 @@ impl Forms {
         let ends_in_zero = parts.mantissa.ends_with(b"0");
         let place = Place::new(line, column, value, digits, ends_in_zero, field);
         self.exponents.see(parts.exponent, place);
+        self.list.see(place, &parts);
         let Some(exponent) = parts.exponent else {
             self.without.see(parts.decimals, place);
             self.begin_with_point |= parts.first_digit() == Some(b'.');
@@ -385,11 +436,20 @@ impl Forms {
         first.filter(|_| few && all > MANY_DECIMALS)
     }
 
+    /// Whether some values have an exponent, and others none, as list-directed output prints them.
+    fn is_list_directed(&self) -> bool {
+        let usual = self.with.usual().and_then(|kind| kind.key);
+        usual.is_some_and(|decimals| self.list.is_met(decimals))
+    }
+
     /// The first value that lost its exponent among many others, which no writer leaves out there.
     fn lacks_exponent(&self) -> Option<&Place> {
         let (with, without) = (self.with.count, self.without.count);
         let few = with + without > MANY && without <= with / 100 + 1;
         let usual = self.with.usual()?;
+        if self.is_list_directed() {
+            return None;
+        }
         // Values from a tenth to 1 with a decimal more than the mantissas, and as many digits: no mantissa of
         // these lost its exponent, and list-directed output of Fortran prints such values so.
         let most_digits = self.with.kinds().map(|kind| kind.most_digits).max();
@@ -479,7 +539,7 @@ impl Forms {
     /// of the others: the formats that print exponents of some values do so of very small and very large ones.
     fn has_stray_exponent(&self) -> Option<(&Place, usize)> {
         let all = self.without.count;
-        if all < MANY_POINTS || !are_few(self.with.count, all) {
+        if all < MANY_POINTS || !are_few(self.with.count, all) || self.is_list_directed() {
             return None;
         }
         let others = self.without.kinds();

@@ -260,9 +260,13 @@ fn even_step_of(times: &[f64], printed: PrintedDigits, unit: f64, may_be_cut: bo
     };
     let found = common(&rounded).or_else(|| may_be_cut.then(|| common(&cut))?);
     let found = found.or_else(|| from_zero().filter(|_| first > 0.0));
-    let (low, high) = found.or_else(|| in_single(times, digit(last)).filter(|_| is_single))?;
-    let mean = mean.clamp(low, high);
+    let found = found.or_else(|| in_single(times, digit(last)).filter(|_| is_single));
     let decimals = printed.decimals - libm::log10(unit).round() as i32;
+    let Some((low, high)) = found else {
+        let is_one = may_be_cut && digit(first) == digit(last);
+        return coarse_step(times, digit(last), decimals).filter(|_| is_one);
+    };
+    let mean = mean.clamp(low, high);
     let in_common = |step: &f64| *step > 0.0 && (low..=high).contains(step);
     let round = round_steps(mean, decimals).find(in_common);
     // With more decimals a number is as near by chance: only digits that were rounded excuse it.
@@ -270,6 +274,43 @@ fn even_step_of(times: &[f64], printed: PrintedDigits, unit: f64, may_be_cut: bo
     let longer = (ROUND_DECIMALS + 1..=decimals.min(12)).map(|n| with_decimals(mean, n));
     let mut longer = longer.filter(|step| (step - mean).abs() <= digits);
     Some(round.or_else(|| longer.find(in_common)).unwrap_or(mean))
+}
+
+/// Digits a step below which a row that is missing is no more than their rounding, and from which on other rules hold.
+const COARSE: std::ops::Range<f64> = 0.55..2.0;
+/// Parts of a digit by which a step of coarse digits must be off a whole number of them: times that all are whole
+/// numbers of steps but for a row that is missing have about none.
+const BETWEEN_DIGITS: std::ops::RangeInclusive<f64> = 0.1..=0.9;
+/// Largest part of a step that the digits of times leave open, for one round step to be told from others.
+const PINNED: f64 = 0.004;
+
+/// The round step (s) of times of which each has the same digit (s), of about one step: all are within one digit of a
+/// straight line, rounded or cut off. A row that is missing or doubled puts those behind it a step off the line, more
+/// than is open: the steps of its times, in digits, fill most of a digit.
+fn coarse_step(times: &[f64], digit: f64, decimals: i32) -> Option<f64> {
+    let [first, .., last] = *times else {
+        return None;
+    };
+    let intervals = (times.len() - 1) as f64;
+    let mean = (last - first) / intervals;
+    let digits = mean / digit;
+    let is_between = BETWEEN_DIGITS.contains(&digits.fract());
+    if !(COARSE.contains(&digits) && is_between && 2.0 * digit <= PINNED * (last - first)) {
+        return None;
+    }
+    let open = 1.01 * digit + SINGLE * last.abs().max(first.abs());
+    let fits = |step: &f64| {
+        let off = times.iter().enumerate();
+        let off = off.map(|(i, time)| time - first - i as f64 * step);
+        let range = |(low, high): (f64, f64), off: f64| (low.min(off), high.max(off));
+        let (low, high) = off.fold((0.0, 0.0), range);
+        high - low <= open
+    };
+    // Two decimals more than those printed are rounder than a whole number of samples a second, `0.015`. Steps with more
+    // are as near by chance: those of even times of which one in so many is missing.
+    let few = (0..=decimals + 2).map(|n| with_decimals(mean, n));
+    let whole_rate = 1.0 / (1.0 / mean).round();
+    few.chain([whole_rate]).find(fits)
 }
 
 /// Steps (s) that times may have which were added up in single precision, or are multiples of a step

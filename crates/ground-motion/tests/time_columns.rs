@@ -360,3 +360,68 @@ fn pairs_of_volume_1_at_even_times() {
     let film = with_times(&|i| i as f64 * 0.005 + 0.001 * f64::from(u8::from(i == 7)));
     assert!(matches!(film.series[0].sampling, Sampling::Uneven { .. }));
 }
+
+/// Times and values of rows of these numbers, with two decimals of the times.
+fn coarse(step: f64, rows: impl Iterator<Item = usize>) -> Result<Sampling, String> {
+    let row = |i: usize| {
+        format!(
+            "{:.2},{:.5}\n",
+            step * i as f64,
+            0.2 * f64::sin(0.37 * i as f64)
+        )
+    };
+    let text = "time (s),acc (g)\n".to_owned() + &rows.map(row).collect::<String>();
+    let found = read_all_bytes("f", text.as_bytes(), &ReadOptions::default());
+    match found {
+        Ok(found) => Ok(found.series[0].sampling.clone()),
+        Err(error) => Err(error.to_string()),
+    }
+}
+
+#[test]
+fn steps_of_about_one_digit() {
+    const ROWS: usize = 1200;
+    for step in [
+        0.015,
+        1.0 / 60.0,
+        1.0 / 75.0,
+        0.0125,
+        0.018,
+        0.0165,
+        0.011,
+        0.008,
+        1.0 / 150.0,
+    ] {
+        match coarse(step, 0..ROWS) {
+            Ok(Sampling::Even { time_step }) => assert!((time_step / step - 1.0).abs() < 1e-12),
+            other => panic!("{step}: {other:?}"),
+        }
+        // A row that is missing or doubled, anywhere, is not within any rounding.
+        for at in [3, ROWS / 3, ROWS - 4] {
+            let missing = coarse(step, (0..ROWS).filter(|i| *i != at));
+            assert!(
+                !matches!(missing, Ok(Sampling::Even { .. })),
+                "{step}: {at}"
+            );
+            let doubled = coarse(
+                step,
+                (0..ROWS).flat_map(|i| vec![i; 1 + usize::from(i == at)]),
+            );
+            assert!(doubled.is_err(), "{step}: {at}");
+        }
+    }
+    // Too short for one round step, a row missing among whole numbers of digits, and every eighth of them missing.
+    for sampling in [
+        coarse(0.015, 0..200),
+        coarse(0.01, (0..ROWS).filter(|i| *i != 400)),
+        coarse(0.01, (0..ROWS).filter(|i| i % 8 != 5)),
+        coarse(0.02, (0..ROWS).filter(|i| *i != 400)),
+    ] {
+        assert!(
+            matches!(sampling, Ok(Sampling::Uneven { .. })),
+            "{sampling:?}"
+        );
+    }
+    // Half a digit: a row that is missing would be within the rounding.
+    assert!(coarse(0.005, 0..ROWS).unwrap_err().contains("is not after"));
+}

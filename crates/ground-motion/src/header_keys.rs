@@ -7,9 +7,9 @@ mod words;
 
 use words::{
     ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS, BEFORE_VALUES,
-    BEHIND_UNITS, COUNTS, DURATIONS, FACTORS, FREQUENCIES, HEADINGS, HERTZ, LAST_UNITS, NUMBERS_OF,
-    OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS, UNITS_OF,
-    VALUES_THEMSELVES,
+    BEHIND_UNITS, CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES, HEADINGS, HERTZ,
+    LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS,
+    STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
 };
 
 /// What stands under a key.
@@ -246,10 +246,28 @@ pub(crate) fn factors(lower: &str) -> Vec<f64> {
     }
     if found.is_empty() {
         let inverse = number_behind(lower, &BEFORE_DIVISORS).map(|divisor| 1.0 / divisor);
-        found.extend(number_behind(lower, &BEFORE_FACTORS).or(inverse));
+        let factor = number_behind(lower, &BEFORE_FACTORS).or(inverse);
+        found.extend(factor.or_else(|| change_in_words(lower)));
     }
     found.retain(|factor| *factor != 1.0 && factor.is_finite());
     found
+}
+
+/// The factor of a change of the values in words: `divide values by 10 to get g`, `scale the values by 0.1`.
+fn change_in_words(lower: &str) -> Option<f64> {
+    let words: Vec<&str> = lower.split_whitespace().collect();
+    let change = |(i, word): (usize, &&str)| {
+        let word = word.trim_matches(|c: char| !c.is_alphabetic());
+        let (_, divides) = CHANGES.iter().find(|(change, _)| *change == word)?;
+        let behind = words[i + 1..].iter();
+        let behind = behind.skip_while(|word| CHANGED.contains(*word));
+        let rest = behind.copied().collect::<Vec<_>>().join(" ");
+        let number = rest
+            .strip_prefix("by ")
+            .and_then(|_| number_behind(&rest, &["by "]))?;
+        Some(if *divides { 1.0 / number } else { number })
+    };
+    words.iter().enumerate().find_map(change)
 }
 
 /// Of how many samples a line in lower case says that one was kept: `decimation factor: 2`, `decimated by 2`.

@@ -214,3 +214,39 @@ fn frequencies_beside_other_steps() {
         assert!(!is_warned_of(&read(&text).unwrap(), "frequency of"));
     }
 }
+
+#[test]
+fn factors_in_sentences() {
+    let unit = "ACCELERATION TIME HISTORY IN UNITS OF G";
+    for (line, factor) in [
+        ("Divide values by 10 to get g", "0.1"),
+        ("Multiply values by 0.1 to get g", "0.1"),
+        ("Divide by 10", "0.1"),
+        ("Scale the values by 0.1", "0.1"),
+        ("# All accelerations scaled by 2.", "2"),
+        ("Amplification 10", "10"),
+        ("Amplification factor: 10", "10"),
+        ("Escala: 0.1", "0.1"),
+        ("Multiply by 0.1", "0.1"),
+    ] {
+        let words = format!("a factor of {factor} is stated, which is not applied");
+        for text in [
+            plain(&format!("units: g\ndt: 0.02 s\n{line}")),
+            at2(unit, line),
+        ] {
+            let recording = read(&text).unwrap_or_else(|e| panic!("{line}: {e}"));
+            let warnings = &recording.series[0].origin.warnings;
+            assert!(is_warned_of(&recording, &words), "{line}: {warnings:?}");
+            assert_eq!(warnings.len(), 1, "{line}: {warnings:?}");
+        }
+    }
+    for line in [
+        "Divided into 10 parts",
+        "Scale by hand",
+        "Recorded by 2 instruments",
+        "Scale the values by 1",
+    ] {
+        let recording = read(&plain(&format!("units: g\ndt: 0.02 s\n{line}"))).unwrap();
+        assert!(!is_warned_of(&recording, "factor"), "{line}");
+    }
+}

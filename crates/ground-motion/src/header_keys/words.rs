@@ -283,7 +283,17 @@ pub(super) const QUANTITIES: [&str; 7] = [
     "kind",
 ];
 /// Keys of a factor of the values.
-pub(super) const FACTORS: [&str; 20] = [
+pub(super) const FACTORS: [&str; 30] = [
+    "amplification",
+    "amplification factor",
+    "magnification",
+    "escala",
+    "escala de amplitud",
+    "factor de amplificacion",
+    "scala",
+    "echelle",
+    "massstab",
+    "skalierung",
     "sf",
     "mult",
     "calib",
@@ -315,6 +325,36 @@ pub(super) const BEFORE_FACTORS: [&str; 8] = [
     "values x",
     "values *",
     "values times",
+];
+/// Words that say what to do with the values, or what was done, and whether the number behind them divides.
+pub(super) const CHANGES: [(&str, bool); 8] = [
+    ("multiply", false),
+    ("multiplied", false),
+    ("scale", false),
+    ("scaled", false),
+    ("amplify", false),
+    ("amplified", false),
+    ("divide", true),
+    ("divided", true),
+];
+/// Words between one of these and `by`, for what is changed.
+pub(super) const CHANGED: [&str; 16] = [
+    "all",
+    "the",
+    "these",
+    "them",
+    "it",
+    "each",
+    "value",
+    "values",
+    "data",
+    "samples",
+    "numbers",
+    "amplitudes",
+    "acceleration",
+    "accelerations",
+    "record",
+    "ordinates",
 ];
 /// Words before a number by which the values were divided.
 pub(super) const BEFORE_DIVISORS: [&str; 1] = ["divided by"];

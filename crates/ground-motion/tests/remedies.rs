@@ -129,3 +129,37 @@ fn remarks_behind_units_of_columns() {
         assert!(read(name).is_err(), "{name}");
     }
 }
+
+/// A pulse that decays: its columns fall once and rise then, as times with a wrong first row do.
+#[test]
+fn rows_of_a_pulse_lose_no_row() {
+    let value = |i: usize| (1.0 - i as f64 / 30.0) * (-(i as f64) / 30.0).exp();
+    let values: Vec<String> = (0..1559).map(|i| format!("{:.5e}", value(i))).collect();
+    let rows: String = values.chunks(8).map(|row| row.join(" ") + "\n").collect();
+    let options = |layout: Option<&str>| ReadOptions {
+        layout: layout.map(str::to_owned),
+        unit: Some(AccelerationUnit::StandardGravity),
+        time_step: Some(0.02),
+        ..ReadOptions::default()
+    };
+    let error = read_bytes("f", rows.as_bytes(), &options(None)).unwrap_err();
+    let help = error.help().unwrap();
+    assert!(
+        help.contains("`--layout a`") && !help.contains("skip"),
+        "{help}"
+    );
+    let record = read_bytes("f", rows.as_bytes(), &options(Some("a"))).unwrap();
+    assert_eq!(record.samples().len(), 1559);
+    // Two rows, of which the last one is short.
+    let twelve: String = (0..12)
+        .map(|i| format!("{:.6}{}", value(i), if i == 7 { "\n" } else { " " }))
+        .collect();
+    for layout in [None, Some("a")] {
+        let record = read_bytes("f", twelve.as_bytes(), &options(layout)).unwrap();
+        assert_eq!(record.samples().len(), 12);
+    }
+    // Whole numbers above fewer values may be a header.
+    let headed = "1940 5 18 4 37 117 1 1\n0.1 0.2 -0.1 0.3\n";
+    let error = read_bytes("f", headed.as_bytes(), &options(None)).unwrap_err();
+    assert!(error.to_string().starts_with("f:1:1:"), "{error}");
+}

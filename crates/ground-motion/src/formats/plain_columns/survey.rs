@@ -62,6 +62,9 @@ const STEP_BELOW: f64 = 3.0;
 /// What to do about a row with another number of values than its neighbours.
 const ODD_REMEDY: &str = "correct the row: a value is missing, was parted, as by a decimal comma, or the row is out of its place";
 
+/// What to do about rows that may be times and values or one series.
+const ALONG: &str = "if the values follow one another along the rows, say so by `layout = \"a\"` in [ground_motion] of a case, `--layout a` with `pounding motion`";
+
 /// What was seen.
 pub(super) struct Survey {
     /// Numbers in all rows.
@@ -99,10 +102,24 @@ impl Survey {
             survey.last_ends(declared);
             survey.add(line.number, length);
         }
+        survey.second_may_be_short(source);
         if survey.rows == 0 {
             return Err(source.error(1, 0, "the file has no data", "give a file with values"));
         }
         Ok(survey)
+    }
+
+    /// Takes a second and last row of fewer values than a first one of samples for a short one: rows of a header have
+    /// whole numbers.
+    fn second_may_be_short(&mut self, source: &Source<'_>) {
+        let is_short = self.rows == 2 && self.second_length < self.first_length;
+        if !is_short || self.first_length <= *COMPONENTS.end() {
+            return;
+        }
+        let mut fields = rows(source).flat_map(|line| line.fields());
+        if fields.all(|(_, field)| field.contains(&b'.')) {
+            self.second_length = self.first_length;
+        }
     }
 
     /// The row before is not the last one: a short one is ragged.
@@ -450,12 +467,19 @@ impl Survey {
                 values[at],
                 values[at - 1]
             ),
-            &match at {
-                1 => format!(
+            &match (at, self.first_length == self.second_length) {
+                // A whole row that is passed over would be one of values that are lost.
+                (1, true) => format!(
+                    "{ALONG}; if column {} has the times, they must increase: correct the first row, or take it out if it is none of values",
+                    k + 1
+                ),
+                (1, false) => format!(
                     "{}; times must increase: if it is one, correct it",
                     super::skipping(lines[0])
                 ),
-                _ => "times must increase, and need enough decimals: correct the row, or get the record again; without them, `layout = \"-,a\"` and `time_step` read the values".to_owned(),
+                _ => format!(
+                    "{ALONG}; times must increase, and need enough decimals: correct the row, or get the record again; without them, `layout = \"-,a\"` and `time_step` read the values"
+                ),
             },
         ))
     }

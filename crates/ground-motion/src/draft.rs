@@ -147,6 +147,8 @@ pub(crate) struct Draft {
     pub orientation: Option<Orientation>,
     /// Low and high corner frequency (Hz).
     pub corners: (Option<f64>, Option<f64>),
+    /// Lines that state a g, and that (m/s2).
+    pub gravities: Vec<(usize, f64)>,
     pub warnings: Vec<String>,
     /// Lines of the step and of the first and last values, for messages.
     pub lines: (usize, usize, usize),
@@ -160,6 +162,21 @@ pub(crate) fn not_applied(line: usize, factor: f64) -> String {
     format!(
         "line {line}: a factor of {factor} is stated, which is not applied: the samples are used as they stand"
     )
+}
+
+/// Part of a g by which one that a header states may differ from the one that is used.
+const SAME_GRAVITY: f64 = 1.0e-4;
+
+/// What to say of a g (m/s2) that a header states.
+fn gravity_not_used(line: usize, stated: f64, used: f64) -> Option<String> {
+    let differs = (stated - used).abs() > SAME_GRAVITY * used;
+    differs.then(|| {
+        let stated = bound(stated);
+        format!(
+            "line {line}: a g of {stated} m/s2 is stated, but {} m/s2 is used: if the values are in that g, give it, `gravity = \"{stated} m/s2\"` in [ground_motion] of a case, `--gravity \"{stated} m/s2\"` with `pounding motion`",
+            bound(used)
+        )
+    })
 }
 
 /// What to say of samples that a header says to have been left out.
@@ -202,6 +219,7 @@ impl Draft {
             first_time: None,
             orientation: None,
             corners: (None, None),
+            gravities: Vec::new(),
             warnings: Vec::new(),
             lines,
         }
@@ -221,6 +239,7 @@ impl Draft {
         let other = self.orientation.and_then(|o| o.against_name(name));
         self.warnings.extend(other);
         let (factor, quantity, symbol, unit_text) = self.unit(source)?;
+        self.agrees_in_gravity(source);
         self.agrees_in_words(source, quantity, symbol)?;
         // Counts are of no unit: they stand for values in one.
         let stated = match &self.unit {
@@ -444,6 +463,20 @@ impl Draft {
                 first + 1,
                 self.samples[first]
             ));
+        }
+    }
+
+    /// Says that another g than the one that is used is stated for values in units of it.
+    fn agrees_in_gravity(&mut self, source: &Source<'_>) {
+        let unit = match self.unit {
+            DraftUnit::Stated(unit) | DraftUnit::Scaled { unit, .. } => Some(unit),
+            _ => source.options.unit.map(SeriesUnit::from),
+        };
+        if unit.is_some_and(SeriesUnit::is_of_gravity) {
+            let used = gravity(source.options.gravity);
+            let stated = self.gravities.iter();
+            let told = stated.filter_map(|(line, stated)| gravity_not_used(*line, *stated, used));
+            self.warnings.extend(told);
         }
     }
 

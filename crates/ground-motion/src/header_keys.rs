@@ -7,8 +7,8 @@ mod words;
 
 use words::{
     ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS, BEFORE_VALUES,
-    BEHIND_UNITS, CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES, HEADINGS, HERTZ,
-    LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS,
+    BEHIND_UNITS, CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES, GRAVITIES, HEADINGS,
+    HERTZ, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS,
     STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
 };
 
@@ -268,6 +268,41 @@ fn change_in_words(lower: &str) -> Option<f64> {
         Some(if *divides { 1.0 / number } else { number })
     };
     words.iter().enumerate().find_map(change)
+}
+
+/// The g (m/s2) that a line in lower case states: `g (1 g = 9.81 m/s2)`, `g = 9.81`, `gravity: 981 cm/s2`.
+pub(crate) fn gravity(lower: &str) -> Option<f64> {
+    let starts = lower.char_indices().filter(|(at, c)| {
+        let before = lower[..*at].chars().next_back();
+        c.is_ascii_digit() && before.is_none_or(|b| " \t=:([~".contains(b))
+    });
+    starts
+        .map(|(at, _)| lower.split_at(at))
+        .find_map(|(before, behind)| {
+            let key = before.trim_end_matches([' ', '\t', '=', ':', '(', '[', '~']);
+            let word = key.rsplit(|c: char| !c.is_ascii_alphanumeric()).next()?;
+            let is_parted = before[key.len()..].contains(['=', ':', '(', '[']);
+            if !(is_parted && GRAVITIES.contains(&word)) {
+                return None;
+            }
+            let (number, _) = split_number(behind);
+            let value = number::parse(number.as_bytes()).ok()?;
+            let unit = behind[number.len()..].trim_start();
+            let ends = |unit: &str| unit.find([' ', ',', ';', ')', ']']).unwrap_or(unit.len());
+            let unit = unit[..ends(unit)]
+                .replace("sec", "s")
+                .replace(['^', '*'], "");
+            let metres = match unit.as_str() {
+                "" | "m/s2" | "m/s/s" | "m/s\u{b2}" if (9.7..=9.9).contains(&value) => value,
+                "" | "cm/s2" | "cm/s/s" | "cm/s\u{b2}" | "gal"
+                    if (970.0..=990.0).contains(&value) =>
+                {
+                    0.01 * value
+                }
+                _ => return None,
+            };
+            Some(metres)
+        })
 }
 
 /// Of how many samples a line in lower case says that one was kept: `decimation factor: 2`, `decimated by 2`.

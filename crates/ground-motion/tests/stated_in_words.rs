@@ -250,3 +250,36 @@ fn factors_in_sentences() {
         assert!(!is_warned_of(&recording, "factor"), "{line}");
     }
 }
+
+#[test]
+fn gravities_that_are_stated() {
+    let unit = "ACCELERATION TIME HISTORY IN UNITS OF G";
+    let told = "a g of 9.81 m/s2 is stated, but 9.80665 m/s2 is used";
+    for text in [
+        plain("units: g (1 g = 9.81 m/s2)\ndt: 0.02 s"),
+        plain("units: g\ng = 9.81\ndt: 0.02 s"),
+        plain("# gravity: 9.81 m/s2\nunits: g\ndt: 0.02 s"),
+        plain("units: g\nAcceleration of gravity = 981 cm/s^2\ndt: 0.02 s"),
+        at2(unit, "1 G = 9.81 M/S2"),
+    ] {
+        let recording = read(&text).unwrap_or_else(|e| panic!("{}: {e}", &text[..40]));
+        assert!(is_warned_of(&recording, told), "{}", &text[..40]);
+        assert!(is_warned_of(&recording, "--gravity \"9.81 m/s2\""));
+        let options = ReadOptions {
+            gravity: Some(9.81),
+            ..ReadOptions::default()
+        };
+        let recording = read_all_bytes("file", text.as_bytes(), &options).unwrap();
+        assert!(!is_warned_of(&recording, "a g of"));
+    }
+    for header in [
+        "units: g\ng = 9.80665 m/s2",
+        "units: g\ng = 9.807",
+        "units: m/s2\ng = 9.81",
+        "units: g\nVs30 g 9.81",
+    ] {
+        let recording = read(&plain(&format!("{header}\ndt: 0.02 s")));
+        let recording = recording.unwrap_or_else(|e| panic!("{header}: {e}"));
+        assert!(!is_warned_of(&recording, "a g of"), "{header}");
+    }
+}

@@ -13,7 +13,7 @@ use crate::formats::Format;
 use crate::formats::rows::{DecimalCommas, second_record};
 use crate::fortran::Layout;
 use crate::header_keys::{
-    Meaning, decimation, factors, is_of_another, is_rate_unit, keyed, lone_rate, meaning,
+    Meaning, decimation, factors, gravity, is_of_another, is_rate_unit, keyed, lone_rate, meaning,
     unit_in_words, unit_words,
 };
 use crate::number::{self, Bare};
@@ -259,6 +259,7 @@ fn keys(draft: &mut Draft, source: &Source<'_>, header: &Header) {
             let told = frequency_not_used(i + 1, 1.0 / rate, used);
             draft.warnings.extend(told);
         }
+        draft.gravities.extend(gravity(&lower).map(|g| (i + 1, g)));
         let told = factors(&lower).into_iter().map(|x| not_applied(i + 1, x));
         draft.warnings.extend(told);
         let of = decimation(&lower).filter(|_| source.options.time_step.is_none());

@@ -356,6 +356,8 @@ pub(super) const CHANGED: [&str; 16] = [
     "record",
     "ordinates",
 ];
+/// Last words before a stated g.
+pub(super) const GRAVITIES: [&str; 4] = ["g", "1g", "gravity", "grav"];
 /// Words before a number by which the values were divided.
 pub(super) const BEFORE_DIVISORS: [&str; 1] = ["divided by"];
 /// Words before the number of samples of which one was kept.

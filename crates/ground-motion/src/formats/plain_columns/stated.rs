@@ -87,6 +87,8 @@ pub(super) struct Stated {
     /// Step (s) of a frequency that may be the rate of sampling: it counts where nothing else does, and is only
     /// named where it is not that of the samples.
     frequency: Option<At<f64>>,
+    /// A g (m/s2) in which the values may be.
+    gravities: Vec<At<f64>>,
 }
 
 impl Stated {
@@ -112,6 +114,13 @@ impl Stated {
                 stated.unit(source, line, &lower)?;
             }
             seconds(source, line, &lower)?;
+            let at = |value| At {
+                line: line.number,
+                value,
+            };
+            stated
+                .gravities
+                .extend(header_keys::gravity(&lower).map(at));
             stated.numbers(line.number, &lower);
         }
         if stated.steps.is_empty()
@@ -534,6 +543,8 @@ impl Stated {
                 line,
             });
         }
+        let gravities = self.gravities.iter().map(|g| (g.line, g.value));
+        draft.gravities.extend(gravities);
         for At { line, value } in &self.factors {
             draft.warnings.push(not_applied(*line, *value));
         }

@@ -2,7 +2,7 @@
 //! give instead.
 #![allow(clippy::unwrap_used)]
 
-use pounding_ground_motion::{AccelerationUnit, ReadOptions, read_all_bytes, read_bytes};
+use pounding_ground_motion::{AccelerationUnit, Format, ReadOptions, read_all_bytes, read_bytes};
 
 use crate::common::fixtures;
 
@@ -162,4 +162,29 @@ fn rows_of_a_pulse_lose_no_row() {
     let headed = "1940 5 18 4 37 117 1 1\n0.1 0.2 -0.1 0.3\n";
     let error = read_bytes("f", headed.as_bytes(), &options(None)).unwrap_err();
     assert!(error.to_string().starts_with("f:1:1:"), "{error}");
+}
+
+/// The files of the earthquake of Chi-Chi begin with the second line of later ones.
+#[test]
+fn cwa_without_its_first_line() {
+    for fixture in fixtures("cwa", 0) {
+        let text: String = fixture.bytes.iter().map(|b| char::from(*b)).collect();
+        let rest = &text[text.find("#StationCode").unwrap()..];
+        let said = refused(rest.as_bytes(), &ReadOptions::default());
+        assert!(
+            said.starts_with("f:1:1:") && said.contains("`--format cwa`"),
+            "{said}"
+        );
+        let given = ReadOptions {
+            format: Format::find("cwa").ok(),
+            ..ReadOptions::default()
+        };
+        read_all_bytes("f", rest.as_bytes(), &given).unwrap();
+    }
+    // What it does not read either is told as before.
+    let said = refused(
+        b"#StationCode: A\n0.1 0.2\n0.3 0.4\n",
+        &ReadOptions::default(),
+    );
+    assert!(!said.contains("cwa"), "{said}");
 }

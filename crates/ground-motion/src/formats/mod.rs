@@ -172,7 +172,8 @@ fn every_series(
     if !is_binary(format) {
         source.is_text()?;
     }
-    let mut series = (format.read)(&source)?;
+    let read = (format.read)(&source);
+    let mut series = read.map_err(|error| or_cwa(&source, format, error))?;
     // A line of NUL bytes may stand for one of values that are missing.
     let is_line = bytes[bytes.len() - filled..].contains(&b'\n');
     let lacks = |s: &Series| {
@@ -233,6 +234,23 @@ fn every_series(
         series,
         without: source.without(),
     })
+}
+
+/// The error of a file that is no plain columns, or what to give where it is one of the Central Weather Administration
+/// whose first line is missing, as those of the earthquake of Chi-Chi have none.
+fn or_cwa(source: &Source<'_>, format: &Format, error: GroundMotionError) -> GroundMotionError {
+    let may = *format == plain_columns::FORMAT
+        && source.options.format.is_none()
+        && source.first_line().starts_with('#');
+    if !may || (cwa::FORMAT.read)(source).is_err() {
+        return error;
+    }
+    source.error(
+        1,
+        0,
+        format!("the header is that of format cwa but for its first line, and as plain columns the file is not read: {error}"),
+        "give `format = \"cwa\"` in [ground_motion] of a case, `--format cwa` with `pounding motion`",
+    )
 }
 
 /// NUL bytes at the end of a text behind whole rows, of a format that counts its values.

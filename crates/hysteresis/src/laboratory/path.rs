@@ -210,7 +210,9 @@ impl LoadPath {
                 if left(self, next) > NEARLY * range {
                     break;
                 }
-                let back = (turn..=next).find(|k| left(self, *k) <= 0.0);
+                // Nothing before the last turning point came so far.
+                let last = turning[place - 1];
+                let back = (last..=next).find(|k| left(self, *k) <= 0.0);
                 let after = back.unwrap_or(next);
                 if left(self, after) < 0.0 {
                     self.divide(after - 1, start);

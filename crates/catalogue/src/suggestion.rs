@@ -20,15 +20,19 @@ pub fn nearest_within<T: AsRef<str>>(
 }
 
 /// The known name that `name` is in other case; else the one of which it is an abbreviation; else
-/// the one with the fewest letters to change, or one more in its first words (`jankovski` of
-/// `jankowski_2005`), if they are no more than one and a third of those of `name`, and any letter stays.
+/// the one with the fewest letters to change, if they are no more than one and a third of those of `name`, and any
+/// letter stays, or to change in its first words, if they are no more than a fifth (`jankovski` of `jankowski_2005`).
 pub fn misspelt<T: AsRef<str>>(name: &str, known: impl IntoIterator<Item = T>) -> Option<T> {
     let letters = name.chars().count();
     let change = |known: &T| {
         let known = known.as_ref();
         let is_same = known.to_lowercase() == name.to_lowercase();
-        let change = letters_to_change(name, known)
-            .min(letters_to_change(name, first_words(known, name.split('_').count())) + 1);
+        let in_first_words = letters_to_change(name, first_words(known, name.split('_').count()));
+        let change = letters_to_change(name, known);
+        let change = match in_first_words <= letters / 5 {
+            true => change.min(in_first_words + 1),
+            false => change,
+        };
         let is_short = is_abbreviation(name, known);
         let is_like = change <= 1 + letters / 3 && change < letters.max(known.chars().count());
         (is_same || is_short || is_like).then_some((!is_same, !is_short, change))
@@ -108,11 +112,13 @@ mod tests {
             "jankowski_2005",
             "ye_li_2009",
             "hertz_1882",
+            "linear_elastic",
         ];
         for (name, meant) in [
             ("jankovski", Some("jankowski_2005")),
             ("anagnostopolous", Some("anagnostopoulos_2004")),
-            ("ye_lee", Some("ye_li_2009")),
+            ("ye_lu", Some("ye_li_2009")),
+            ("nonlinear", None),
             ("hertz", Some("hertz_1882")),
             ("nothing", None),
         ] {

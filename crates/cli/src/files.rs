@@ -211,15 +211,18 @@ fn kind_of_old(old: &Path, new: &Path) -> Old {
         let line = source.or(text.lines().next());
         line.map(str::to_owned)
     };
-    let (before, after) = (line(&before), line(&after));
+    let (old_text, new_text) = (before, after);
+    let (before, after) = (line(&old_text), line(&new_text));
     match (numbers_of(before.as_deref()), numbers_of(after.as_deref())) {
         (Some(old), Some(new)) if old == new => Old::Numbers,
         _ => {
-            let is_record = |line: &Option<String>| {
-                let line = line.as_deref();
-                line.is_some_and(|line| line.starts_with("# Source: "))
+            let is_record = |line: &Option<String>, text: &[u8]| {
+                let source = line
+                    .as_deref()
+                    .is_some_and(|line| line.starts_with("# Source: "));
+                source && String::from_utf8_lossy(text).contains("\n# dt: ")
             };
-            match is_record(&before) && is_record(&after) && before != after {
+            match is_record(&before, &old_text) && is_record(&after, &new_text) && before != after {
                 true => Old::OfAnotherRecord,
                 false => known(before == after),
             }

@@ -74,16 +74,15 @@ pub struct Beat {
 }
 
 impl Beat {
-    /// Seconds since this was written: by the clock of the machine that computes, and by the file
-    /// system where that clock and the file differ by more than files lag. By a clock that is ahead
-    /// a shard that has ended would seem to run, by one that is behind one that runs to have ended.
+    /// Seconds since this was written: since the later of the time that it tells and that of its file, but for one
+    /// that lies in the future. The clocks of machines differ: by one that is ahead a shard that has ended would seem to
+    /// run, by one that is behind one that runs to have ended.
     pub fn silent(&self) -> u64 {
-        let lags = |written: &u64| written.abs_diff(self.updated) <= SILENT.as_secs();
-        let since = match self.written {
-            Some(written) if !lags(&written) => written,
-            _ => self.updated,
-        };
-        now().saturating_sub(since)
+        let now = now();
+        let has_been = |time: &u64| *time <= now + SILENT.as_secs();
+        let times = self.written.into_iter().chain([self.updated]);
+        let last = times.filter(has_been).max();
+        last.map_or(0, |last| now.saturating_sub(last))
     }
 
     /// Whether its numbers are of one shard: what a program writes that counts runs.

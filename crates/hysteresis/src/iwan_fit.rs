@@ -115,6 +115,8 @@ pub enum FitDoubt {
     },
     /// A straight line, along which nothing slips.
     Straight,
+    /// A lump of sliders alone, beside which a density has next to no part.
+    LumpAlone,
     /// An exponent that ran to its limit of -1.
     ExponentAtLimit {
         /// The exponent.
@@ -153,6 +155,9 @@ impl std::fmt::Display for FitDoubt {
             }
             Self::Straight => f.write_str(
                 "the fit is a straight line, along which no slider slips: the data determine neither density, exponent nor phi_2, but the sum of all stiffnesses alone",
+            ),
+            Self::LumpAlone => f.write_str(
+                "all that slips is a lump at phi_2 (slider_stiffness): the data determine neither density, exponent nor phi_1",
             ),
             Self::ExponentAtLimit { exponent } => write!(
                 f,
@@ -194,10 +199,23 @@ impl DensityFit {
             value,
             measured: ends,
         }));
-        if self.density.density > 0.0 && exponent < -1.0 + 2.0 * LEAST_ABOVE {
+        if self.is_lump_alone() {
+            doubts.push(FitDoubt::LumpAlone);
+        } else if exponent < -1.0 + 2.0 * LEAST_ABOVE {
             doubts.push(FitDoubt::ExponentAtLimit { exponent });
         }
         doubts
+    }
+
+    /// Whether next to nothing of what slips belongs to the density.
+    fn is_lump_alone(&self) -> bool {
+        let spread = IwanDensity {
+            slider_stiffness: 0.0,
+            residual_stiffness: 0.0,
+            ..self.density
+        };
+        let spread = spread.initial_stiffness();
+        !(spread >= NOTHING_SLIPS * (spread + self.density.slider_stiffness))
     }
 
     /// Whether of a backbone so little slips up to this deformation (m) that it is a straight line.

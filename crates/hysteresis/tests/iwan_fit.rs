@@ -38,6 +38,16 @@ fn bilinear_backbones_are_fitted() {
                     let curve = MeasuredCurve::Backbone;
                     let fit = fit_from_many(curve, &measured, &start, FitOptions::default());
                     let fit = fit.unwrap();
+                    // No density was there: that none is determined is said.
+                    let doubts = fit.doubts(&measured);
+                    let is_said = doubts.contains(&FitDoubt::LumpAlone);
+                    let spread = IwanDensity {
+                        slider_stiffness: 0.0,
+                        residual_stiffness: 0.0,
+                        ..fit.density
+                    };
+                    let share = spread.initial_stiffness() / fit.density.slider_stiffness;
+                    assert_eq!(is_said, share < 1.0e-6, "{share}: {doubts:?}");
                     // The kink lies between two of the data.
                     assert!(
                         fit.relative_error < 1.0e-3,

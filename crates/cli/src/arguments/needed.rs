@@ -7,7 +7,7 @@
 use std::ffi::OsString;
 
 use clap::builder::Resettable;
-use clap::error::{Error, ErrorKind};
+use clap::error::{ContextKind, ContextValue, Error, ErrorKind};
 use clap::{Command, Id};
 
 /// Refuses options without what they need. To be asked of arguments that `command` has read.
@@ -17,7 +17,17 @@ use clap::{Command, Id};
 pub fn all_is_there(command: &Command, given: &[OsString]) -> Result<(), Error> {
     let needs = with_needs_alone(command.clone());
     match needs.try_get_matches_from(given) {
-        Err(error) if error.kind() == ErrorKind::MissingRequiredArgument => Err(error),
+        Err(error) if error.kind() == ErrorKind::MissingRequiredArgument => {
+            let missing = match error.get(ContextKind::InvalidArg) {
+                Some(ContextValue::Strings(missing)) => missing.join(", "),
+                _ => "an option".to_owned(),
+            };
+            // Else `clap` would have asked for it.
+            let text = format!(
+                "{missing} is not given, which one option here needs and another one excludes\n\n  tip: leave one of these two options out"
+            );
+            Err(command.clone().error(ErrorKind::ArgumentConflict, text))
+        }
         _ => Ok(()),
     }
 }

@@ -63,18 +63,38 @@ fn what_is_missing_is_named_and_goes_on() {
         json!({"state": "running", "host": "another", "updated": soon - 7200}),
     );
     assert_eq!(bench.run("status all --unfinished").stdout, b"3-4\n");
-    // One that has been silent does not compute, whatever its clock said.
-    for updated in [soon, 1_000_000] {
+    // One that has been silent does not compute, whatever its clock or that of the file system says; one that
+    // tells of itself does.
+    let now = soon - 3600;
+    let second = std::time::Duration::from_secs(1);
+    let ago = |seconds: u32| std::time::SystemTime::now() - seconds * second;
+    for (updated, written, unfinished) in [
+        (soon, ago(600), "2-4\n"),
+        (1_000_000, ago(600), "2-4\n"),
+        (
+            now - 1800,
+            std::time::SystemTime::now() + 3600 * second,
+            "2-4\n",
+        ),
+        (now, ago(300), "3-4\n"),
+    ] {
         told_by(
             2,
             json!({"state": "running", "host": "another", "updated": updated}),
         );
         let file = std::fs::File::options();
         let file = file.clone().append(true).open(bench.path(&of(2))).unwrap();
-        let long_ago = std::time::SystemTime::now() - std::time::Duration::from_secs(600);
-        file.set_modified(long_ago).unwrap();
-        assert_eq!(bench.run("status all --unfinished").stdout, b"2-4\n");
+        file.set_modified(written).unwrap();
+        let told = bench.run("status all --unfinished").stdout;
+        assert_eq!(String::from_utf8(told).unwrap(), unfinished, "{updated}");
     }
+    told_by(
+        2,
+        json!({"state": "running", "host": "another", "updated": 1_000_000}),
+    );
+    let file = std::fs::File::options();
+    let file = file.clone().append(true).open(bench.path(&of(2))).unwrap();
+    file.set_modified(ago(600)).unwrap();
     let output = bench.run("status all --json");
     let json: Value = serde_json::from_slice(&output.stdout).unwrap();
     let study = &json["studies"][0];

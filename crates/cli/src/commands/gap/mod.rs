@@ -110,7 +110,7 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
     let mut separation = case.separation.clone();
     let key = |text: &String| text.split('=').next().unwrap_or_default().trim().to_owned();
     let keys: Vec<String> = arguments.set.iter().map(key).collect();
-    let mut failures = Vec::new();
+    let (mut failures, mut set) = (Vec::new(), Vec::new());
     for (place, text) in arguments.set.iter().enumerate() {
         let key_here = &keys[place];
         if keys[..place].contains(key_here) {
@@ -121,11 +121,22 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
             continue;
         }
         match Separation::parse(text, case.buildings.len()) {
-            Ok(one) => separation = separation.overridden_by(one),
+            Ok(one) => set.push(one),
             Err(error) => failures.push(Failure::case(error, text)),
         }
     }
-    failures.extend(decided_twice(arguments, &keys));
+    if failures.is_empty() {
+        // Together, so that a key is found to stand twice however it is written.
+        let all = arguments.set.join("\n");
+        let together = Separation::parse(&all, case.buildings.len()).err();
+        failures.extend(decided_twice(arguments, &set));
+        failures.extend(
+            together
+                .filter(|_| failures.is_empty())
+                .map(|error| Failure::case(error, &all)),
+        );
+    }
+    separation = set.into_iter().fold(separation, Separation::overridden_by);
     if !failures.is_empty() {
         return Err(Failure::together(failures));
     }
@@ -141,16 +152,32 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
     )
 }
 
-/// Words that `--set` (of these keys) and options give the same provisions or verdict, of which one
-/// would go unheard.
-fn decided_twice(arguments: &GapArguments, set: &[String]) -> Option<Failure> {
-    let options = [
-        ("code", arguments.code.is_some()),
-        ("country", arguments.country.is_some()),
-        ("date", arguments.date.is_some()),
-        ("provisions", !arguments.provisions.is_empty()),
+/// Whether `--set` and options give the same words for the provisions or the verdict, of which one would go unheard.
+fn decided_twice(arguments: &GapArguments, set: &[Separation]) -> Option<Failure> {
+    let is_set = |has: fn(&Separation) -> bool| set.iter().any(has);
+    // Key, whether it is an option, and whether it is set.
+    let words = [
+        (
+            "code",
+            arguments.code.is_some(),
+            is_set(|s| s.code.is_some()),
+        ),
+        (
+            "country",
+            arguments.country.is_some(),
+            is_set(|s| s.country.is_some()),
+        ),
+        (
+            "date",
+            arguments.date.is_some(),
+            is_set(|s| s.date.is_some()),
+        ),
+        (
+            "provisions",
+            !arguments.provisions.is_empty(),
+            is_set(|s| s.provisions.is_some()),
+        ),
     ];
-    let is_set = |key: &str| set.iter().any(|set| set == key);
     let one_of_them = |words: String| {
         let help = "leave one of them out".to_owned();
         Some(Failure::input(
@@ -158,13 +185,13 @@ fn decided_twice(arguments: &GapArguments, set: &[String]) -> Option<Failure> {
             Some(help),
         ))
     };
-    let twice = options.iter().find(|(key, given)| *given && is_set(key));
-    if let Some((key, _)) = twice {
+    let twice = words.iter().find(|(_, given, set)| *given && *set);
+    if let Some((key, ..)) = twice {
         return one_of_them(format!("--set {key} and --{key}"));
     }
-    let [code, country] = [&options[0], &options[1]].map(|(key, given)| *given || is_set(key));
+    let [(_, code, code_set), (_, country, country_set), ..] = words;
     // Both by options are refused where they are put together.
-    match code && country && !(options[0].1 && options[1].1) {
+    match (code || code_set) && (country || country_set) && !(code && country) {
         true => one_of_them("`code` and `country`".to_owned()),
         false => None,
     }

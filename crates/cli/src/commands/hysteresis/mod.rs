@@ -46,21 +46,24 @@ pub fn hysteresis(arguments: &HysteresisArguments) -> Result<(), Failure> {
     let law = find(name)?;
     let moved = !arguments.cycles.is_empty()
         || arguments.history.is_some()
-        || !arguments.dissipation.is_empty()
-        || !arguments.fit.is_empty();
-    if moved {
+        || !arguments.dissipation.is_empty();
+    let paced = arguments.period.is_some() || arguments.rate.is_some();
+    let of_motion = paced || arguments.steps.is_some();
+    if moved || !arguments.fit.is_empty() && !of_motion {
         return laboratory(law, arguments);
     }
     // Parameters are judged even where nothing moves: a refusal says more than the lack.
     chosen::choose(law, &arguments.set)?;
     let asked = !arguments.set.is_empty() || arguments.csv.is_some() || arguments.svg.is_some();
-    let paced = arguments.period.is_some() || arguments.rate.is_some();
-    if asked || paced || arguments.steps.is_some() {
+    if asked || of_motion {
         return Err(Failure::input(
             format!("nothing moves the element of law {}", law.name),
             Some(
-                "add --cycles \"10 mm,20 mm\", --history FILE, --dissipation \"0.1 mm,10 mm\" or --fit backbone FILE"
-                    .to_owned(),
+                match arguments.fit.is_empty() {
+                    true => "add --cycles \"10 mm,20 mm\", --history FILE, --dissipation \"0.1 mm,10 mm\" or --fit backbone FILE",
+                    false => "leave --period, --rate and --steps away, which a fit does not ask for, or add --cycles \"10 mm,20 mm\"",
+                }
+                .to_owned(),
             ),
         ));
     }

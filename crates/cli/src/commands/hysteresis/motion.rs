@@ -23,6 +23,12 @@ pub fn path(
                 Some("give the file a column of times, or add --rate".to_owned()),
             ));
         }
+        if arguments.steps.is_some() {
+            return Err(Failure::input(
+                "--steps does not go with --history",
+                Some("the rows of the file are the steps: leave it away".to_owned()),
+            ));
+        }
         let description = "Cycles of the history, from a turning point back to its deformation";
         let path = history(law, &source, speed)?;
         return Ok(Some((path, description.to_owned())));

@@ -7,8 +7,8 @@ mod words;
 
 use words::{
     ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS, BEFORE_VALUES,
-    BEHIND_UNITS, CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES, GRAVITIES, HEADINGS,
-    HERTZ, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS,
+    CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES, GRAVITIES, HEADINGS, HERTZ,
+    LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS,
     STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
 };
 
@@ -344,18 +344,14 @@ pub(crate) fn unit_words(key: &str) -> bool {
         .all(|w| w.starts_with("accel") || *w == "acc" || OF_VALUES.contains(w))
 }
 
-/// What a line in lower case says in words to be the unit of the values: `values in units of g`, `data are in cm/s2
-/// (gal)`; what it says of other things stands behind commas.
+/// What a line in lower case says in words to be the unit of the values, if it says nothing else: `values in units of g`,
+/// `data are in cm/s2 (gal)`. A line of more words may be of something else: `data recorded in cm/s2, converted to g`.
 pub(crate) fn unit_in_words(lower: &str) -> Option<&str> {
-    let sentences = lower.split([',', ';', '\t', '|']);
-    let mut sentences = sentences.flat_map(|text| text.split(". "));
-    sentences.find_map(unit_of_sentence)
-}
-
-fn unit_of_sentence(text: &str) -> Option<&str> {
-    let before = text
-        .trim_matches(|c: char| "#%!*/ \"".contains(c))
-        .trim_end_matches('.');
+    let bare = lower.trim_matches(|c: char| "#%!*/ \t\"".contains(c));
+    let bare = bare.trim_end_matches('.');
+    let inside = |ends: (char, char)| bare.strip_prefix(ends.0)?.strip_suffix(ends.1);
+    let before = inside(('(', ')')).or_else(|| inside(('[', ']')));
+    let before = before.unwrap_or(bare);
     let mut rest = before;
     while let Some(behind) = first_word_of(rest, &BEFORE_VALUES) {
         rest = behind;
@@ -368,11 +364,12 @@ fn unit_of_sentence(text: &str) -> Option<&str> {
     }
     rest = first_word_of(rest, &["in", "en", "em"])?;
     let of = UNITS_OF.iter().find_map(|words| rest.strip_prefix(words));
-    let unit = of.unwrap_or(rest);
-    // `values in g at 0.02 s`.
-    let ends = BEHIND_UNITS.iter().filter_map(|word| unit.find(word));
-    let unit = unit[..ends.min().unwrap_or(unit.len())].trim();
-    Some(unit).filter(|unit| !unit.is_empty())
+    let unit = of.unwrap_or(rest).trim();
+    // A remark in brackets ends the line.
+    let (name, remark) = unit.split_at(unit.find(['(', '[']).unwrap_or(unit.len()));
+    let is_alone = !name.contains([',', ';', ':', '=', '|', '\t'])
+        && (remark.is_empty() || remark.find([')', ']']) == Some(remark.len() - 1));
+    Some(unit).filter(|unit| is_alone && !unit.is_empty())
 }
 
 /// What follows the first word of a text, if it is one of these.

@@ -75,11 +75,8 @@ fn units_of_the_values_in_sentences() {
         ("All values are in g", 1.0),
         ("Data are given in units of g", 1.0),
         ("Data are in cm/s2 (gal)", 0.01 / 9.80665),
-        (
-            "The acceleration values are in mm/s2, baseline corrected",
-            0.001 / 9.80665,
-        ),
-        ("Values in g at 50 samples/s", 1.0),
+        ("The acceleration values are in mm/s2.", 0.001 / 9.80665),
+        ("% (data expressed in mm/s2)", 0.001 / 9.80665),
         ("in units of g", 1.0),
         ("Los valores son en cm/s2", 0.01 / 9.80665),
     ] {
@@ -108,6 +105,21 @@ fn units_of_the_values_in_sentences() {
     }
     // Words that state no unit.
     for line in [
+        "Data recorded in cm/s2",
+        "Data recorded in cm/s2, converted to g",
+        "Data recorded in counts, converted to g",
+        "Data recorded in N. California",
+        "Data measured in gal",
+        "Data in N",
+        "Data in N, E, Z",
+        "Spectral ordinates, values in cm/s2",
+        "Before processing, values in gal",
+        "Original file, values in cm/s2",
+        "PGA 120.5, values in cm/s2",
+        "Full scale 2, values in g",
+        "PGV 12.3, values in cm/s",
+        "Vs30 360; values in m/s",
+        "Site depth 30, data in m",
         "Data in columns",
         "Values in ASCII",
         "Data recorded in Taiwan",
@@ -117,6 +129,15 @@ fn units_of_the_values_in_sentences() {
             (peak(&read(&text).unwrap()) / of_g - 1.0).abs() < 1e-9,
             "{line}"
         );
+    }
+    // Alone they state none, either.
+    for line in [
+        "Data recorded in cm/s2, converted to g",
+        "Original file, values in cm/s2",
+        "Full scale 2, values in g",
+    ] {
+        let error = read(&plain(&format!("{line}\ndt: 0.02 s"))).unwrap_err();
+        assert!(format!("{error}").contains("unit"), "{line}: {error}");
     }
 }
 
@@ -134,6 +155,14 @@ fn units_of_the_values_in_sentences_of_at2() {
         4,
         &["cm/s2 here", "g in line 3"],
     );
+    for line in [
+        "DATA RECORDED IN CM/S2, CONVERTED TO G",
+        "PGA 120.5, VALUES IN CM/S2",
+        "ORIGINAL FILE, VALUES IN CM/S2",
+    ] {
+        let found = peak(&read(&at2(in_g, line)).unwrap());
+        assert!((found / of_g - 1.0).abs() < 1e-9, "{line}: {found}");
+    }
     let alone = peak(&read(&at2("QUAKE OF A DAY", "Values in cm/s2")).unwrap());
     assert!((alone / of_g * 980.665 - 1.0).abs() < 1e-9, "{alone}");
 }

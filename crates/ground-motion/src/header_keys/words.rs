@@ -446,15 +446,14 @@ pub(super) const BEFORE_VALUES: [&str; 13] = [
     "die",
     "data",
 ];
-/// What may stand between them and the word before the unit.
-pub(super) const ARE_GIVEN: [&str; 15] = [
+/// What may stand between them and the word before the unit; `recorded` and `measured` are of the values as they were.
+pub(super) const ARE_GIVEN: [&str; 14] = [
     "are",
     "is",
     "all",
     "given",
     "expressed",
     "printed",
-    "recorded",
     "listed",
     "stored",
     "written",
@@ -479,8 +478,6 @@ pub(super) const UNITS_OF: [&str; 12] = [
     "units ",
     "unit ",
 ];
-/// Words behind a unit with which something else begins.
-pub(super) const BEHIND_UNITS: [&str; 5] = [" at ", " with ", " from ", " for ", " sampled "];
 
 /// Words of keys that speak of the record before it was processed.
 pub(super) const OF_ANOTHER: [&str; 28] = [

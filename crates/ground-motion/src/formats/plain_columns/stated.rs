@@ -650,15 +650,22 @@ fn unit_of(lower: &str) -> Unit {
     if let Some(unit) = beside_seconds(bare) {
         return Unit::Known(unit);
     }
-    let behind = bare.strip_prefix("in ");
-    let behind = behind.map(|unit| unit.strip_prefix("units of ").unwrap_or(unit));
+    let within = [
+        "in units of ",
+        "in ",
+        "values in ",
+        "data in ",
+        "amplitudes in ",
+        "samples in ",
+    ];
+    let behind = within.iter().find_map(|start| bare.strip_prefix(start));
     if let Some(unit) = behind.and_then(|unit| names::motion_unit(unit.trim_end_matches('.'))) {
         return Unit::Known(unit);
     }
     if let Some(stated) = header_keys::unit_in_words(lower) {
-        // A word that is no unit, as in `values in ASCII`, is of something else.
+        // A word that is no unit, as in `values in ASCII`, is of something else; `data in N` may be of a direction.
         match value_of(stated) {
-            Unit::Unknown(text) if !is_like_a_unit(&text) => {}
+            Unit::Unknown(text) if !is_like_a_unit(&text) || text == "n" => {}
             Unit::None => {}
             stated => return stated,
         }

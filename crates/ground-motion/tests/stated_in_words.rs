@@ -196,6 +196,15 @@ fn rates_beside_other_steps() {
         ("units: g\nSampling rate 50 Hz, 6 s", 0.02),
         ("units: g\nSampling rate: 50 Hz, taper (0.1 s)", 0.02),
         ("units: g\nSampling rate: 50 Hz, delay, 0.05 s", 0.02),
+        (
+            "units: g\nSampling rate: 50 Hz, low-pass 25 Hz, 0.05 s",
+            0.02,
+        ),
+        (
+            "units: g\nSampling rate: 50 Hz, high cut 25 Hz (0.04 s)",
+            0.02,
+        ),
+        ("units: g\nSampling rate 50 Hz, 0.1 s, taper", 0.02),
         ("units: g\nLow-pass filter, rate: 100 Hz\ndt: 0.02 s", 0.02),
     ] {
         let recording = read(&plain(header)).unwrap_or_else(|e| panic!("{header}: {e}"));

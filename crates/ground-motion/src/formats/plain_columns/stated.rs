@@ -351,10 +351,11 @@ impl Stated {
             }
         }
         let is_rate = |step: &At<Step>| step.line == line && step.value.is_rate;
-        if self.steps.last().is_some_and(is_rate) && !header_keys::is_of_another(lower) {
-            for seconds in steps_beside_rate(lower) {
-                self.state_step(line, seconds, false);
-            }
+        if self.steps.last().is_some_and(is_rate)
+            && !header_keys::is_of_another(lower)
+            && let Some(seconds) = step_beside_rate(lower)
+        {
+            self.state_step(line, seconds, false);
         }
     }
 
@@ -581,24 +582,27 @@ impl Stated {
     }
 }
 
-/// The steps (s) that stand alone right behind a rate of sampling, behind a comma or in brackets: `sampling rate 200
-/// hz, 0.005 s`. Longer ones are durations, and those behind other words, `taper (0.1 s)`, of something else.
-fn steps_beside_rate(lower: &str) -> Vec<f64> {
-    let parts = lower.split([',', ';', '|', '(', ')', '[', ']', '\t']);
-    let parts = parts.map(|part| part.trim().trim_end_matches('.'));
-    let parts: Vec<&str> = parts.filter(|part| !part.is_empty()).collect();
-    let step = |two: &[&str]| {
-        let unit = two[0]
-            .rsplit(|c: char| c == ' ' || c.is_ascii_digit())
-            .next()?;
-        let is_rate =
-            !unit.is_empty() && header_keys::is_rate_unit(unit) || two[0].ends_with(" per second");
-        let number = two[1].trim_end_matches(|c: char| c.is_ascii_alphabetic());
-        let one = names::time_unit(&two[1][number.len()..]).filter(|_| is_rate)?;
-        let seconds = one * number::parse(number.trim_end().as_bytes()).ok()?;
-        (seconds > 0.0 && seconds <= LONGEST_DELTA).then_some(seconds)
+/// The step (s) right behind a rate of sampling, behind a comma or in brackets, in a line that states nothing else:
+/// `sampling rate 200 hz, 0.005 s`. Longer ones are durations, and those behind other words, `low-pass 25 hz, 0.05 s`, of
+/// something else.
+fn step_beside_rate(lower: &str) -> Option<f64> {
+    let bare = lower.trim_end_matches([' ', '\t', '.', ')', ']']);
+    let (rate, step) = bare.rsplit_once([',', ';', '(', '['])?;
+    let entries = keyed(rate);
+    let [entry] = entries.as_slice() else {
+        return None;
     };
-    parts.windows(2).filter_map(step).collect()
+    let (_, digits, _) = entry.number()?;
+    let unit = entry.value[digits.len()..].trim().trim_end_matches('.');
+    let is_rate = meaning(entry) == Some(Meaning::Rate)
+        && !rate.contains([',', ';', '|', '(', '['])
+        && !unit.is_empty()
+        && header_keys::is_rate_unit(unit);
+    let step = step.trim();
+    let number = step.trim_end_matches(|c: char| c.is_ascii_alphabetic());
+    let one = names::time_unit(&step[number.len()..]).filter(|_| is_rate)?;
+    let seconds = one * number::parse(number.trim_end().as_bytes()).ok()?;
+    (seconds > 0.0 && seconds <= LONGEST_DELTA).then_some(seconds)
 }
 
 /// Refuses another unit of the times than the second under a key, which the rows do not know of: `Time unit: ms`.

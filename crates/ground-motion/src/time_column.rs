@@ -284,9 +284,15 @@ const BETWEEN_DIGITS: std::ops::RangeInclusive<f64> = 0.1..=0.9;
 /// Largest part of a step that the digits of times leave open, for one round step to be told from others.
 const PINNED: f64 = 0.004;
 
+/// Rows at either end that may lie no further off the line than those between them, and part of a digit by which they
+/// may: those between them have been as far off as rounding puts them.
+const ENDS: usize = 8;
+const BEYOND: f64 = 0.05;
+
 /// The round step (s) of times of which each has the same digit (s), of about one step: all are within one digit of a
 /// straight line, rounded or cut off. A row that is missing or doubled puts those behind it a step off the line, more
-/// than is open: the steps of its times, in digits, fill most of a digit.
+/// than is open: the steps of its times, in digits, fill most of a digit. One near an end puts the few rows up to there
+/// off it: with steps below one digit none may be further off than all others, which cannot be told from rounding.
 fn coarse_step(times: &[f64], digit: f64, decimals: i32) -> Option<f64> {
     let [first, .., last] = *times else {
         return None;
@@ -300,11 +306,16 @@ fn coarse_step(times: &[f64], digit: f64, decimals: i32) -> Option<f64> {
     }
     let open = 1.01 * digit + SINGLE * last.abs().max(first.abs());
     let fits = |step: &f64| {
-        let off = times.iter().enumerate();
-        let off = off.map(|(i, time)| time - first - i as f64 * step);
-        let range = |(low, high): (f64, f64), off: f64| (low.min(off), high.max(off));
-        let (low, high) = off.fold((0.0, 0.0), range);
-        high - low <= open
+        let off = |i: usize| times[i] - first - i as f64 * step;
+        let range = |rows: std::ops::Range<usize>| {
+            let widest = |(low, high): (f64, f64), off: f64| (low.min(off), high.max(off));
+            let (low, high) = rows
+                .map(off)
+                .fold((f64::INFINITY, f64::NEG_INFINITY), widest);
+            high - low
+        };
+        let all = range(0..times.len());
+        all <= open && all - range(ENDS..times.len() - ENDS) <= BEYOND * digit
     };
     // Two decimals more than those printed are rounder than a whole number of samples a second, `0.015`. Steps with more
     // are as near by chance: those of even times of which one in so many is missing.

@@ -410,6 +410,14 @@ fn steps_of_about_one_digit() {
             assert!(doubled.is_err(), "{step}: {at}");
         }
     }
+    // One near an end, of steps below one digit.
+    for (step, at) in [(0.006, 1), (0.008, ROWS - 2)] {
+        let missing = coarse(step, (0..ROWS).filter(|i| *i != at));
+        assert!(
+            !matches!(missing, Ok(Sampling::Even { .. })),
+            "{step}: {missing:?}"
+        );
+    }
     // Too short for one round step, a row missing among whole numbers of digits, and every eighth of them missing.
     for sampling in [
         coarse(0.015, 0..200),

@@ -1,6 +1,7 @@
 //! Keys of header lines in the spellings of those who write them, and what they are of: `Time-step: 0.01 s`, `Samples 300`.
 
 use crate::number;
+use crate::quantity::SeriesUnit;
 use crate::text::in_brackets;
 
 mod words;
@@ -270,39 +271,41 @@ fn change_in_words(lower: &str) -> Option<f64> {
     words.iter().enumerate().find_map(change)
 }
 
-/// The g (m/s2) that a line in lower case states: `g (1 g = 9.81 m/s2)`, `g = 9.81`, `gravity: 981 cm/s2`.
+/// The g (m/s2) that a line in lower case states: as its key, `g = 9.81`, `gravity: 981 cm/s2`, or in brackets behind a
+/// unit, `g (1 g = 9.81 m/s2)`. Behind other words, `max value in g: 9.75`, a number is of something else.
 pub(crate) fn gravity(lower: &str) -> Option<f64> {
-    let starts = lower.char_indices().filter(|(at, c)| {
-        let before = lower[..*at].chars().next_back();
-        c.is_ascii_digit() && before.is_none_or(|b| " \t=:([~".contains(b))
-    });
-    starts
-        .map(|(at, _)| lower.split_at(at))
-        .find_map(|(before, behind)| {
-            let key = before.trim_end_matches([' ', '\t', '=', ':', '(', '[', '~']);
-            let word = key.rsplit(|c: char| !c.is_ascii_alphanumeric()).next()?;
-            let is_parted = before[key.len()..].contains(['=', ':', '(', '[']);
-            if !(is_parted && GRAVITIES.contains(&word)) {
-                return None;
-            }
-            let (number, _) = split_number(behind);
-            let value = number::parse(number.as_bytes()).ok()?;
-            let unit = behind[number.len()..].trim_start();
-            let ends = |unit: &str| unit.find([' ', ',', ';', ')', ']']).unwrap_or(unit.len());
-            let unit = unit[..ends(unit)]
-                .replace("sec", "s")
-                .replace(['^', '*'], "");
-            let metres = match unit.as_str() {
-                "" | "m/s2" | "m/s/s" | "m/s\u{b2}" if (9.7..=9.9).contains(&value) => value,
-                "" | "cm/s2" | "cm/s/s" | "cm/s\u{b2}" | "gal"
-                    if (970.0..=990.0).contains(&value) =>
-                {
-                    0.01 * value
-                }
-                _ => return None,
-            };
-            Some(metres)
+    let behind_key = |text: &str, keys: &[&str]| {
+        let (key, value) = text.split_once(['=', ':'])?;
+        let key = key.trim();
+        keys.contains(&key)
+            .then(|| gravity_of(value.trim_start()))?
+    };
+    let bare = lower.trim_start_matches(|c: char| "#%!*/ \t\"".contains(c));
+    let in_brackets = || {
+        lower.match_indices(['(', '[']).find_map(|(at, _)| {
+            let before = lower[..at].trim_end();
+            let unit = before.rsplit([' ', '\t', ':', '=', ',']).next()?;
+            SeriesUnit::parse(unit)?;
+            behind_key(&lower[at + 1..], &GRAVITIES[..3])
         })
+    };
+    behind_key(bare, &GRAVITIES).or_else(in_brackets)
+}
+
+/// The g (m/s2) that a number is, with its unit or without.
+fn gravity_of(text: &str) -> Option<f64> {
+    let (number, _) = split_number(text);
+    let value = number::parse(number.as_bytes()).ok()?;
+    let unit = text[number.len()..].trim_start();
+    let end = unit.find([' ', ',', ';', ')', ']']).unwrap_or(unit.len());
+    let unit = unit[..end].replace("sec", "s").replace(['^', '*'], "");
+    match unit.as_str() {
+        "" | "m/s2" | "m/s/s" | "m/s\u{b2}" if (9.7..=9.9).contains(&value) => Some(value),
+        "" | "cm/s2" | "cm/s/s" | "cm/s\u{b2}" | "gal" if (970.0..=990.0).contains(&value) => {
+            Some(0.01 * value)
+        }
+        _ => None,
+    }
 }
 
 /// Of how many samples a line in lower case says that one was kept: `decimation factor: 2`, `decimated by 2`.

@@ -315,6 +315,13 @@ fn gravities_that_are_stated() {
         "units: g\ng = 9.807",
         "units: m/s2\ng = 9.81",
         "units: g\nVs30 g 9.81",
+        "units: g\nMax value in g: 9.75",
+        "units: g\nDistance g: 9.75",
+        "units: g\nNumber of values above g: 980",
+        "units: g\nN of samples above 0.1 g: 981",
+        "units: g\nRange +-2 g (980 gal)",
+        "units: g\nUnit weight of soil: g = 9.8",
+        "units: g\nUnit weight of soil (g = 9.8)",
     ] {
         let recording = read(&plain(&format!("{header}\ndt: 0.02 s")));
         let recording = recording.unwrap_or_else(|e| panic!("{header}: {e}"));

@@ -356,8 +356,18 @@ pub(super) const CHANGED: [&str; 16] = [
     "record",
     "ordinates",
 ];
-/// Last words before a stated g.
-pub(super) const GRAVITIES: [&str; 4] = ["g", "1g", "gravity", "grav"];
+/// Keys of a g; the first three stand in brackets, too.
+pub(super) const GRAVITIES: [&str; 9] = [
+    "g",
+    "1g",
+    "1 g",
+    "gravity",
+    "grav",
+    "acceleration of gravity",
+    "acceleration due to gravity",
+    "gravity acceleration",
+    "gravitational acceleration",
+];
 /// Words before a number by which the values were divided.
 pub(super) const BEFORE_DIVISORS: [&str; 1] = ["divided by"];
 /// Words before the number of samples of which one was kept.

@@ -7,9 +7,9 @@ use crate::text::in_brackets;
 mod words;
 
 use words::{
-    ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS, BEFORE_VALUES,
-    CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES, GRAVITIES, HEADINGS, HERTZ,
-    LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS,
+    AMPLIFICATIONS, ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS,
+    BEFORE_VALUES, CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES, GRAVITIES, HEADINGS,
+    HERTZ, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS,
     STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
 };
 
@@ -240,6 +240,7 @@ pub(crate) fn factors(lower: &str) -> Vec<f64> {
         found.filter_map(|e| Some(e.number()?.0)).collect()
     };
     let mut found = stated(keyed(lower));
+    found.extend(amplification(lower));
     if found.is_empty() {
         let parts = lower.split(SEPARATORS);
         let parts = parts.filter(|part| !part.contains([':', '=']));
@@ -254,15 +255,39 @@ pub(crate) fn factors(lower: &str) -> Vec<f64> {
     found
 }
 
+/// The amplification that a line in lower case states, and nothing else: with other words it may be that of an instrument
+/// or a site, `magnification: 1000 (instrument)`.
+fn amplification(lower: &str) -> Option<f64> {
+    let entries = keyed(lower);
+    let [entry] = entries.as_slice() else {
+        return None;
+    };
+    let first = lower.trim_start_matches(|c: char| !c.is_alphanumeric());
+    let (found, digits, _) = entry.number()?;
+    let rest = entry.value[digits.len()..].trim_matches([' ', '\t', '.']);
+    let is_alone = AMPLIFICATIONS.contains(&entry.key) && first.starts_with(entry.key);
+    (is_alone && rest.is_empty()).then_some(found)
+}
+
 /// The factor of a change of the values in words: `divide values by 10 to get g`, `scale the values by 0.1`.
+/// Where none of its words says what is changed, words behind the number may: `scale by 2 the time`.
 fn change_in_words(lower: &str) -> Option<f64> {
     let words: Vec<&str> = lower.split_whitespace().collect();
     let change = |(i, word): (usize, &&str)| {
         let word = word.trim_matches(|c: char| !c.is_alphabetic());
         let (_, divides) = CHANGES.iter().find(|(change, _)| *change == word)?;
         let behind = words[i + 1..].iter();
+        let is_of_values = words.get(i + 1).is_some_and(|word| CHANGED.contains(word));
         let behind = behind.skip_while(|word| CHANGED.contains(*word));
-        let rest = behind.copied().collect::<Vec<_>>().join(" ");
+        let behind = behind.copied().collect::<Vec<_>>();
+        let number = behind
+            .iter()
+            .position(|word| number::first_in(word).is_some())?;
+        let next = behind.get(number + 1);
+        if !is_of_values && next.is_some_and(|word| !["to", "for"].contains(word)) {
+            return None;
+        }
+        let rest = behind.join(" ");
         let number = rest
             .strip_prefix("by ")
             .and_then(|_| number_behind(&rest, &["by "]))?;

@@ -263,7 +263,7 @@ fn factors_in_sentences() {
         ("Scale the values by 0.1", "0.1"),
         ("# All accelerations scaled by 2.", "2"),
         ("Amplification 10", "10"),
-        ("Amplification factor: 10", "10"),
+        ("# Amplification: 10", "10"),
         ("Escala: 0.1", "0.1"),
         ("Multiply by 0.1", "0.1"),
     ] {
@@ -280,6 +280,11 @@ fn factors_in_sentences() {
     }
     for line in [
         "Divided into 10 parts",
+        "Magnification: 1000 (instrument)",
+        "Instrument magnification: 1000",
+        "Amplification factor S: 1.15",
+        "Amplification 10 at 5 Hz",
+        "Scale by 2 the time",
         "Scale by hand",
         "Recorded by 2 instruments",
         "Scale the values by 1",

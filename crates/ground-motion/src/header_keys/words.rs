@@ -282,14 +282,12 @@ pub(super) const QUANTITIES: [&str; 7] = [
     "signal type",
     "kind",
 ];
+/// Keys of a factor of the values where nothing else stands in their line.
+pub(super) const AMPLIFICATIONS: [&str; 2] = ["amplification", "magnification"];
 /// Keys of a factor of the values.
-pub(super) const FACTORS: [&str; 30] = [
-    "amplification",
-    "amplification factor",
-    "magnification",
+pub(super) const FACTORS: [&str; 26] = [
     "escala",
     "escala de amplitud",
-    "factor de amplificacion",
     "scala",
     "echelle",
     "massstab",

@@ -58,9 +58,9 @@ impl Layout {
         self.margin == 0 && self.gap == 0
     }
 
-    /// Whether a number without a point has decimals all the same.
-    pub(crate) const fn implies_points(self) -> bool {
-        self.decimals != 0
+    /// The decimals that a number without a point has all the same.
+    pub(crate) const fn implied_decimals(self) -> i32 {
+        self.decimals
     }
 
     /// The fields of a row that are not blank, with their columns (from 0).

@@ -65,6 +65,26 @@ fn points_that_are_lost() {
     let said = read("8F10.5", &damaged).unwrap_err();
     assert!(said.starts_with("f:26:"), "{said}");
     assert!(said.contains("has no decimal point") && said.contains("write it with its point"));
+    // Several of them, of which one is of another size, or where the format has other decimals than are printed.
+    let some = |lost: fn(&str) -> String| {
+        of_ten(move |i| match i {
+            16 | 200 | 308 | 640 => lost(&in_decimals(i)),
+            i => in_decimals(i),
+        })
+    };
+    let replaced = some(|v| v.replace('.', "9"));
+    let dropped = some(|v| v.replace('.', ""));
+    for (layout, text) in [
+        ("8F10.5", &replaced),
+        ("8F10.4", &replaced),
+        ("8F10.4", &dropped),
+    ] {
+        let said = read(layout, text).unwrap_err();
+        assert!(said.contains("has no decimal point"), "{layout}: {said}");
+    }
+    // As many decimals as are printed, and the same sizes.
+    let found = read("8F10.5", &dropped).unwrap();
+    assert!((found[200] - sample(200)).abs() < 0.6e-5);
     let said = read("5E15.7", &of_fifteen(200, |v| v.replace('.', "0"))).unwrap_err();
     assert!(
         said.starts_with("f:41:") && said.contains("has no decimal point"),

@@ -15,6 +15,10 @@ const MANY: usize = 20;
 const MANY_DECIMALS: usize = 200;
 /// Values with a decimal point among which one without it is damaged.
 const MANY_POINTS: usize = 50;
+/// Values without a point that have lost it all the same where a layout gives them a size of their own or other decimals
+/// than are printed: so many, and one in so many.
+const SOME_LOST: usize = 20;
+const SOME_OF: usize = 50;
 /// Values whose exponents have a zero before their digit, which show that all have as many digits, and
 /// values that end in a zero, which show that none is left out.
 const LIKE_IT: usize = 2;
@@ -148,8 +152,8 @@ pub(crate) struct Forms {
     begin_with_point: bool,
     /// Mantissas without a point of more than one digit, `79E-03`.
     long_wholes: Odd,
-    /// Whether the layout gives decimals to numbers without a point.
-    implies_points: bool,
+    /// The decimals that the layout gives to numbers without a point.
+    implied_decimals: i32,
     /// Smallest value whose exponent has up to two digits.
     least: Option<f64>,
     list: ListDirected,
@@ -303,7 +307,7 @@ impl Forms {
     pub(crate) fn of(layout: Layout) -> Self {
         Self {
             is_always: layout.exponents,
-            implies_points: layout.implies_points(),
+            implied_decimals: layout.implied_decimals(),
             ..Self::default()
         }
     }
@@ -421,7 +425,7 @@ impl Forms {
             return None;
         }
         // A layout gives decimals to those without a point, which is right where many have none.
-        if self.implies_points {
+        if self.implied_decimals != 0 {
             return self.long_wholes.of(all);
         }
         // Writers that leave out zeros, and with them the point, have one digit before it.
@@ -501,8 +505,18 @@ impl Forms {
         }
         let wholes = self.without.kinds().find(|kind| !is_pointed(kind.key))?;
         // A layout would read it as many times smaller than it stands there, which is right where many have no point.
-        if self.implies_points {
-            return are_few(wholes.count, pointed).then_some((&wholes.first, usual));
+        if self.implied_decimals != 0 {
+            if are_few(wholes.count, pointed) {
+                return Some((&wholes.first, usual));
+            }
+            // More of them are right where all the digits are as they were printed.
+            let others = self.without.kinds().filter(|kind| is_pointed(kind.key));
+            let largest = others.fold(0.0_f64, |most, kind| most.max(kind.largest.value.abs()));
+            let read = wholes.largest.value.abs() / 10.0_f64.powi(self.implied_decimals);
+            let is_other =
+                usize::try_from(self.implied_decimals) != Ok(usual) || read > FAR * largest;
+            let are_some = wholes.count <= SOME_LOST.min(pointed / SOME_OF);
+            return (is_other && are_some).then_some((&wholes.largest, usual));
         }
         let has_zeros = keeps_zeros(most);
         let is_fixed = has_zeros && self.has_constant_decimals() && are_few(wholes.count, pointed);
@@ -608,7 +622,7 @@ impl Forms {
                 "\"{}\" has no decimal point, which the other values have",
                 at.shown()
             );
-            let remedy = match self.implies_points {
+            let remedy = match self.implied_decimals != 0 {
                 true => format!(
                     "{REMEDY}; if its decimals are those of the format, write it with its point, as the others"
                 ),

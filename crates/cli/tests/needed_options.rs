@@ -1,36 +1,17 @@
 //! Options that need another one, or would go unheard, are refused in every company.
 #![allow(clippy::unwrap_used)]
 
+use std::path::Path;
+
 use crate::support::Bench;
 
-/// A pair under a record of the repository.
-const CASE: &str = r#"
-title = "pair"
-[[building]]
-name = "a"
-storeys = 1
-mass = "25 t"
-stiffness = "3.46 MN/m"
-height = "3 m"
-damping = { stiffness_proportional = 0.05 }
-[[building]]
-name = "b"
-storeys = 1
-mass = "100 t"
-stiffness = "30 MN/m"
-height = "3 m"
-damping = { stiffness_proportional = 0.05 }
-[[gap]]
-between = ["a", "b"]
-width = "20 mm"
-model = "anagnostopoulos_2004"
-stiffness = "93.5 MN/m"
-restitution = 0.65
-[ground_motion]
-file = "MOTIONS/el_centro_1940_ns.csv"
-[analysis]
-duration = "2 s"
-"#;
+/// A pair of the examples, briefly under its record.
+fn bench() -> Bench {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let case = std::fs::read_to_string(root.join("examples/three_storey_pair/case.toml")).unwrap();
+    let case = case.replace("../../ground_motions", "MOTIONS");
+    Bench::with(&case.replace("duration = \"31 s\"", "duration = \"2 s\""))
+}
 
 const STUDY: &str =
     "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"10 mm\", \"20 mm\"]\n";
@@ -38,7 +19,7 @@ const STUDY: &str =
 /// What an option needs is asked for, although a third option of the call excludes it.
 #[test]
 fn options_without_what_they_need_are_refused() {
-    let bench = Bench::with(CASE);
+    let bench = bench();
     bench.write("study.toml", STUDY);
     let record = concat!(
         env!("CARGO_MANIFEST_DIR"),
@@ -90,7 +71,7 @@ fn options_without_what_they_need_are_refused() {
 /// Values that another one would decide over are refused, and so is what nothing moves.
 #[test]
 fn options_that_would_go_unheard_are_refused() {
-    let bench = Bench::with(CASE);
+    let bench = bench();
     bench.refused(
         "hysteresis bilinear --steps 30",
         &["nothing moves the element of law bilinear"],

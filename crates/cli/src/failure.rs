@@ -212,7 +212,8 @@ impl From<TimeHistoryError> for Failure {
     fn from(error: TimeHistoryError) -> Self {
         let help = error.help();
         match error {
-            error @ (TimeHistoryError::GapDefinition { .. }
+            error @ (TimeHistoryError::Motions { .. }
+            | TimeHistoryError::GapDefinition { .. }
             | TimeHistoryError::LinkDefinition { .. }
             | TimeHistoryError::NotLinear { .. }
             | TimeHistoryError::InitialState { .. }

@@ -248,6 +248,18 @@ pub(crate) fn warning(warning: &Warning) -> String {
             "take a longer `duration`, or leave it out; where a filter puts zeros before the record, `keep_pads = false` in the filter leaves them out",
             "take a longer `.duration(...)`, or leave it out",
         ),
+        Warning::EndsAtPeak { .. } => text.split("; a record that is too short").next().unwrap_or(&text).replace(
+            "take a longer `duration`",
+            "take a longer `.duration(...)`, beyond the end of the record where that is too short",
+        ),
+        Warning::EndsBeforeForce { .. } => text.replace(
+            "take a longer `duration`, or a shorter `delay`",
+            "take a longer `.duration(...)`, or an earlier force",
+        ),
+        Warning::GroundOffset { .. } => text.replace(
+            "correct them with `process`",
+            "correct them by `ground_motion::processing`",
+        ),
         Warning::SoftContact { .. } => text.replace(
             "that `pounding stiffness` derives",
             "from `gap_element::contact_stiffness`",

@@ -4,7 +4,7 @@ use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
 use crate::estimate::{StepEstimate, contacts_last, is_stable};
 use crate::methods::{Adaptive, EventDriven, Method, MoreauJean, Newmark, RungeKutta4};
-use crate::system::System;
+use crate::system::{GroundAcceleration, System};
 
 /// Default relative tolerance of the adaptive pair, as a method of its own and inside
 /// contacts of the event-driven one.
@@ -111,10 +111,21 @@ impl RunOptions {
                 value.is_finite() && value > 0.0,
                 option,
                 value,
-                "it must be greater than zero",
+                "it must be greater than zero, and finite",
             )
         };
-        positive("time step of the ground motion", system.ground().time_step)?;
+        let GroundAcceleration { samples, time_step } = system.ground();
+        positive("time step of the ground motion", *time_step)?;
+        if let Some(at) = samples.iter().position(|a| !a.is_finite()) {
+            return Err(TimeHistoryError::Motions {
+                reason: format!(
+                    "sample {} of {} is {}; they must all be finite",
+                    at + 1,
+                    samples.len(),
+                    samples[at]
+                ),
+            });
+        }
         match self.method {
             MethodChoice::Adaptive { relative_tolerance }
             | MethodChoice::EventDriven { relative_tolerance } => require(

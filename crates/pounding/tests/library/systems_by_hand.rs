@@ -77,3 +77,26 @@ fn names_that_no_result_can_have_are_refused_before_the_run() {
     dotted.run_to_file(&path).unwrap();
     assert!(path.exists());
 }
+
+/// A gap without levels would be a check of nothing, and samples that are no numbers a step that fell
+/// below all bounds.
+#[test]
+fn gaps_without_levels_and_samples_that_are_no_numbers_are_refused() {
+    let good = system(["a", "b"], ["near", "far"], "l");
+    let between = || ["a", "b"].map(str::to_owned);
+    let error = good.clone().add_gap("none", between(), Vec::new());
+    assert_eq!(
+        error.unwrap_err().to_string(),
+        "gap none: it has no levels at which floors could meet"
+    );
+    for (value, said) in [(f64::NAN, "NaN"), (f64::INFINITY, "inf")] {
+        let ground = GroundAcceleration {
+            samples: Arc::new(vec![0.0, 1.0, value, 0.0]),
+            time_step: 0.1,
+        };
+        let system = System::new(good.buildings().to_vec(), ground);
+        let error = Model::of_system(system, RunOptions::default()).and_then(|m| m.run());
+        let said = format!("ground motions: sample 3 of 4 is {said}; they must all be finite");
+        assert_eq!(error.unwrap_err().to_string(), said);
+    }
+}

@@ -316,6 +316,40 @@ fn warnings_are_in_our_words() {
     );
 }
 
+/// Keys of case files stand in no warning of a model that was built by code.
+#[test]
+fn warnings_of_short_runs_name_no_keys() {
+    let low = || building("low", 25.0, 3.46);
+    let run_of = |simulation: Simulation, motion: GroundMotion| {
+        let model = simulation.ground_motion(motion).build().unwrap();
+        model.warnings(&model.run().unwrap())
+    };
+    let run = |simulation: Simulation, seconds: f64| {
+        run_of(simulation.duration(Time::seconds(seconds)), el_centro())
+    };
+    let samples = vec![Acceleration::gravities(0.1); 20];
+    let push_at_once = GroundMotion::of(samples, Time::seconds(0.02)).unwrap();
+    let push = ForceHistory::new(&[(0.0, 0.0), (5.0, 1e3), (9.0, 0.0)], false).unwrap();
+    for (said, start, remedy) in [
+        (
+            run_of(Simulation::of([low()]), push_at_once),
+            "low, floor above storey",
+            "and may grow on: take a longer `.duration(...)`, beyond the end of the record where that is too short",
+        ),
+        (
+            run(Simulation::of([low()]).force("low", 1, push), 3.0),
+            "the run ends at 3 s, before the force on storey 1",
+            "take a longer `.duration(...)`, or an earlier force",
+        ),
+    ] {
+        let found = said.iter().find(|w| w.starts_with(start));
+        let found = found.unwrap_or_else(|| panic!("{start}: {said:?}"));
+        assert!(found.ends_with(remedy), "{found}");
+        let keys = ["`duration`", "`delay`", "process"];
+        assert!(keys.iter().all(|key| !found.contains(key)), "{found}");
+    }
+}
+
 #[test]
 fn a_soft_contact_is_told_in_our_words() {
     let gap = Gap::between("a", "b").width(Length::millimetres(20.0));

@@ -315,7 +315,7 @@ impl System {
     /// not act on each other as if they were, with a warning ([`System::unequal_floor_warnings`]).
     ///
     /// # Errors
-    /// A floor that does not exist, a level between two walls, a width that is negative or
+    /// No level, a floor that does not exist, a level between two walls, a width that is negative or
     /// not finite, floors that overlap at time zero, a restitution of velocity jumps that is not
     /// from 0 to 1, or velocity jumps at several points of a floor that turns.
     pub fn add_gap(
@@ -348,6 +348,12 @@ impl System {
         }
         let first_level = self.levels.len();
         let count = pairs.len();
+        if count == 0 {
+            return Err(TimeHistoryError::GapDefinition {
+                gap: name.to_owned(),
+                reason: "it has no levels at which floors could meet".to_owned(),
+            });
+        }
         for (left, right, width, model) in pairs {
             let mut level = self.contact_level(name, left, right, width, model)?;
             if let Some(overlap) = overlap(&mut level, &self.initial[..self.mass.len()]) {

@@ -1,5 +1,7 @@
 //! Keys of header lines in the spellings of those who write them, and what they are of: `Time-step: 0.01 s`, `Samples 300`.
 
+use std::borrow::Cow;
+
 use crate::number;
 use crate::quantity::SeriesUnit;
 use crate::text::in_brackets;
@@ -7,10 +9,10 @@ use crate::text::in_brackets;
 mod words;
 
 use words::{
-    AMPLIFICATIONS, ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS, BEFORE_NUMBERS,
-    BEFORE_VALUES, CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES, GRAVITIES, HEADINGS,
-    HERTZ, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS, QUANTITIES, RATES, STEPS,
-    STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
+    AMPLIFICATIONS, AND_SECONDS, ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS,
+    BEFORE_NUMBERS, BEFORE_VALUES, CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES,
+    GRAVITIES, HEADINGS, HERTZ, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS,
+    QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
 };
 
 /// What stands under a key.
@@ -234,6 +236,7 @@ pub(crate) fn is_of_another(key: &str) -> bool {
 /// The factors of the values, other than one, that a line in lower case states: under keys, in a part of the
 /// line, `npts= 300, scale factor 0.5`, or in words, `values multiplied by 1000`.
 pub(crate) fn factors(lower: &str) -> Vec<f64> {
+    let lower = &powers_of_ten(lower);
     let stated = |entries: Vec<Entry<'_>>| -> Vec<f64> {
         let of_factor = |entry: &&Entry<'_>| meaning(entry) == Some(Meaning::Factor);
         let found = entries.iter().filter(of_factor);
@@ -253,6 +256,30 @@ pub(crate) fn factors(lower: &str) -> Vec<f64> {
     }
     found.retain(|factor| *factor != 1.0 && factor.is_finite());
     found
+}
+
+/// The line with powers of ten, `10^-3`, `10**-3` and `10^(-3)`, as numbers, `1e-3`.
+fn powers_of_ten(lower: &str) -> Cow<'_, str> {
+    let mut line = Cow::Borrowed(lower);
+    for mark in ["10^", "10**"] {
+        let mut from = 0;
+        while let Some(at) = line[from..].find(mark).map(|at| from + at) {
+            let (before, behind) = (&line[..at], &line[at + mark.len()..]);
+            let bare = behind.strip_prefix('(').unwrap_or(behind);
+            let sign = usize::from(bare.starts_with(['-', '+']));
+            let digits = bare[sign..].bytes().take_while(u8::is_ascii_digit).count();
+            let (exponent, rest) = bare.split_at(sign + digits);
+            from = at + mark.len();
+            if digits > 0 && !before.ends_with(|c: char| c.is_ascii_digit() || c == '.') {
+                let rest = match bare.len() < behind.len() {
+                    true => rest.strip_prefix(')').unwrap_or(rest),
+                    false => rest,
+                };
+                line = Cow::Owned(format!("{before}1e{exponent}{rest}"));
+            }
+        }
+    }
+    line
 }
 
 /// The amplification that a line in lower case states, and nothing else: with other words it may be that of an instrument
@@ -395,6 +422,10 @@ pub(crate) fn unit_in_words(lower: &str) -> Option<&str> {
     let unit = of.unwrap_or(rest).trim();
     // A remark in brackets ends the line.
     let (name, remark) = unit.split_at(unit.find(['(', '[']).unwrap_or(unit.len()));
+    let (unit, name) = match AND_SECONDS.iter().find_map(|of| name.strip_suffix(of)) {
+        Some(name) => (name, name),
+        None => (unit, name),
+    };
     let is_alone = !name.contains([',', ';', ':', '=', '|', '\t'])
         && (remark.is_empty() || remark.find([')', ']']) == Some(remark.len() - 1));
     Some(unit).filter(|unit| is_alone && !unit.is_empty())

@@ -78,6 +78,8 @@ fn units_of_the_values_in_sentences() {
         ("The acceleration values are in mm/s2.", 0.001 / 9.80665),
         ("% (data expressed in mm/s2)", 0.001 / 9.80665),
         ("in units of g", 1.0),
+        ("Units are in cm/s2", 0.01 / 9.80665),
+        ("Data in mm/s2 and seconds", 0.001 / 9.80665),
         ("Los valores son en cm/s2", 0.01 / 9.80665),
     ] {
         let recording = read(&plain(&format!("{line}\ndt: 0.02 s")));
@@ -186,6 +188,7 @@ fn rates_beside_other_steps() {
         ("units: g\nSampling rate 200 Hz, 0.02 s", 2),
         ("units: g\nSampling rate: 200 Hz (0.02 s)", 2),
         ("units: g\nSampling rate: 200 Hz; 20 ms", 2),
+        ("units: g\nSampling rate: 200 Hz = 0.02 s", 2),
     ] {
         refused(&plain(header), line, &["0.02 s here", "--time-step"]);
     }
@@ -193,6 +196,8 @@ fn rates_beside_other_steps() {
         ("units: g\nRate: 50 Hz\ndt: 0.02 s", 0.02),
         ("units: g\nRate: 5\ndt: 0.02 s", 0.02),
         ("units: g\nSampling rate 200 Hz, 0.005 s", 0.005),
+        ("units: g\nSampling rate: 200 Hz = 0.005 s", 0.005),
+        ("units: g\nSampling rate = 50 Hz", 0.02),
         ("units: g\nSampling rate 50 Hz, 6 s", 0.02),
         ("units: g\nSampling rate: 50 Hz, taper (0.1 s)", 0.02),
         ("units: g\nSampling rate: 50 Hz, delay, 0.05 s", 0.02),
@@ -264,6 +269,10 @@ fn factors_in_sentences() {
         ("# All accelerations scaled by 2.", "2"),
         ("Amplification 10", "10"),
         ("# Amplification: 10", "10"),
+        ("Amplification factor: 10", "10"),
+        ("Multiply by 10^-3", "0.001"),
+        ("Multiply values by 10**-3 to get g", "0.001"),
+        ("Scale factor = 10^(2)", "100"),
         ("Escala: 0.1", "0.1"),
         ("Multiply by 0.1", "0.1"),
     ] {
@@ -304,6 +313,7 @@ fn gravities_that_are_stated() {
         plain("# gravity: 9.81 m/s2\nunits: g\ndt: 0.02 s"),
         plain("units: g\nAcceleration of gravity = 981 cm/s^2\ndt: 0.02 s"),
         at2(unit, "1 G = 9.81 M/S2"),
+        at2(&format!("{unit} (G = 9.81 M/S2)"), "QUAKE"),
     ] {
         let recording = read(&text).unwrap_or_else(|e| panic!("{}: {e}", &text[..40]));
         assert!(is_warned_of(&recording, told), "{}", &text[..40]);

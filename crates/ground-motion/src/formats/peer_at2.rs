@@ -618,7 +618,12 @@ fn is_of_something_else(unit: SeriesUnit, rest: &str) -> bool {
         let is_key = word.is_some_and(|word| KEYS_BEHIND_UNIT.contains(&word));
         let known = match SeriesUnit::parse(inside) {
             Some(other) => other == unit,
-            None => in_words || is_key || Layout::find(text).is_some(),
+            // `G (G = 9.81 M/S2)`.
+            None => {
+                let is_gravity =
+                    || unit.symbol == "g" && gravity(&format!("g ({inside})")).is_some();
+                in_words || is_key || Layout::find(text).is_some() || is_gravity()
+            }
         };
         return known && is_of_something_else(unit, behind);
     }

@@ -283,7 +283,12 @@ pub(super) const QUANTITIES: [&str; 7] = [
     "kind",
 ];
 /// Keys of a factor of the values where nothing else stands in their line.
-pub(super) const AMPLIFICATIONS: [&str; 2] = ["amplification", "magnification"];
+pub(super) const AMPLIFICATIONS: [&str; 4] = [
+    "amplification",
+    "magnification",
+    "amplification factor",
+    "magnification factor",
+];
 /// Keys of a factor of the values.
 pub(super) const FACTORS: [&str; 26] = [
     "escala",
@@ -418,7 +423,8 @@ pub(super) const OF_VALUES: [&str; 20] = [
     "aceleracion",
 ];
 /// Words for the values themselves, in a statement of their unit.
-pub(super) const VALUES_THEMSELVES: [&str; 16] = [
+pub(super) const VALUES_THEMSELVES: [&str; 17] = [
+    "units",
     "values",
     "data",
     "amplitudes",
@@ -438,6 +444,8 @@ pub(super) const VALUES_THEMSELVES: [&str; 16] = [
     "daten",
     "messwerte",
 ];
+/// The unit of the times behind that of the values.
+pub(super) const AND_SECONDS: [&str; 4] = [" and seconds", " and second", " and sec", " and s"];
 /// What may stand before them.
 pub(super) const BEFORE_VALUES: [&str; 13] = [
     "all",

@@ -582,12 +582,12 @@ impl Stated {
     }
 }
 
-/// The step (s) right behind a rate of sampling, behind a comma or in brackets, in a line that states nothing else:
-/// `sampling rate 200 hz, 0.005 s`. Longer ones are durations, and those behind other words, `low-pass 25 hz, 0.05 s`, of
+/// The step (s) right behind a rate of sampling, behind a comma or a sign of equality or in brackets, in a line that
+/// states nothing else: `sampling rate 200 hz, 0.005 s`. Longer ones are durations, and those behind other words, `low-pass 25 hz, 0.05 s`, of
 /// something else.
 fn step_beside_rate(lower: &str) -> Option<f64> {
     let bare = lower.trim_end_matches([' ', '\t', '.', ')', ']']);
-    let (rate, step) = bare.rsplit_once([',', ';', '(', '['])?;
+    let (rate, step) = bare.rsplit_once([',', ';', '(', '[', '='])?;
     let entries = keyed(rate);
     let [entry] = entries.as_slice() else {
         return None;

@@ -713,3 +713,57 @@ fn mistakes() {
         "{error}"
     );
 }
+
+/// Where the width is the demand to the last bit, round-off of steps that are not exact may close the gap: by itself,
+/// since there is no other one.
+#[test]
+fn a_gap_of_the_width_of_its_demand_has_no_neighbour() {
+    let file = root().join("examples/soil_pair/case.toml");
+    let text = std::fs::read_to_string(&file).unwrap();
+    let (mut closed, methods) = (0, ["adaptive", "newmark", "hht_alpha"]);
+    for method in methods {
+        let step = if method == "adaptive" {
+            ""
+        } else {
+            "step = \"1 ms\"\n"
+        };
+        let by = text.replace(
+            "[analysis]",
+            &format!("[analysis]\nmethod = \"{method}\"\n{step}"),
+        );
+        let case = Case::parse(&by, &file).unwrap();
+        let demand = check(&case, &[], &options()).gaps[0].demand[0];
+        let case = Case::parse(&by.replace("\"25 mm\"", &demand.to_string()), &file).unwrap();
+        let again = check(&case, &[], &options());
+        let gap = &again.gaps[0];
+        assert_eq!(gap.demand[0], demand);
+        assert_eq!(gap.records_driven, 0, "{method}");
+        assert_eq!(gap.adequate, gap.records_in_contact == 0);
+        closed += gap.records_in_contact;
+    }
+    assert!(closed > 0, "none of {methods:?} closes it by round-off");
+}
+
+/// A building whose isolators are given by their period alone stands on isolators as well as one with a table of them:
+/// the rules for isolated buildings speak unasked.
+#[test]
+fn isolators_by_their_period_have_the_rules_of_isolated_buildings() {
+    let of = |separation: &str| {
+        let file = root().join("examples/three_storey_pair/case.toml");
+        let text = std::fs::read_to_string(&file).unwrap() + separation;
+        let case = Case::parse(&text, &file).unwrap();
+        let gap = check(&case, &[], &options()).gaps.swap_remove(0);
+        let names = gap.codes.iter();
+        let chapter_17 = names.filter(|c| c.provision.name().contains("isolation_boundary"));
+        chapter_17.map(|c| c.width(0)).collect::<Vec<_>>()
+    };
+    assert_eq!(of(""), Vec::new());
+    let found = of(
+        "\n[separation]\nspectral_acceleration_1s = \"0.9 g\"\nisolation_period = 3\n\
+         isolation_damping_coefficient = 1.5\nplan_length = 40\nplan_width = 20\nplan_eccentricity = 2\n",
+    );
+    assert_eq!(found.len(), 3);
+    for width in found {
+        assert!(width.unwrap() > 0.9, "{width:?}");
+    }
+}

@@ -327,3 +327,78 @@ fn columns_with_several_points_and_all_kinds_of_damping_agree() {
         assert!(exact.energy.residual_ratio < 1e-9, "{damping}");
     }
 }
+
+/// The foot of a column in the first storey moves with the ground: two motions that are the same take both sides of
+/// the gap along, and of two that are not, the gap opens and closes by their difference. Rigid buildings tell the
+/// ground alone, held against points that are floors.
+#[test]
+fn the_ground_carries_a_column_of_the_first_storey_along() {
+    let storey = |name: &str, height: f64, ground: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nmass = 1e5\nstiffness = 1e12\nstoreys = 2\nheight = {height}\ndamping = {{ ratio = 0.05, modes = [1, 2] }}\n{ground}\n"
+        )
+    };
+    let file = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../ground_motions/el_centro_1940_ns.csv"
+    );
+    let openings = |grounds: [&str; 2]| {
+        let grounds = grounds.map(|g| g.replace("FILE", &format!("file = \"{file}\"")));
+        let low = storey("low", 2.0, &grounds[0]);
+        let tall = storey("tall", 3.0, &grounds[1]);
+        let of = |level: &str| {
+            let text = format!(
+                "{low}{tall}[[gap]]\nbetween = [\"low\", \"tall\"]\nwidth = 1.0\nseat = 5.0\nmodel = \"linear_elastic\"\nstiffness = 1e8\n{level}\n[ground_motion]\nfile = \"{file}\"\n"
+            );
+            let options = RunOptions::default();
+            let outcome = run(&system(&text), &options, &mut [], &mut |_| {}).unwrap();
+            assert_eq!(outcome.impacts.len(), 0);
+            let level = &outcome.gaps[0].levels[0];
+            let opening = level.responses.iter().find(|r| r.name == "opening");
+            opening.map(|r| r.peak.value)
+        };
+        let column = "levels = [[1, { storey = 1 }]]\ncolumn = { of = \"tall\", flexural_rigidity = 2.56e8 }";
+        let floors = "levels = [[1, 1]]\nfloor_to_floor = true";
+        [of(column), of(floors)].map(Option::unwrap)
+    };
+    let [column, floors] = openings(["ground = { FILE }"; 2]);
+    assert!(
+        column.abs() < 1e-6 && floors.abs() < 1e-6,
+        "{column:e} {floors:e}"
+    );
+    for grounds in [
+        ["", "ground = { delay = 0.5 }"],
+        ["ground = { delay = 0.5 }", ""],
+        ["ground = { FILE, scale = 0.5 }", "ground = { FILE }"],
+    ] {
+        let [column, floors] = openings(grounds);
+        assert!(floors > 0.01, "{floors}");
+        // Rigid floors still move by a = k u: some 1e-6 m.
+        assert!((column - floors).abs() < 1e-5, "{column} {floors}");
+    }
+}
+
+/// The same numbers with one record for all and with one of its own under each building.
+#[test]
+fn a_record_twice_is_one_record_for_columns() {
+    let record = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../ground_motions/el_centro_1940_ns.csv"
+    );
+    let one = case([A, B], WITHOUT_MASS)
+        .replace("[4.4, 3.6]", "[2.0, 5.0]")
+        .replace("width = 0.02", "width = 0.005");
+    let own = |name: &str| format!("name = \"{name}\"\nground = {{ file = \"{record}\" }}\n");
+    let twice = one
+        .replace("name = \"A\"\n", &own("A"))
+        .replace("name = \"B\"\n", &own("B"));
+    let [one, twice] = [one, twice].map(|text| go(&system(&text), ADAPTIVE));
+    assert!(one.impacts.iter().filter(|i| i.level == 0).count() > 3);
+    assert_eq!(one.impacts.len(), twice.impacts.len());
+    for (a, b) in one.impacts.iter().zip(&twice.impacts) {
+        assert_eq!((a.gap, a.level), (b.gap, b.level));
+        assert!((a.time_closed - b.time_closed).abs() < 1e-8);
+        let off = a.peak_force.value / b.peak_force.value - 1.0;
+        assert!(off.abs() < 1e-6, "{off:e}");
+    }
+}

@@ -574,7 +574,9 @@ fn chosen(
     own: &[Provision],
 ) -> Result<Vec<Provision>, CheckError> {
     let Some(names) = &separation.provisions else {
-        let isolated = case.buildings.iter().any(|b| b.isolator.is_some());
+        // Without isolators in the case the period of some says it.
+        let isolated = case.buildings.iter().any(|b| b.isolator.is_some())
+            || separation.isolation_period.is_some();
         let all = descriptors().iter().copied();
         let speak = all
             .filter(|d| (isolated || !d.is_of_isolated_structures()) && d.place() != Place::Seat);

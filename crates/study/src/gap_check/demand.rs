@@ -10,6 +10,10 @@ use super::error::CheckError;
 use super::parallel::{Progress, runs_in_parallel};
 use super::records::CaseUnderRecord;
 
+/// Part of a width by which its demand may miss it where a run closes it by round-off: by more, something else drives
+/// the floors together.
+const AT_DEMAND: f64 = 1.0e-6;
+
 /// A contact level of a gap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GapLevel {
@@ -127,6 +131,18 @@ impl RecordDemand {
     #[must_use]
     pub fn demand_exceeds(&self, gap: usize, level: usize, width: f64) -> bool {
         self.demand[gap][level].value > width
+    }
+
+    /// Whether the gap closes by this demand: where it exceeds the width of a level, or equals it as far as steps
+    /// that are not exact tell, and the run closed the gap. `levels` are those of the gap.
+    #[must_use]
+    pub fn closes_by_demand(&self, gap: usize, levels: &[GapLevel]) -> bool {
+        let mut all = levels.iter().enumerate();
+        let reaches = |(l, level): (usize, &GapLevel)| {
+            self.demand[gap][l].value >= level.width * (1.0 - AT_DEMAND)
+        };
+        let exceeds = |(l, level): (usize, &GapLevel)| self.demand_exceeds(gap, l, level.width);
+        all.clone().any(exceeds) || self.closed(gap) && all.any(reaches)
     }
 
     /// Maximum displacement of the ground on one side of a level relative to that on the

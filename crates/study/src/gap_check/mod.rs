@@ -443,10 +443,7 @@ fn report(
     let by_record: Vec<Vec<f64>> = records.iter().map(by_level).collect();
     let over_levels = |levels: &Vec<f64>| levels.iter().fold(0.0_f64, |m, d| m.max(*d));
     let demand: Vec<f64> = by_record.iter().map(over_levels).collect();
-    let touches = |r: &&RecordDemand| {
-        let mut closed = levels.iter().enumerate();
-        closed.any(|(l, level)| r.demand_exceeds(place.gap, l, level.width))
-    };
+    let touches = |r: &&RecordDemand| r.closes_by_demand(place.gap, &levels);
     // A building that was hit on its other side can close a gap that it would have left open.
     let driven = |r: &&RecordDemand| !touches(r) && r.closed(place.gap);
     let records_driven = records.iter().filter(driven).count();

@@ -19,7 +19,10 @@ pub enum Floor {
     FixedWall,
 }
 
-/// A point of a building whose displacement is a sum over the coordinates of the building.
+/// A point of a building whose displacement relative to the ground is a sum over the coordinates of the
+/// building. What the weights of floors lack to one is the share of the ground, as of a column in the first
+/// storey: a unit shift of the ground carries every point along by one, whatever its weights, unless they are all
+/// of rotations.
 #[derive(Debug, Clone, PartialEq)]
 pub struct BuildingPoint {
     /// Building index in the row, from zero.
@@ -45,8 +48,8 @@ struct Side {
     weights: Vec<(usize, f64)>,
     place: Option<(usize, f64)>,
     building: Option<usize>,
-    /// What a unit shift of the ground along the row moves it by: nothing for a rotation.
-    carried: f64,
+    /// Whether the ground along the row carries it: not a rotation.
+    is_carried: bool,
     /// Position across the row (m), where it matters.
     across: Option<f64>,
 }
@@ -131,9 +134,9 @@ impl System {
             return;
         }
         for ((motion, sign), side) in motions.into_iter().zip([1.0, -1.0]).zip(sides) {
-            if let Some(motion) = motion.filter(|_| side.carried != 0.0) {
+            if let Some(motion) = motion.filter(|_| side.is_carried) {
                 let dof = self.displacement_of_ground(motion);
-                terms.ground.push((dof, sign * side.carried));
+                terms.ground.push((dof, sign));
             }
         }
     }
@@ -152,7 +155,7 @@ impl System {
                 weights: Vec::new(),
                 place: None,
                 building: None,
-                carried: 0.0,
+                is_carried: false,
                 across: None,
             }),
             Floor::Storey(b, s) => {
@@ -161,7 +164,7 @@ impl System {
                     weights: vec![(self.offsets[b] + s, 1.0)],
                     place: Some((s + 1, building.elevations()[s])),
                     building: Some(b),
-                    carried: 1.0,
+                    is_carried: true,
                     across: None,
                 })
             }
@@ -187,7 +190,7 @@ impl System {
                     None => true,
                     Some(k) => further[k].excitation == Excitation::Along,
                 };
-                let carried: f64 = all.clone().filter(|(i, _)| along(*i)).map(|(_, w)| w).sum();
+                let is_carried = all.clone().any(|(i, w)| along(*i) && *w != 0.0);
                 let weights: Vec<_> = all.map(|(i, w)| (dof(*i), *w)).collect();
                 if weights.iter().all(|(_, w)| *w == 0.0) {
                     return Err(format!("a point of {} that nothing moves", building.name()));
@@ -196,11 +199,7 @@ impl System {
                     weights,
                     place: Some((point.storey + 1, point.elevation)),
                     building: Some(b),
-                    // Shares of a point between floors add up to one, but for round-off.
-                    carried: match (carried - 1.0).abs() < 1.0e-12 {
-                        true => 1.0,
-                        false => carried,
-                    },
+                    is_carried,
                     across: *across,
                 })
             }

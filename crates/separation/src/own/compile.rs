@@ -661,6 +661,9 @@ fn parsed(text: &mut Text<'_>) -> Result<IdedExpr, CaseError> {
         let message = "`^` is no operator";
         return Err(text.error(at..at + 1, message, "write pow(x, 2) for a power"));
     }
+    if let Some((place, message, help)) = foreign(source) {
+        return Err(text.error(place, message, help));
+    }
     if let Some(at) = deepest(source) {
         let message = format!("more than {DEEPEST} brackets or `?` nest in one another");
         return Err(text.error(at..at + 1, message, NAME_PARTS));
@@ -687,25 +690,70 @@ fn parsed(text: &mut Text<'_>) -> Result<IdedExpr, CaseError> {
     Ok(tree)
 }
 
+/// The bytes of a text that stand in no quotation marks, with their places.
+fn unquoted(source: &str) -> impl Iterator<Item = (usize, u8)> {
+    // The quotation mark of a word that has begun, and whether its next character is taken as it is.
+    let (mut quoted, mut escaped) = (None, false);
+    source.bytes().enumerate().filter(move |(_, byte)| {
+        if let Some(mark) = quoted {
+            if *byte == mark && !escaped {
+                quoted = None;
+            }
+            escaped = *byte == b'\\' && !escaped;
+            return false;
+        }
+        if matches!(byte, b'"' | b'\'') {
+            quoted = Some(*byte);
+            return false;
+        }
+        true
+    })
+}
+
+/// What the language takes besides and an engineer means otherwise or not at all: where it stands, what is said of it, and
+/// what to do. `//` begins a comment there, of which the rest of the expression would be one.
+fn foreign(source: &str) -> Option<(Range<usize>, String, &'static str)> {
+    let mut before = b' ';
+    for (at, byte) in unquoted(source) {
+        let rest = &source.as_bytes()[at..];
+        if rest.starts_with(b"//") {
+            let message = "`//` is no operator".to_owned();
+            let help = "write / for a quotient, floor(a / b) for a whole one; comments stand behind `#` in the file";
+            return Some((at..at + 2, message, help));
+        }
+        let starts =
+            byte.is_ascii_digit() && !(before.is_ascii_alphanumeric() || b"_.".contains(&before));
+        before = byte;
+        if !starts {
+            continue;
+        }
+        let digits = rest
+            .iter()
+            .take_while(|b| b.is_ascii_alphanumeric())
+            .count();
+        let number = &source[at..at + digits];
+        let is_hexadecimal = number.starts_with("0x") || number.starts_with("0X");
+        if is_hexadecimal || number.ends_with(['u', 'U']) {
+            let message = format!("`{number}` is no number");
+            return Some((
+                at..at + digits,
+                message,
+                "write decimal digits alone, as 10 or 0.5",
+            ));
+        }
+    }
+    None
+}
+
 /// Where brackets and `?` nest more deeply than is allowed. Those of a bracket that is closed, or of
 /// an argument that is complete, nest in nothing that follows.
 fn deepest(source: &str) -> Option<usize> {
     // The `?` of the text and of every bracket that is open, and those of all together.
     let mut open = vec![0_usize];
     let mut choices = 0;
-    // The quotation mark of a word that has begun, and whether its next character is taken as it is.
-    let (mut quoted, mut escaped) = (None, false);
-    for (at, byte) in source.bytes().enumerate() {
-        if let Some(mark) = quoted {
-            if byte == mark && !escaped {
-                quoted = None;
-            }
-            escaped = byte == b'\\' && !escaped;
-            continue;
-        }
+    for (at, byte) in unquoted(source) {
         let brackets = open.len() - 1;
         match byte {
-            b'"' | b'\'' => quoted = Some(byte),
             b'(' | b'[' | b'{' => open.push(0),
             b')' | b']' | b'}' if brackets > 0 => choices -= open.pop().unwrap_or(0),
             b',' => choices -= open.last_mut().map_or(0, std::mem::take),

@@ -635,9 +635,10 @@ impl Evaluation<'_> {
         hazard::remarks(fit, hazard, self.intensities, |x| self.shown(x))
     }
 
-    /// How many records have runs.
+    /// How many records have runs that did not all fail: the others say nothing.
     fn records(&self) -> usize {
-        let records: BTreeSet<usize> = self.runs.iter().map(|run| run.record).collect();
+        let known = self.runs.iter().filter(|run| !run.failed);
+        let records: BTreeSet<usize> = known.map(|run| run.record).collect();
         records.len()
     }
 
@@ -673,7 +674,8 @@ impl Evaluation<'_> {
         }
     }
 
-    /// Of each sample or record at each intensity what its runs say of a state; `None` of those that failed.
+    /// Of each sample or record at each intensity what its runs say of a state; `None` of those that failed. Those of which
+    /// all failed are left out.
     fn states(
         &self,
         key: &dyn Fn(&Run) -> usize,
@@ -686,6 +688,7 @@ impl Evaluation<'_> {
                 .or_insert_with(|| vec![Vec::new(); self.intensities.len()]);
             states[run.level].push((!run.failed).then(|| reached(run)));
         }
+        found.retain(|_, states| states.iter().flatten().any(Option::is_some));
         found
     }
 
@@ -730,7 +733,7 @@ impl Evaluation<'_> {
     }
 
     /// Runs of each record by intensity, and how many reach a state; the records in groups that have runs at the same
-    /// intensities.
+    /// intensities. A record of which all failed cannot be drawn.
     fn of_records(&self, reached: &dyn Fn(&Run) -> bool) -> Vec<Vec<RecordCounts>> {
         let levels = self.intensities.len();
         let mut records: BTreeMap<usize, (Vec<bool>, RecordCounts)> = BTreeMap::new();
@@ -746,7 +749,9 @@ impl Evaluation<'_> {
         }
         let mut groups: BTreeMap<Vec<bool>, Vec<RecordCounts>> = BTreeMap::new();
         for (made, counts) in records.into_values() {
-            groups.entry(made).or_default().push(counts);
+            if counts.iter().any(|(runs, _)| *runs > 0) {
+                groups.entry(made).or_default().push(counts);
+            }
         }
         groups.into_values().collect()
     }
@@ -1016,6 +1021,59 @@ mod tests {
         let (one, ten) = (with_structures(1, &random), with_structures(10, &random));
         let ratio = fitted(&one).standard_errors[0] / fitted(&ten).standard_errors[0];
         assert!(ratio > 2.0 && ratio < 4.5, "{ratio}");
+    }
+
+    /// Records of which every run failed say nothing: they make no bound narrower, and hide no remark that records are
+    /// few, whether the others run at all intensities, with one structure or two, or stand in stripes.
+    #[test]
+    fn records_of_which_all_runs_failed_do_not_count() {
+        let points = [(0.1, 1e-1), (1.0, 1e-2), (10.0, 1e-4)];
+        let settings = settings(Some((HazardCurve::new(points.to_vec()).unwrap(), 1e-3)));
+        let intensities: Vec<f64> = (0..6).map(|i| 0.5 * 1.35_f64.powi(i)).collect();
+        let stripes = |record: usize, level: usize| record / 4 == level;
+        let curves = |_: usize, _: usize| true;
+        let designs: [(&dyn Fn(usize, usize) -> bool, usize, usize); 3] =
+            [(&curves, 1, 4), (&curves, 2, 4), (&stripes, 1, 24)];
+        for (stands, structures, records) in designs {
+            let of = |failed: usize| {
+                let mut runs = Vec::new();
+                for (record, (level, intensity)) in (0..records + failed)
+                    .flat_map(|r| intensities.iter().enumerate().map(move |at| (r, at)))
+                {
+                    if !stands(record % records, level) {
+                        continue;
+                    }
+                    for structure in 0..structures {
+                        let place = 0.618 * (record * structures + structure + 1) as f64;
+                        let demand = intensity / (0.6 + 1.2 * place.fract());
+                        runs.push(Run {
+                            level,
+                            record,
+                            structure,
+                            sample: record * structures + structure,
+                            failed: record >= records,
+                            collapsed: false,
+                            demands: vec![demand],
+                        });
+                    }
+                }
+                let evaluation = Evaluation {
+                    settings: &settings,
+                    intensities: &intensities,
+                    runs: &runs,
+                    threads: 2,
+                    evaluated: &|| (),
+                };
+                assert_eq!(evaluation.records(), records);
+                evaluation.limit("state", &|r| r.demands[0] > 1.0).unwrap()
+            };
+            let alone = of(0);
+            assert!(matches!(alone.fit, FragilityFit::Lognormal(_)), "{alone:?}");
+            assert!(alone.frequency_bounds.is_some());
+            for failed in [1, 5, 20] {
+                assert_eq!(of(failed), alone);
+            }
+        }
     }
 
     /// Records whose demand grows in proportion to the intensity, at quantiles of a lognormal

@@ -208,8 +208,19 @@ fn kind_of_old(old: &Path, new: &Path) -> Old {
     let line = |text: &[u8]| {
         let text = String::from_utf8_lossy(text).into_owned();
         let source = text.lines().find(|line| line.starts_with("# Source: "));
-        let line = source.or(text.lines().next());
-        line.map(str::to_owned)
+        if let Some(source) = source {
+            return Some(source.to_owned());
+        }
+        let mut lines = text.lines();
+        let first = lines.next()?;
+        // What the command was asked for may be other; its columns stand below.
+        match first
+            .strip_prefix("# pounding ")
+            .and_then(|of| of.split_once(": "))
+        {
+            Some((command, _)) => Some(format!("{command}: {}", lines.next().unwrap_or_default())),
+            None => Some(first.to_owned()),
+        }
     };
     let (old_text, new_text) = (before, after);
     let (before, after) = (line(&old_text), line(&new_text));

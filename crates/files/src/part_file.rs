@@ -500,13 +500,26 @@ pub fn remove_left_by(target: &Path, process: u32) {
     }
 }
 
-/// Whether a process of this number runs on this machine, whoever owns it.
+/// Whether a process of this number runs on this machine, whoever owns it. One that has ended keeps its number until
+/// its parent asks how, which some launchers and containers never do.
 #[cfg(unix)]
 #[must_use]
 pub fn runs_here(process: u32) -> bool {
     use rustix::process::{Pid, test_kill_process};
     let number = i32::try_from(process).ok().and_then(Pid::from_raw);
-    number.is_some_and(|number| test_kill_process(number) != Err(rustix::io::Errno::SRCH))
+    let is_there =
+        number.is_some_and(|number| test_kill_process(number) != Err(rustix::io::Errno::SRCH));
+    is_there && !has_ended(process)
+}
+
+/// Whether the system says that a process has ended; false where it says nothing. The state stands behind the name of the
+/// program, which may hold brackets itself.
+#[cfg(unix)]
+fn has_ended(process: u32) -> bool {
+    let stat = std::fs::read(format!("/proc/{process}/stat")).unwrap_or_default();
+    let behind = stat.iter().rposition(|byte| *byte == b')');
+    let state = behind.and_then(|at| stat.get(at + 2));
+    matches!(state, Some(b'Z' | b'X'))
 }
 
 /// Where this cannot be found out, any may run.
@@ -565,6 +578,26 @@ mod tests {
             .collect();
         names.sort();
         names
+    }
+
+    /// A process that was killed and that its parent has not asked after runs no more.
+    #[test]
+    #[cfg(target_os = "linux")]
+    fn a_process_that_nobody_waits_for_has_ended() {
+        let mut child = std::process::Command::new("sleep")
+            .arg("60")
+            .spawn()
+            .unwrap();
+        assert!(runs_here(child.id()));
+        child.kill().unwrap();
+        let begun = std::time::Instant::now();
+        while runs_here(child.id()) && begun.elapsed().as_secs() < 30 {
+            std::thread::yield_now();
+        }
+        assert!(!runs_here(child.id()));
+        // Its number is still taken.
+        assert!(Path::new(&format!("/proc/{}", child.id())).exists());
+        child.wait().unwrap();
     }
 
     #[test]

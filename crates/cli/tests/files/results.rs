@@ -503,6 +503,21 @@ fn what_is_replaced_is_named() {
         assert_eq!(told.matches(note).count(), told_of, "{unit}: {told}");
         assert_eq!(told.matches("replaced").count(), told_of, "{unit}: {told}");
     }
+    // A table says what its command was asked for: other values are of the same kind, other columns are not.
+    let law = "hysteresis bilinear --set stiffness=1e7 --set yield_force=1e5 --csv law.csv";
+    let tables = [
+        ("--cycles 20mm", 0),
+        ("--cycles 40mm", 0),
+        ("--dissipation 20mm", 1),
+    ];
+    for ((table, told_of), ratio) in tables.into_iter().zip(["0.05", "0.2", "0.2"]) {
+        let told = message(&run(&format!(
+            "{law} --set hardening_ratio={ratio} {table}"
+        )));
+        assert!(fixture.path("law.csv").exists(), "{told}");
+        let note = "law.csv is replaced, which was no earlier output of this kind";
+        assert_eq!(told.matches(note).count(), told_of, "{table}: {told}");
+    }
     std::fs::create_dir(fixture.path("man")).unwrap();
     std::fs::write(fixture.path("man/pounding-run.1"), "mine\n").unwrap();
     let told = message(&run("man --pages man"));

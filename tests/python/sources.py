@@ -156,7 +156,8 @@ class Result:
             if word == "count":
                 return len(self.values(path, row))
             if word == "sum":
-                return math.fsum(known)
+                # In a result file no impacts are none; in an answer what is missing is not known.
+                return math.fsum(known) if known or not path.startswith("/") else math.nan
             known = [x for x in known if math.isfinite(x)]
             if word == "known":
                 return len(known)

@@ -168,4 +168,11 @@ fn widths_at_which_a_building_collapses_are_the_worst() {
     let page = std::fs::read_to_string(folder.path().join("page.html")).unwrap();
     assert!(page.contains("<strong>Pounding brings light to collapse</strong> at "));
     assert!(page.contains("<strong>Pounding brings light to collapse</strong> under el_centro"));
+    // Nothing is known of the impacts of a run without an end.
+    assert!(found["records"][0]["impacts"].is_null());
+    let (_, records) = page
+        .split_once("data-from=\"sum /records/*/impacts/+/+\"")
+        .unwrap();
+    let (row, _) = records.split_once("</tbody>").unwrap();
+    assert!(row.contains("<td>\u{2013}</td></tr>"), "{row}");
 }

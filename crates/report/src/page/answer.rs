@@ -64,7 +64,11 @@ impl<'a> Answer<'a> {
         };
         match source.split_once(' ') {
             Some(("count", path)) => self.all(path, row).len() as f64,
-            Some(("sum", path)) => numbers(path).iter().sum(),
+            // What is missing of an answer is not known: an empty list adds up to -0.
+            Some(("sum", path)) => numbers(path)
+                .into_iter()
+                .reduce(|a, b| a + b)
+                .unwrap_or(f64::NAN),
             Some(("minimum", path)) => numbers(path).into_iter().fold(f64::NAN, f64::min),
             Some(("maximum", path)) => numbers(path).into_iter().fold(f64::NAN, f64::max),
             _ => match self.all(source, row).first() {
@@ -238,6 +242,9 @@ mod tests {
         assert_eq!(answer.number("/gaps/*/demand/0", "1"), 0.2);
         assert_eq!(answer.number("maximum /gaps/+/demand/+", ""), 0.3);
         assert_eq!(answer.number("count /gaps/0/demand/+", ""), 3.0);
+        assert_eq!(answer.number("sum /gaps/+/demand/+", ""), 0.1 + 0.3 + 0.2);
+        assert!(answer.number("sum /gaps/0/demand/1", "").is_nan());
+        assert!(answer.number("sum /gaps/7/demand/+", "").is_nan());
         assert_eq!(answer.number("/gaps/0/demand/0 / /half", ""), 2.0);
         assert!(answer.number("/gaps/7/demand", "").is_nan());
         assert_eq!(

@@ -222,7 +222,7 @@ fn names_and_words() {
     let (sweep, peaks) = (rows(2), rows(3));
     assert_eq!(
         sweep[0],
-        "gap,model,width_m,building,displacement_amplification,impacts,peak_force_n,impact_energy_j"
+        "gap,model,width_m,building,displacement_amplification,impacts,peak_force_n,impact_energy_j,failure"
     );
     let of_gap = format!("\"'{long}-@sum, or more\",jankowski_2005,");
     let buildings = [format!(",'{long},"), ",\"'@sum, or more\",".to_owned()];

@@ -13,6 +13,7 @@ mod documents;
 mod examples;
 mod excitation;
 mod explore;
+mod explore_collapse;
 mod explore_input;
 mod files;
 mod floor_spectra;

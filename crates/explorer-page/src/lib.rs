@@ -11,7 +11,7 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::write::GzEncoder;
 use pounding_report::DASHES;
-use pounding_report::page::{Document, Script};
+use pounding_report::page::{COLLAPSE_AT_WIDTHS, Document, Script};
 use serde_json::json;
 
 /// The module, or why this program has none.
@@ -115,6 +115,7 @@ pub fn page(inputs: &Inputs<'_>) -> Result<String, ExplorerPageError> {
         "rules": inputs.rules.map(|(name, text)| json!({ "name": name, "text": text })),
         "documentation": inputs.documentation,
         "dashes": DASHES,
+        "collapse": COLLAPSE_AT_WIDTHS,
     });
     let document = Document {
         title: match inputs.title {

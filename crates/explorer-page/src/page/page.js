@@ -373,7 +373,7 @@
     told([{ message: `the solver cannot start here: ${error.message}`, help: "open the page in a current browser", line: "" }]);
     return;
   }
-  sweep = sweepOf(state, solver.background, data.dashes, {
+  sweep = sweepOf(state, solver.background, data.dashes, data.collapse, {
     changed: downloads,
     // The width of all levels of a gap; none where they differ.
     provided: (gap) => {
@@ -383,7 +383,6 @@
     differ: (gap) => run !== null && results.differ(run.summary.gaps[gap]?.levels || []),
     model: modelOf,
     opened: () => opened.number,
-    buildings: () => run.summary.buildings.map((building) => building.name),
     demanded: (gaps) =>
       gaps.forEach((gap, i) => controls.reach(`gap.${i}.width`, Math.ceil(130 * gap.demand) / 100)),
   });

@@ -2,7 +2,7 @@
 // What pounding does at many widths, in the background: a curve for the law of the gap, and one
 // for each model beside it. Widths grow from right to left of what is known: the curve is drawn as
 // it comes.
-const sweepOf = (state, background, dashes, actions) => {
+const sweepOf = (state, background, dashes, collapse, actions) => {
   const { part, html, svg, shown, shownAtLeast, clean, ticks, save, quoted, counted } = elements;
   // What a quantity is called, what its unit is in SI, its values, and whether it is of the whole
   // row where one gap of several varies.
@@ -33,6 +33,9 @@ const sweepOf = (state, background, dashes, actions) => {
   let named = [];
   // Curves by the name of their model, and the case that they are of.
   let curves = new Map();
+  // Runs without an end by the name of their model, each with its width, and names of the buildings.
+  let failed = new Map();
+  let buildings = [];
   let done = [0, 0];
   // What is said where there are no runs to count.
   let waiting = "";
@@ -76,6 +79,22 @@ const sweepOf = (state, background, dashes, actions) => {
     const most = Math.max(12, Math.floor(width / 6.6));
     const short = text.length > most ? `${text.slice(0, most - 1)}…` : text;
     return svg("text", place, short, short === text ? null : svg("title", {}, text));
+  };
+
+  // Where pounding brings a building to collapse there are no peaks, and no curve.
+  const collapses = () => {
+    const [head, rest] = collapse;
+    const filled = (text, words) => text.replace(/\{(\w+)\}/g, (_, word) => words[word]);
+    return [...failed].flatMap(([name, runs]) =>
+      buildings.flatMap((building) => {
+        const fallen = runs.filter((run) => run.collapsed === building).map((run) => run.width);
+        if (!fallen.length) return [];
+        const [first, last] = [Math.min(...fallen), Math.max(...fallen)].map((width) => shown(1e3 * width));
+        const widths = counted(curves.get(name).width.length, "width");
+        const said = filled(rest, { count: fallen.length, widths, first, last });
+        return [[curves.size > 1 ? `${name}: ` : "", html("strong", {}, filled(head, { building })), said]];
+      }),
+    );
   };
 
   const draw = () => {
@@ -146,7 +165,8 @@ const sweepOf = (state, background, dashes, actions) => {
     if (quantity === "peak_force" && jump.length) {
       remarks.push(`With ${jump.map(([name]) => name).join(", ")} velocities jump at impacts, which have no force: no curve is drawn where there are some.`);
     }
-    part("remarks").replaceChildren(...remarks.map((text) => html("p", { class: "note" }, text)));
+    remarks.push(...collapses());
+    part("remarks").replaceChildren(...remarks.map((pieces) => html("p", { class: "note" }, ...[pieces].flat())));
     part("legend").replaceChildren(...legend.map(([look, text]) => html("li", {}, sample(look), text)));
     part("progress").textContent = done[0] < done[1] ? `${done[0]} of ${counted(done[1], "run")}` : done[1] ? counted(done[1], "run") : waiting;
     picture.dataset.done = String(done[0]);
@@ -216,7 +236,7 @@ const sweepOf = (state, background, dashes, actions) => {
     const stopped = () => mine !== job;
     // Nothing has a width.
     if (!named.length) {
-      [done, curves, widths] = [[0, 0], new Map(), null];
+      [done, curves, failed, widths] = [[0, 0], new Map(), new Map(), null];
       finished = wanted;
       return;
     }
@@ -230,7 +250,7 @@ const sweepOf = (state, background, dashes, actions) => {
     const answer = await background.ask({ do: "widths", changes: state.changes() });
     if (stopped()) return;
     waiting = "";
-    curves = new Map();
+    [curves, failed] = [new Map(), new Map()];
     widths = answer.faults ? null : answer;
     listed();
     draw();
@@ -262,6 +282,8 @@ const sweepOf = (state, background, dashes, actions) => {
         first += runs.columns.width.length;
         done[0] += runs.columns.width.length;
         curves.set(name, sorted(join(curves.get(name), runs.columns)));
+        failed.set(name, [...(failed.get(name) || []), ...runs.failed]);
+        ({ buildings } = runs);
         draw();
       }
     }
@@ -337,14 +359,18 @@ const sweepOf = (state, background, dashes, actions) => {
   const csv = () => {
     const of = (named[state.get().gap] || "").replace(/^Gap /, "");
     // Columns have the names that `pounding gap --csv` gives them; a row a width, model and building.
-    const lines = ["gap,model,width_m,building,displacement_amplification,impacts,peak_force_n,impact_energy_j"];
+    const lines = ["gap,model,width_m,building,displacement_amplification,impacts,peak_force_n,impact_energy_j,failure"];
     const number = (x) => (Number.isFinite(x) ? x : "");
-    const buildings = actions.buildings();
     for (const [name, columns] of curves) {
+      const messages = new Map(failed.get(name).map((run) => [run.width, run.message]));
       columns.width.forEach((width, i) => {
+        if (messages.has(width)) {
+          lines.push([quoted(of), name, width, "", "", "", "", "", quoted(messages.get(width))].join(","));
+          return;
+        }
         const after = [columns.impacts, columns.peak_force, columns.impact_energy].map((column) => number(column[i]));
         buildings.forEach((building, b) =>
-          lines.push([quoted(of), name, width, quoted(building), number(columns[`displacement_${b}`][i]), ...after].join(",")),
+          lines.push([quoted(of), name, width, quoted(building), number(columns[`displacement_${b}`][i]), ...after, ""].join(",")),
         );
       });
     }

@@ -1,7 +1,7 @@
 //! Runs at several widths.
 
 use pounding_assembly::Assembly;
-use pounding_study::gap_check::{GapRun, GapSweep, SweepRun, at_width};
+use pounding_study::gap_check::{GapRun, GapSweep, SweepRun, at_width, collapsed_building};
 use pounding_time_history::{BuildingOutcome, Recorder, isolated_demand};
 use serde_json::json;
 
@@ -63,13 +63,13 @@ pub(crate) fn answer(
         runs.push(at_width(system, &swept.isolated, run, recorders));
     }
     let widths = &widths[..runs.len()];
-    Ok(of_runs((widths, gap), &runs, swept.isolated.len()))
+    Ok(of_runs((widths, gap), &runs, &swept.isolated))
 }
 
 fn of_runs(
     (widths, gap): (&[f64], Option<usize>),
     runs: &[Result<SweepRun, String>],
-    buildings: usize,
+    buildings: &[BuildingOutcome],
 ) -> Answer {
     let mut answer = Answer::default();
     let value = |of: fn(&GapRun) -> f64| {
@@ -80,7 +80,7 @@ fn of_runs(
     answer.add_column("impacts", value(|run| run.impacts as f64));
     answer.add_column("peak_force", value(|run| run.peak_force));
     answer.add_column("impact_energy", value(|run| run.impact_energy));
-    for building in 0..buildings {
+    for building in 0..buildings.len() {
         let most = |run: &Result<SweepRun, String>| {
             let run = run.as_ref().ok()?;
             Some(GapSweep::of_building(run, building, |a| a.displacement)?.1)
@@ -91,8 +91,14 @@ fn of_runs(
     let failed = runs.iter().zip(widths);
     let failed = failed.filter_map(|(run, width)| {
         let message = run.as_ref().err()?;
-        Some(json!({ "width": width, "message": message }))
+        Some(json!({
+            "width": width,
+            "message": message,
+            "collapsed": collapsed_building(message),
+        }))
     });
     answer.say("failed", failed.collect::<Vec<_>>());
+    let names = buildings.iter().map(|building| building.name.as_str());
+    answer.say("buildings", names.collect::<Vec<_>>());
     answer
 }

@@ -737,6 +737,13 @@ fn swept(answer: Answer<'_>) -> String {
     }
 }
 
+/// What is said of a building that pounding brings to collapse at some widths, here and in the page that computes:
+/// the words that stand out, and those behind them. In braces is what each page writes as its own.
+pub const COLLAPSE_AT_WIDTHS: [&str; 2] = [
+    "Pounding brings {building} to collapse",
+    " at {count} of {widths}, between {first} and {last} mm: no ratio of peaks is worse.",
+];
+
 /// The widths at which pounding brings a building to collapse, a sentence for each.
 fn collapses(answer: Answer<'_>, buildings: &[Value]) -> String {
     let runs = answer.list("/sweep/runs");
@@ -749,15 +756,15 @@ fn collapses(answer: Answer<'_>, buildings: &[Value]) -> String {
         let widths: Vec<_> = widths.map(|(i, _)| i).collect();
         let (first, last) = (widths.first()?, widths.last()?);
         let say = |i: &usize| answer.say(&format!("/sweep/widths/{i}"), 1.0e3);
-        Some(format!(
-            "<strong>Pounding brings {} to collapse</strong> at {} of {}, between {} and {} mm: no ratio of peaks is \
-             worse.",
-            named(building["name"].as_str().unwrap_or_default()),
-            widths.len(),
-            counted(runs.len(), "width"),
-            say(first),
-            say(last),
-        ))
+        let [head, rest] = COLLAPSE_AT_WIDTHS;
+        let name = named(building["name"].as_str().unwrap_or_default());
+        let rest = rest
+            .replace("{count}", &widths.len().to_string())
+            .replace("{widths}", &counted(runs.len(), "width"))
+            .replace("{first}", &say(first))
+            .replace("{last}", &say(last));
+        let head = head.replace("{building}", &name);
+        Some(format!("<strong>{head}</strong>{rest}"))
     };
     let found: Vec<_> = buildings.iter().filter_map(sentence).collect();
     match found.is_empty() {

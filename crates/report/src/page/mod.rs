@@ -18,7 +18,7 @@ mod table;
 
 pub use comparison::comparison;
 pub use document::{Document, MARK, Script};
-pub use gap::gap;
+pub use gap::{COLLAPSE_AT_WIDTHS, gap};
 pub use html::escaped;
 pub use ida::ida;
 pub use motion::motion;

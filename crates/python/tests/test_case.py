@@ -315,6 +315,21 @@ def test_bytes_are_no_list_of_numbers(text: object, pair_dict: dict) -> None:
     assert isinstance(told.value, TypeError) and told.value.help
 
 
+@pytest.mark.parametrize("title", [0, False, 1.5, [], np.array([1, 2]), b"", b"pair", pd.NA, {}])
+def test_a_title_is_a_text(title: object) -> None:
+    light = pounding.Building("light", storeys=1, mass=25e3, stiffness=3.46e6, height=3.0)
+    with pytest.raises(pounding.CaseError, match="title") as told:
+        pounding.Case(light, ground_motion=RECORD, title=title)
+    assert told.value.help
+
+
+@pytest.mark.parametrize("title", ["", None])
+def test_a_case_needs_no_title(title: str | None) -> None:
+    damping = {"stiffness_proportional": 0.05}
+    light = pounding.Building("light", storeys=1, mass=25e3, stiffness=3.46e6, height=3.0, damping=damping)
+    assert pounding.Case(light, ground_motion=RECORD, title=title).title == ""
+
+
 @pytest.mark.parametrize("value", [10**30, pd.NA, "\ud800", decimal.Decimal("sNaN"), 1j])
 def test_values_beyond_any_case_have_their_place(value: object, pair_dict: dict) -> None:
     pair_dict["building"][0]["mass"] = value

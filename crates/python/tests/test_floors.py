@@ -69,6 +69,9 @@ def test_over_records() -> None:
         ({"floors": [("light", 0)]}, "storey"),
         ({"periods": [0.0]}, "0.001 s at least"),
         ({"damping": 1.0}, "not between 0 and 1"),
+        ({"threads": -1}, "threads is -1"),
+        ({"threads": "abc"}, "threads is 'abc', which is no whole number"),
+        ({"periods": bytearray(b"a")}, "periods is a bytearray, which is no list of numbers"),
     ],
 )
 def test_what_has_no_spectrum_is_refused(arguments: dict[str, object], message: str) -> None:

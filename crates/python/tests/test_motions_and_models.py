@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import _thread
+import array
 import pickle
 import signal
 import threading
@@ -147,7 +148,18 @@ def test_texts_carry_units() -> None:
 
 @pytest.mark.parametrize(
     "periods",
-    [np.ma.array([0.1, 0.2], mask=[1, 0]), [0.1 + 1j], [[0.1, 0.2]], ["0.1 s"], [True], [None, pd.NA]],
+    [
+        np.ma.array([0.1, 0.2], mask=[1, 0]),
+        [0.1 + 1j],
+        [[0.1, 0.2]],
+        ["0.1 s"],
+        [True],
+        [None, pd.NA],
+        b"a",
+        bytearray(b"a"),
+        memoryview(b"a"),
+        np.array([bytearray(b"1"), 2.0], dtype=object),
+    ],
 )
 def test_periods_are_real_numbers(periods: object) -> None:
     motion = pounding.Motion([0.0, 1.0, 0.0], 0.02)
@@ -156,6 +168,10 @@ def test_periods_are_real_numbers(periods: object) -> None:
     assert told.value.help
     with pytest.raises(pounding.CaseError, match="acceleration"):
         pounding.Motion(periods, 0.02)
+    # Numbers that lie in memory are such.
+    held = array.array("d", [0.1, 0.2])
+    for numbers in (held, memoryview(held)):
+        assert list(motion.spectrum(numbers)["period"].values) == [0.1, 0.2]
 
 
 @pytest.mark.parametrize("name", [None, 5, ""])

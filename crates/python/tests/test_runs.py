@@ -14,6 +14,7 @@ import tomllib
 from pathlib import Path
 
 import numpy as np
+import pandas as pd
 import pytest
 import xarray as xr
 from conftest import EXAMPLES, PAIR, RECORD, ROOT
@@ -243,11 +244,19 @@ def test_a_summary_is_a_copy() -> None:
     assert result.summary == before and result.peaks.shape[0] == 6
 
 
-@pytest.mark.parametrize("threads", [True, 2.7, "2", 0, -1, 10**30])
+@pytest.mark.parametrize("threads", [True, 2.7, "2", 0, -1, 10**30, np.array(2.0), np.array([2])])
 def test_threads_are_a_count(threads: object) -> None:
     with pytest.raises(pounding.CaseError, match="^threads is"):
         pounding.run_many([PAIR], threads=threads)
-    assert len(pounding.run_many([PAIR], threads=np.int64(2))) == 1
+    for two in (np.int64(2), np.array(2)):
+        assert len(pounding.run_many([PAIR], threads=two)) == 1
+
+
+@pytest.mark.parametrize("errors", [np.array(["a", "b"]), pd.NA, None, 1, "ignore"])
+def test_errors_are_one_of_two_words(errors: object) -> None:
+    with pytest.raises(pounding.CaseError, match="^errors is") as told:
+        pounding.run_many([], errors=errors)
+    assert told.value.help == 'it is "raise" or "return"'
 
 
 def test_one_case_may_stand_for_a_list(pair_dict: dict) -> None:

@@ -128,7 +128,9 @@ class Case:
     Raises
     ------
     CaseError
-        All that is wrong, each with its keys and what to do about it.
+        All that is wrong with keys, kinds and units of values, each with its keys and what to do about
+        it. What a model or a law does not take, such as an unknown model, and what is wrong with
+        the record, is told by :meth:`check`, and by what runs the case.
     """
 
     _native: _NativeCase
@@ -154,7 +156,9 @@ class Case:
             "link": _tables(links, "links"),
         }
         tables = {key: value for key, value in tables.items() if value}
-        tables.update(title=title or None, analysis=analysis, separation=separation)
+        # An empty one is none; what is no text is refused with the other keys.
+        named = None if isinstance(title, str) and not title else title
+        tables.update(title=named, analysis=analysis, separation=separation)
         motion = None
         if scale is not None and isinstance(ground_motion, Mapping) and ground_motion.get("scale") is not None:
             raise refused(

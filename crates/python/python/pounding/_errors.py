@@ -92,10 +92,14 @@ def listed(values: object, name: str, of: str) -> list[Any]:
 
 def whole(value: object, name: str, least: int, most: int = 2**31 - 1) -> int:
     """The value of an argument that is a count."""
-    if isinstance(value, bool) or not hasattr(value, "__index__"):
+    try:
+        if isinstance(value, bool):
+            raise TypeError
+        # Arrays have the method whatever they hold.
+        count = operator.index(value)  # type: ignore[arg-type]
+    except TypeError:
         what = f"{name} is {_brief(value)}, which is no whole number"
-        raise refused(what, f"give one from {least} on", CaseTypeError)
-    count = operator.index(value)
+        raise refused(what, f"give one from {least} on", CaseTypeError) from None
     if not least <= count <= most:
         raise refused(f"{name} is {count}", f"give a whole number from {least} to {most}")
     return count
@@ -113,6 +117,16 @@ def text(value: object, name: str) -> str:
 def optional_text(value: object, name: str) -> str | None:
     """The same of one that may be left out."""
     return None if value is None else text(value, name)
+
+
+def one_of(value: object, name: str, *words: str) -> str:
+    """The value of an argument that is one of a few words."""
+    kind = CaseError if isinstance(value, str) else CaseTypeError
+    # An array beside a text compares each of its values.
+    if kind is CaseTypeError or value not in words:
+        shown = " or ".join(f'"{word}"' for word in words)
+        raise refused(f"{name} is {_brief(value)}", f"it is {shown}", kind)
+    return str(value)
 
 
 def encoded(value: str, name: str) -> str:

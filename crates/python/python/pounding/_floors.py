@@ -52,7 +52,7 @@ def floor_spectra(
         Buildings and storeys, from 1 at the bottom; the roofs of all buildings by default.
     periods : array_like, optional
         Periods of the equipment (s), from 1 ms on; 100 from 0.05 to 4 s by default, evenly spaced in their
-        logarithm.
+        logarithm. The command ``floor-spectrum`` has 30 of that range by default.
     damping : float or str
         Damping ratio of the equipment (-).
     records : motions, files or folders of records, optional
@@ -79,12 +79,12 @@ def floor_spectra(
     places = None if floors is None else [_place(floor) for floor in listed(floors, "floors", "floors")]
     chosen = _native.periods(0.05, 4.0, 100) if periods is None else periods
     at = _real(chosen, "periods", "periods (s)")
-    several = records is not None
+    several, count = records is not None, _threads(threads)
     told, bar = _progress(progress, "floor spectra")
     try:
         if several:
             made = _native.floor_spectra_over_records_json(
-                given._native, _records(records), places, at, damping, _threads(threads), told
+                given._native, _records(records), places, at, damping, count, told
             )
         else:
             made = _native.floor_spectra_json(given._native, places, at, damping, told)

@@ -22,6 +22,11 @@ __all__ = ["Motion", "formats", "measures", "read_motion", "spectrum"]
 
 def _real(values: npt.ArrayLike, name: str, of: str) -> npt.NDArray[np.float64]:
     """Real numbers along one dimension."""
+    # Whose codes of characters would be read as numbers.
+    held = values.obj if isinstance(values, memoryview) else values
+    if isinstance(held, (bytes, bytearray)):
+        what = f"{name} is a {type(values).__name__}, which is no list of numbers"
+        raise refused(what, "give real numbers", CaseTypeError)
     try:
         if np.ma.is_masked(values) or np.iscomplexobj(values):
             raise refused(f"{name} has masked or complex values", "give real numbers, all of them")
@@ -30,7 +35,7 @@ def _real(values: npt.ArrayLike, name: str, of: str) -> npt.NDArray[np.float64]:
             raise refused(f"{name} has values of type {kind}", "give real numbers")
         if kind.kind == "O":
             # Whose texts would be read as numbers, and nothing as none of them.
-            wrong = [v for v in np.ravel(values) if v is None or isinstance(v, (str, bytes, bool))]
+            wrong = [v for v in np.ravel(values) if v is None or isinstance(v, (str, bytes, bytearray, bool))]
             if wrong:
                 raise refused(f"{name} has the value {wrong[0]!r}", "give real numbers")
         array = np.ascontiguousarray(values, dtype=np.float64)

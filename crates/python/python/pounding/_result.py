@@ -14,7 +14,7 @@ import numpy as np
 
 from . import _native
 from ._case import Case, as_case
-from ._errors import CaseTypeError, PoundingError, flag, listed, needs, refused, whole
+from ._errors import CaseTypeError, PoundingError, flag, listed, needs, one_of, refused, whole
 from ._errors import path as as_path
 
 if TYPE_CHECKING:
@@ -434,8 +434,7 @@ def run_many(
     list of Result
         In the order of the cases, with exceptions among them where ``errors`` is ``"return"``.
     """
-    if errors not in ("raise", "return"):
-        raise refused(f"errors is {errors!r}", 'it is "raise" or "return"')
+    one_of(errors, "errors", "raise", "return")
     wanted = flag(histories, "histories"), flag(isolated, "isolated")
     given: list[Case | PoundingError] = []
     one = isinstance(cases, (Case, str, bytes, os.PathLike))

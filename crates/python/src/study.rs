@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use pounding_case::{Dimension, Separation};
+use pounding_catalogue::numbers::{rounded_up_beside, six_digits};
 use pounding_cli::Failure;
 use pounding_cli::answers::{
     Analysis, AskedOfGaps, Check, Compared, Finished, Replaced, answered_by_child,
@@ -312,6 +313,17 @@ fn gap_check_json(
     Ok(made?)
 }
 
+/// A width of a gap (m) in mm: one that is provided, or, beside that, one that is required, so that it suffices as
+/// it is shown.
+#[pyfunction]
+#[pyo3(signature = (width, provided=None))]
+fn shown_width(width: f64, provided: Option<f64>) -> String {
+    match provided {
+        None => six_digits(1e3 * width),
+        Some(provided) => rounded_up_beside(1e3 * width, 1e3 * provided, 2),
+    }
+}
+
 /// Compares impact models: what `pounding compare --json` prints.
 #[pyfunction]
 #[pyo3(signature = (case, models, motions, restitution, approach_velocity, same_duration, exact, threads, progress=None))]
@@ -364,5 +376,6 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(run_study, module)?)?;
     module.add_function(wrap_pyfunction!(has_ida, module)?)?;
     module.add_function(wrap_pyfunction!(gap_check_json, module)?)?;
+    module.add_function(wrap_pyfunction!(shown_width, module)?)?;
     module.add_function(wrap_pyfunction!(compare_json, module)?)
 }

@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import json
 import math
+import re
 import shutil
 import sys
+import tomllib
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from conftest import EXAMPLES, ROOT
+from conftest import EXAMPLES, PAIR, RECORD, ROOT
 from test_command_line import command, datasets, same
 
 import pounding
@@ -241,6 +243,9 @@ def test_a_record_that_overturns_a_building_has_no_end_of_demand(folder: Path) -
     demand = answer.demand
     assert list(demand.index) == ["el_centro_1940_ns", "kobe_1995_jma_ns"]
     assert demand.iloc[1, 0] == math.inf and math.isfinite(demand.iloc[0, 0])
+    said = "not adequate; gap light-heavy: 20 mm, no width is enough under 2 records"
+    assert repr(answer) == f"<pounding.GapCheck: {said}>"
+    assert "<li>gap light-heavy: 20 mm, no width is enough under 2 records</li>" in answer._repr_html_()
 
 
 def test_a_gap_check_takes_motions_of_memory() -> None:
@@ -332,7 +337,42 @@ def test_answers_are_shown_in_short() -> None:
         assert len(repr(answer)) < 1000 and repr(answer).startswith("<pounding.")
         assert answer._repr_html_().startswith("<p><strong>")
     assert "not adequate; gap light-heavy: 20 mm" in repr(check)
+    # By a code, whose answer need not be that of the records.
+    by_code = pounding.gap_check(case, code="eurocode_8_2004")
+    assert "GapCheck: not adequate by eurocode_8_2004; gap" in repr(by_code)
     assert f"{len(comparison.models)} models under 1 record" in repr(comparison)
+
+
+def test_required_widths_suffice_as_they_are_shown() -> None:
+    tables = tomllib.loads((EXAMPLES / "three_storey_pair" / "case.toml").read_text())
+    tables["ground_motion"]["file"] = str(RECORD)
+
+    def shown(width: float) -> tuple[bool, float, float]:
+        tables["gap"][0]["width"] = width
+        check = pounding.gap_check(pounding.Case.from_dict(tables))
+        numbers = re.search(r": ([\d.]+) mm, of which ([\d.]+) mm are required", repr(check))
+        assert numbers is not None
+        return check.adequate, float(numbers[1]), float(numbers[2])
+
+    demand = pounding.gap_check(PAIR).demand.iloc[0, 0]
+    for width in (demand - 1e-6, demand - 1e-9, demand, demand + 1e-6, 0.12, 0.02):
+        adequate, provided, required = shown(width)
+        assert required >= 1e3 * demand - 1e-6
+        assert adequate == (required <= provided), (width, provided, required)
+
+
+def test_provisions_have_the_width_that_they_ask_for() -> None:
+    records = [RECORD, ROOT / "ground_motions" / "kobe_1995_jma_ns.csv"]
+    check = pounding.gap_check(PAIR, records)
+    rows = check.provisions.set_index("name")
+    for provision in check.answer["gaps"][0]["provisions"]:
+        required = rows.loc[provision["name"], "required"]
+        widths = [record["width"] for record in provision["records"]]
+        if None in widths:
+            assert math.isnan(required), provision["name"]
+        else:
+            assert required == max(widths) >= 0, provision["name"]
+    assert 0 < rows["required"].count() < len(rows)
 
 
 def test_widths_and_velocities_have_a_unit_in_texts() -> None:
@@ -362,6 +402,12 @@ def test_arguments_of_studies_are_such(folder: Path) -> None:
         lambda: pounding.gap_check(case, provisions=None),
         lambda: pounding.gap_check(case, provisions=[1]),
         lambda: pounding.gap_check(case, progress=1),
+        lambda: pounding.gap_check(case, points=np.array(2.0)),
+        lambda: pounding.gap_check(case, points=np.array([2])),
+        lambda: pounding.compare(case, threads=np.array(2.0)),
+        lambda: pounding.sweep(study, threads=np.array(2.0)),
+        lambda: pounding.read_motion(RECORD, skip_lines=np.array(2.0)),
+        lambda: pounding.read_motion(RECORD, skip_columns=np.array([1, 2])),
         lambda: pounding.compare(case, None),
         lambda: pounding.compare(case, exact="no"),
         lambda: pounding.compare(case, same_duration=1),

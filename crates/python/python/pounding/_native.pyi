@@ -25,6 +25,7 @@ __all__ = [
     "models_json",
     "collide",
     "run_study",
+    "shown_width",
     "has_ida",
     "floor_spectra_json",
     "floor_spectra_over_records_json",
@@ -180,6 +181,7 @@ def floor_spectra_over_records_json(
     threads: int,
     progress: _Progress | None = None,
 ) -> str: ...
+def shown_width(width: float, provided: float | None = None) -> str: ...
 def gap_check_json(
     case: Case,
     motions: list[tuple[str, Any]],

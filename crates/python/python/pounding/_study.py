@@ -262,26 +262,38 @@ class GapCheck(_Answered):
     Attributes
     ----------
     answer : dict
-        All of it, in SI units: what ``pounding gap --json`` prints.
+        All of it, in SI units: what ``pounding gap --json`` prints. ``sweep`` is ``None`` where no
+        ``points`` were asked for; the command has 400 by default.
     """
 
     answer: dict[str, Any]
 
     def _lines(self) -> list[str]:
-        lines = ["adequate" if self.adequate else "not adequate"]
+        code = self.answer["decided_by_code"]
+        by = "" if code is None else f" by {code}"
+        lines = [("adequate" if self.adequate else "not adequate") + by]
         count = len(self.answer["records"]) + len(self.answer["collapsed"])
         records = f"{count} record{'' if count == 1 else 's'}"
         for gap in self.answer["gaps"]:
             governing = gap["governing"]
+            if governing is None:
+                widths = [level["width"] for level in gap["levels"]]
+                ends = [_native.shown_width(width) for width in (min(widths), max(widths))]
+                provided = " to ".join(dict.fromkeys(ends))
+                lines.append(f"gap {gap['name']}: {provided} mm, no width is enough under {records}")
+                continue
+            provided = _native.shown_width(governing["provided"])
+            required = _native.shown_width(governing["required"], governing["provided"])
             lines.append(
-                f"gap {gap['name']}: {1e3 * governing['provided']:.4g} mm, of which "
-                f"{1e3 * governing['required']:.4g} mm are required under {records}"
+                f"gap {gap['name']}: {provided} mm, of which {required} mm are required under {records}"
             )
         return lines
 
     @property
     def adequate(self) -> bool:
-        """Whether every gap is wide enough, by simulation and by code."""
+        """Whether every gap is wide enough: by the code, where one decides
+        (``answer["decided_by_code"]``), else by the records. The answer of the records is
+        ``answer["gaps"][i]["adequate"]``."""
         return bool(self.answer["adequate"])
 
     def __bool__(self) -> bool:
@@ -305,12 +317,21 @@ class GapCheck(_Answered):
 
     @property
     def provisions(self) -> pandas.DataFrame:
-        """The widths that provisions ask for, a row for each provision and gap."""
+        """The widths that provisions ask for, a row for each provision and gap.
+
+        ``required`` (m) is the largest under any record and at any level, and NaN where a provision
+        gives none under one of them, for the reason in ``refusal`` or as texts on it differ;
+        ``records`` has those of each record and level.
+        """
         needs("GapCheck.provisions", "pandas")
         import pandas as pd
 
+        def required(provision: dict[str, Any]) -> float:
+            widths = [record["width"] for record in provision["records"]]
+            return math.nan if None in widths else max(widths, default=math.nan)
+
         rows = [
-            {"gap": gap["name"], **provision}
+            {"gap": gap["name"], "required": required(provision), **provision}
             for gap in self.answer["gaps"]
             for provision in gap["provisions"]
         ]

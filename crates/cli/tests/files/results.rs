@@ -508,7 +508,7 @@ fn what_is_replaced_is_named() {
     let tables = [
         ("--cycles 20mm", 0),
         ("--cycles 40mm", 0),
-        ("--dissipation 20mm", 1),
+        ("--dissipation 1mm,20mm", 1),
     ];
     for ((table, told_of), ratio) in tables.into_iter().zip(["0.05", "0.2", "0.2"]) {
         let told = message(&run(&format!(

@@ -12,9 +12,10 @@ use crate::error::HysteresisError;
 use crate::parameters::LawParameters;
 use crate::power_integral::{power, power_moment};
 
+pub use crate::iwan_fall::Fall;
 pub use crate::iwan_fit::{
-    DensityFit, FitDoubt, FitOptions, MeasuredCurve, density_of_backbone, fit_backbone,
-    fit_dissipation, fit_from_many, unknowns_of_fit,
+    DensityFit, FitDoubt, FitOptions, HeldParameters, MeasuredCurve, density_of_backbone,
+    fit_backbone, fit_dissipation, fit_from_many, unknowns_of_fit,
 };
 
 /// The density of sliders.

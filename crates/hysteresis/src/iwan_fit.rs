@@ -6,6 +6,7 @@ use crate::error::HysteresisError;
 use pounding_catalogue::numbers::significant;
 
 use crate::iwan::{IwanDensity, LAW};
+use crate::iwan_fall::Fall;
 use crate::parameters::LawParameters;
 
 /// Exponents from which a fit sets out where none is given.
@@ -78,6 +79,81 @@ impl MeasuredCurve {
             Self::Backbone => "N",
         }
     }
+
+    /// What to do about data that are no such curve.
+    pub(crate) fn remedy(self) -> &'static str {
+        match self {
+            Self::Dissipation => {
+                "give the energy of each cycle over its amplitude; check the order of the columns and their units"
+            }
+            Self::Backbone => {
+                "give the force on first loading alone; check the order of the columns and their units"
+            }
+        }
+    }
+}
+
+/// Parameters that a fit holds at the value that is given, beside `phi_1 = 0`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct HeldParameters {
+    /// Exponent of the density.
+    pub exponent: bool,
+    /// Upper end of the density.
+    pub phi_2: bool,
+    /// Stiffness of the lump of sliders at `phi_2`.
+    pub slider_stiffness: bool,
+    /// Stiffness that never slips. A fit to dissipation always holds it.
+    pub residual_stiffness: bool,
+}
+
+impl HeldParameters {
+    /// Those that are given: all but `phi_1`, which is where the fit sets out, or zero.
+    fn given(start: &LawParameters) -> Result<Self, HysteresisError> {
+        let is_given = |name: &str| start.values.contains_key(name);
+        if is_given("density") {
+            return Err(HysteresisError::Measured {
+                reason: format!(
+                    "`density` of law {LAW} is fitted, and a value that is given cannot be held"
+                ),
+                remedy: "leave density out; exponent, phi_2, slider_stiffness and residual_stiffness can be held",
+            });
+        }
+        Ok(Self {
+            exponent: is_given("exponent"),
+            phi_2: is_given("phi_2"),
+            slider_stiffness: is_given("slider_stiffness"),
+            residual_stiffness: is_given("residual_stiffness"),
+        })
+    }
+
+    /// Those that a guess has none of.
+    fn nothing(guess: &IwanDensity) -> Self {
+        Self {
+            slider_stiffness: guess.slider_stiffness == 0.0,
+            residual_stiffness: guess.residual_stiffness == 0.0,
+            ..Self::default()
+        }
+    }
+
+    /// With what a curve knows nothing of: a spring does not dissipate.
+    fn on(self, curve: MeasuredCurve) -> Self {
+        Self {
+            residual_stiffness: self.residual_stiffness || curve == MeasuredCurve::Dissipation,
+            ..self
+        }
+    }
+
+    /// Number of unknowns of a fit, the density among them.
+    fn unknowns(self, fits_phi_1: bool) -> usize {
+        let held = [
+            self.exponent,
+            self.phi_2,
+            self.slider_stiffness,
+            self.residual_stiffness,
+            !fits_phi_1,
+        ];
+        1 + held.into_iter().filter(|held| !held).count()
+    }
 }
 
 /// A fitted density.
@@ -88,6 +164,8 @@ pub struct DensityFit {
     /// The density; fitted to dissipation, its residual stiffness is that of the guess,
     /// because a spring does not dissipate.
     pub density: IwanDensity,
+    /// What was not fitted.
+    pub held: HeldParameters,
     /// Root mean square of the relative errors.
     pub relative_error: f64,
     /// Iterations used.
@@ -104,7 +182,7 @@ pub enum FitDoubt {
         relative_error: f64,
     },
     /// A parameter that lies where nothing was measured, or next to nothing: beyond `phi_2` it takes two of
-    /// the data to tell what slips there from what never does.
+    /// the data to tell what slips there from what never does, and before it two to tell where that is.
     Outside {
         /// `phi_1` or `phi_2`.
         parameter: &'static str,
@@ -189,9 +267,11 @@ impl DensityFit {
             ..
         } = self.density;
         let beyond = measured.iter().filter(|(reach, _)| *reach > phi_2).count();
+        let before = measured.iter().filter(|(reach, _)| *reach < phi_2).count();
+        let is_at_edge = beyond < 2 || before < 2;
         let outside = [
             ("phi_1", phi_1, phi_1 > 0.0 && phi_1 < ends[0]),
-            ("phi_2", phi_2, beyond < 2 || phi_2 < ends[0]),
+            ("phi_2", phi_2, is_at_edge && !self.held.phi_2),
         ];
         let outside = outside.into_iter().filter(|(.., outside)| *outside);
         doubts.extend(outside.map(|(parameter, value, _)| FitDoubt::Outside {
@@ -201,7 +281,7 @@ impl DensityFit {
         }));
         if self.is_lump_alone() {
             doubts.push(FitDoubt::LumpAlone);
-        } else if exponent < -1.0 + 2.0 * LEAST_ABOVE {
+        } else if exponent < -1.0 + 2.0 * LEAST_ABOVE && !self.held.exponent {
             doubts.push(FitDoubt::ExponentAtLimit { exponent });
         }
         doubts
@@ -227,42 +307,13 @@ impl DensityFit {
         self.curve == MeasuredCurve::Backbone && first - at_end < NOTHING_SLIPS * first
     }
 
-    /// Refuses a fit to data that fall, which no density follows, or one that makes no density.
-    fn sound(self, measured: &[(f64, f64)]) -> Result<Self, HysteresisError> {
-        let by_reach = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
-        let first = measured.iter().min_by(by_reach).copied();
-        let last = measured.iter().max_by(by_reach).copied();
-        let falls = first.zip(last).filter(|(first, last)| last.1 < first.1);
-        let (what, over, remedy) = match self.curve {
-            MeasuredCurve::Dissipation => (
-                "energy",
-                "amplitude",
-                "give the energy of each cycle over its amplitude; check the order of the columns and their units",
-            ),
-            MeasuredCurve::Backbone => (
-                "force",
-                "deformation",
-                "give the force on first loading alone; check the order of the columns and their units",
-            ),
-        };
-        if let (Some((first, last)), true) = (falls, self.relative_error > MISFIT) {
-            let (unit, shown) = (self.curve.unit(), significant);
-            return Err(HysteresisError::Measured {
-                reason: format!(
-                    "the measured {what} falls with the {over}, from {} {unit} at {} mm to {} {unit} at {} mm, and that of law {LAW} never does",
-                    shown(first.1),
-                    shown(1.0e3 * first.0),
-                    shown(last.1),
-                    shown(1.0e3 * last.0)
-                ),
-                remedy,
-            });
-        }
+    /// Refuses a fit that makes no density.
+    fn sound(self) -> Result<Self, HysteresisError> {
         match self.density.checked() {
             Ok(_) => Ok(self),
             Err(_) => Err(HysteresisError::Fit {
                 reason: format!("law {LAW} does not follow the data"),
-                remedy,
+                remedy: self.curve.remedy(),
             }),
         }
     }
@@ -323,7 +374,8 @@ pub fn fit_dissipation(
     guess: IwanDensity,
     options: FitOptions,
 ) -> Result<DensityFit, HysteresisError> {
-    fit(MeasuredCurve::Dissipation, measured, guess, options)
+    let held = HeldParameters::nothing(&guess);
+    fit(MeasuredCurve::Dissipation, measured, guess, held, options)
 }
 
 /// Fits a density to pairs of deformation (m) and force (N) on first loading, both positive, as
@@ -337,18 +389,32 @@ pub fn fit_backbone(
     guess: IwanDensity,
     options: FitOptions,
 ) -> Result<DensityFit, HysteresisError> {
-    fit(MeasuredCurve::Backbone, measured, guess, options)
+    let held = HeldParameters::nothing(&guess);
+    fit(MeasuredCurve::Backbone, measured, guess, held, options)
 }
 
 fn fit(
     curve: MeasuredCurve,
     measured: &[(f64, f64)],
     guess: IwanDensity,
+    held: HeldParameters,
     options: FitOptions,
 ) -> Result<DensityFit, HysteresisError> {
-    let problem = Problem::new(curve, measured, guess.checked()?)?;
+    let held = held.on(curve);
+    let problem = Problem::new(curve, measured, guess.checked()?, held)?;
     let mut unknowns = problem.unknowns();
     let mut errors = problem.errors(&unknowns);
+    let found = |unknowns: &DVector<f64>, errors: &DVector<f64>, iterations| DensityFit {
+        curve,
+        density: problem.density(unknowns),
+        held,
+        relative_error: (errors.norm_squared() / measured.len() as f64).sqrt(),
+        iterations,
+    };
+    // What is linear is solved for at once.
+    if unknowns.is_empty() {
+        return Ok(found(&unknowns, &errors, 0));
+    }
     let mut damping = 1e-3;
     for iteration in 1..=options.iterations {
         let slopes = problem.slopes(&unknowns);
@@ -367,12 +433,7 @@ fn fit(
         };
         damping = (damping / 9.0).max(1e-14);
         if step.amax() < options.tolerance || !accepted {
-            return Ok(DensityFit {
-                curve,
-                density: problem.density(&unknowns),
-                relative_error: (errors.norm_squared() / measured.len() as f64).sqrt(),
-                iterations: iteration,
-            });
+            return Ok(found(&unknowns, &errors, iteration));
         }
     }
     Err(HysteresisError::Fit {
@@ -381,38 +442,51 @@ fn fit(
     })
 }
 
-/// Number of unknowns of a fit that sets out from these parameters of `iwan_six_parameter`:
-/// density, exponent and `phi_2` always are, and the others unless they are given as nothing.
-#[must_use]
-pub fn unknowns_of_fit(curve: MeasuredCurve, start: &LawParameters) -> usize {
-    let free = |name: &str| start.values.get(name).copied();
-    let lump = usize::from(free("slider_stiffness") != Some(0.0));
-    let is_backbone = curve == MeasuredCurve::Backbone;
-    let residual = usize::from(is_backbone && free("residual_stiffness") != Some(0.0));
-    3 + lump + residual + usize::from(free("phi_1").is_some_and(|x| x > 0.0))
-}
-
-/// The best of the fits ([`fit_dissipation`], [`fit_backbone`]) that set out from these parameters of
-/// `iwan_six_parameter`, and from several values of exponent and `phi_2` where they are not
-/// given; `phi_1` sets out from shares of `phi_2` as well, unless it is nothing. `phi_1 = 0`,
-/// `slider_stiffness = 0` and, of a backbone, `residual_stiffness = 0` are kept.
+/// Number of unknowns of a fit with these parameters of `iwan_six_parameter`: density, exponent,
+/// `phi_2`, slider stiffness and, of a backbone, residual stiffness unless they are given, and
+/// `phi_1` where it is given above zero.
 ///
 /// # Errors
-/// As [`fit_dissipation`], if no fit comes to a result; [`HysteresisError::Measured`]: data that fall.
+/// A density that is given.
+pub fn unknowns_of_fit(
+    curve: MeasuredCurve,
+    start: &LawParameters,
+) -> Result<usize, HysteresisError> {
+    let held = HeldParameters::given(start)?.on(curve);
+    let fits_phi_1 = start.values.get("phi_1").is_some_and(|x| *x > 0.0);
+    Ok(held.unknowns(fits_phi_1))
+}
+
+/// The best of the fits ([`fit_dissipation`], [`fit_backbone`]) that hold these parameters of
+/// `iwan_six_parameter` and set out from several values of the others. `phi_1` above zero is where
+/// one sets out, as others do from shares of `phi_2`; else it is nothing.
+///
+/// # Errors
+/// As [`fit_dissipation`], if no fit comes to a result; [`HysteresisError::Measured`]: data that fall
+/// ([`Fall`]), or a density that is given.
 pub fn fit_from_many(
     curve: MeasuredCurve,
     measured: &[(f64, f64)],
     start: &LawParameters,
     options: FitOptions,
 ) -> Result<DensityFit, HysteresisError> {
+    let held = HeldParameters::given(start)?;
+    if let Some(fall) = Fall::of(curve, measured) {
+        return Err(fall.into());
+    }
     let mut starts = guesses(curve, start, measured, SHARES.to_vec());
-    starts.extend(near_starts(curve, start, measured));
+    // A value with which none of them is a density is refused, not left unused.
+    let checked = starts.iter().map(|guess| guess.checked());
+    if let Some(fault) = checked.reduce(|a, b| a.or(b)) {
+        fault?;
+    }
+    starts.extend(near_starts(curve, start, held, measured));
     let mut best: Result<DensityFit, _> = Err(HysteresisError::Fit {
         reason: "no start".to_owned(),
         remedy: "give a start with --set",
     });
     for guess in starts {
-        let found = fit(curve, measured, guess, options);
+        let found = fit(curve, measured, guess, held, options);
         best = match (best, found) {
             (Ok(best), Ok(found)) if found.relative_error < best.relative_error => Ok(found),
             (Ok(best), _) => Ok(best),
@@ -424,12 +498,12 @@ pub fn fit_from_many(
     }
     let mut best = best?;
     for _ in 0..MOST_MOVES {
-        if best.relative_error < EXACT || start.values.contains_key("phi_2") {
+        if best.relative_error < EXACT || held.phi_2 {
             break;
         }
         let before = best.relative_error;
-        for guess in moved(&best.density, measured) {
-            if let Ok(found) = fit(curve, measured, guess, options)
+        for guess in moved(&best.density, held, measured) {
+            if let Ok(found) = fit(curve, measured, guess, held, options)
                 && found.relative_error < best.relative_error
             {
                 best = found;
@@ -439,11 +513,11 @@ pub fn fit_from_many(
             break;
         }
     }
-    best.sound(measured)
+    best.sound()
 }
 
 /// A density with its `phi_2` at places between the data around it.
-fn moved(density: &IwanDensity, measured: &[(f64, f64)]) -> Vec<IwanDensity> {
+fn moved(density: &IwanDensity, held: HeldParameters, measured: &[(f64, f64)]) -> Vec<IwanDensity> {
     let mut reaches: Vec<f64> = measured.iter().map(|(reach, _)| *reach).collect();
     reaches.sort_by(f64::total_cmp);
     let nearest = |a: &&[f64], b: &&[f64]| {
@@ -458,7 +532,10 @@ fn moved(density: &IwanDensity, measured: &[(f64, f64)]) -> Vec<IwanDensity> {
         phi_2: density.phi_2 + by * distance,
         // Free shares set out from above nothing.
         density: density.density.max(1.0),
-        slider_stiffness: 1.0,
+        slider_stiffness: match held.slider_stiffness {
+            true => density.slider_stiffness,
+            false => 1.0,
+        },
         ..*density
     };
     let moved = MOVES.map(at).into_iter();
@@ -471,6 +548,7 @@ fn moved(density: &IwanDensity, measured: &[(f64, f64)]) -> Vec<IwanDensity> {
 fn near_starts(
     curve: MeasuredCurve,
     start: &LawParameters,
+    held: HeldParameters,
     measured: &[(f64, f64)],
 ) -> Vec<IwanDensity> {
     let [least, largest] = ends(measured);
@@ -490,7 +568,8 @@ fn near_starts(
     });
     let mut judged: Vec<(f64, IwanDensity)> = with_first
         .filter_map(|guess| {
-            let problem = Problem::new(curve, measured, guess.checked().ok()?).ok()?;
+            let guess = guess.checked().ok()?;
+            let problem = Problem::new(curve, measured, guess, held.on(curve)).ok()?;
             let errors = problem.errors(&problem.unknowns());
             Some((errors.norm_squared(), guess))
         })
@@ -522,7 +601,7 @@ fn guesses(
         |end| vec![end],
     );
     let guess = |exponent, phi_2| IwanDensity {
-        density: get("density").unwrap_or(1.0),
+        density: 1.0,
         exponent,
         phi_1: get("phi_1").unwrap_or(0.0),
         phi_2,
@@ -569,12 +648,12 @@ fn solved(matrix: DMatrix<f64>, right: &DVector<f64>, least: f64) -> Option<DVec
     values.solve(right, least).ok()
 }
 
-/// The data and how many unknowns are not solved for directly.
+/// The data, where the fit sets out and what of it stays.
 struct Problem<'a> {
     curve: MeasuredCurve,
     measured: &'a [(f64, f64)],
     guess: IwanDensity,
-    unknowns: usize,
+    held: HeldParameters,
 }
 
 impl<'a> Problem<'a> {
@@ -582,12 +661,9 @@ impl<'a> Problem<'a> {
         curve: MeasuredCurve,
         measured: &'a [(f64, f64)],
         guess: IwanDensity,
+        held: HeldParameters,
     ) -> Result<Self, HysteresisError> {
-        let lump = usize::from(guess.slider_stiffness > 0.0);
-        let is_backbone = curve == MeasuredCurve::Backbone;
-        let residual = usize::from(is_backbone && guess.residual_stiffness > 0.0);
-        let unknowns = 2 + usize::from(guess.phi_1 > 0.0);
-        let all = unknowns + 1 + lump + residual;
+        let all = held.unknowns(guess.phi_1 > 0.0);
         if measured.len() < all {
             return Err(HysteresisError::Fit {
                 reason: format!("{} pairs for {all} unknowns", measured.len()),
@@ -605,99 +681,125 @@ impl<'a> Problem<'a> {
             curve,
             measured,
             guess,
-            unknowns,
+            held,
         })
     }
 
-    /// ln(alpha + 1 - [`LEAST_ABOVE`]), ln phi_2, and where free ln(beta/(1-beta)) of the guess.
+    /// Of the guess those that are free of ln(alpha + 1 - [`LEAST_ABOVE`]), ln phi_2 and ln(beta/(1-beta)).
     fn unknowns(&self) -> DVector<f64> {
         let g = &self.guess;
-        let above = (g.exponent + 1.0 - LEAST_ABOVE).max(LEAST_ABOVE);
-        let mut values = vec![libm::log(above), libm::log(g.phi_2)];
+        let mut values = Vec::new();
+        if !self.held.exponent {
+            let above = (g.exponent + 1.0 - LEAST_ABOVE).max(LEAST_ABOVE);
+            values.push(libm::log(above));
+        }
+        if !self.held.phi_2 {
+            values.push(libm::log(g.phi_2));
+        }
         if g.phi_1 > 0.0 {
             values.push(libm::log(g.phi_1 / (g.phi_2 - g.phi_1)));
         }
         DVector::from_vec(values)
     }
 
+    /// Exponent, `phi_1` and `phi_2` of these unknowns.
+    fn shape(&self, unknowns: &DVector<f64>) -> [f64; 3] {
+        let g = &self.guess;
+        let mut unknowns = unknowns.iter();
+        let mut value = |is_held, held, of: fn(f64) -> f64| match is_held {
+            true => held,
+            false => unknowns.next().map_or(held, |x| of(*x)),
+        };
+        let exponent = value(self.held.exponent, g.exponent, |x| {
+            libm::exp(x) + LEAST_ABOVE - 1.0
+        });
+        let phi_2 = value(self.held.phi_2, g.phi_2, libm::exp);
+        let over = value(g.phi_1 <= 0.0, f64::INFINITY, |x| 1.0 + libm::exp(-x));
+        [exponent, phi_2 / over, phi_2]
+    }
+
     /// The density of these unknowns with the best R and K2.
     fn density(&self, unknowns: &DVector<f64>) -> IwanDensity {
-        let exponent = libm::exp(unknowns[0]) + LEAST_ABOVE - 1.0;
-        let phi_2 = libm::exp(unknowns[1]);
-        let phi_1 = if self.guess.phi_1 > 0.0 {
-            phi_2 / (1.0 + libm::exp(-unknowns[2]))
-        } else {
-            0.0
-        };
-        // One N/m in the power density, in the lump, in the residual spring.
-        let is_backbone = self.curve == MeasuredCurve::Backbone;
-        let powers = IwanDensity {
-            density: libm::pow(phi_2, -1.0 - exponent),
+        let [exponent, phi_1, phi_2] = self.shape(unknowns);
+        // What is held, and one N/m in the power density, in the lump, in the residual spring.
+        let stays = |is_held, value| if is_held { value } else { 0.0 };
+        let held = IwanDensity {
+            density: 0.0,
             exponent,
             phi_1,
             phi_2,
+            slider_stiffness: stays(self.held.slider_stiffness, self.guess.slider_stiffness),
+            residual_stiffness: stays(self.held.residual_stiffness, self.guess.residual_stiffness),
+        };
+        let nothing = IwanDensity {
             slider_stiffness: 0.0,
-            residual_stiffness: match is_backbone {
-                true => 0.0,
-                false => self.guess.residual_stiffness,
-            },
+            residual_stiffness: 0.0,
+            ..held
+        };
+        let powers = IwanDensity {
+            density: libm::pow(phi_2, -1.0 - exponent),
+            ..nothing
         };
         let lump = IwanDensity {
-            density: 0.0,
             slider_stiffness: 1.0,
-            ..powers
+            ..nothing
         };
         let residual = IwanDensity {
-            density: 0.0,
             residual_stiffness: 1.0,
-            ..powers
+            ..nothing
         };
         let is_free = [
             true,
-            self.guess.slider_stiffness > 0.0,
-            is_backbone && self.guess.residual_stiffness > 0.0,
+            !self.held.slider_stiffness,
+            !self.held.residual_stiffness,
         ];
-        let shares = self.shares(&[powers, lump, residual], is_free);
+        let shares = self.shares(&held, &[powers, lump, residual], is_free);
         // Nothing depends on exponent and phi_1 then, which may be anywhere.
-        let powers = match shares[0] == 0.0 {
-            true => IwanDensity {
-                exponent: self.guess.exponent,
-                phi_1: phi_2 * (self.guess.phi_1 / self.guess.phi_2),
-                density: 0.0,
-                ..powers
-            },
-            false => powers,
+        let (exponent, phi_1) = match shares[0] == 0.0 {
+            true => (
+                self.guess.exponent,
+                phi_2 * (self.guess.phi_1 / self.guess.phi_2),
+            ),
+            false => (exponent, phi_1),
         };
         IwanDensity {
             density: shares[0] * powers.density,
-            slider_stiffness: shares[1],
-            residual_stiffness: powers.residual_stiffness + shares[2],
-            ..powers
+            exponent,
+            phi_1,
+            slider_stiffness: held.slider_stiffness + shares[1],
+            residual_stiffness: held.residual_stiffness + shares[2],
+            ..held
         }
     }
 
-    /// The least-squares multiples, not negative, of three densities, of which some are free: the
-    /// best of those with any of them left out.
-    fn shares(&self, densities: &[IwanDensity; 3], is_free: [bool; 3]) -> [f64; 3] {
+    /// The least-squares multiples, not negative, of three densities, of which some are free, beside
+    /// what is held: the best of those with any of them left out.
+    fn shares(
+        &self,
+        held: &IwanDensity,
+        densities: &[IwanDensity; 3],
+        is_free: [bool; 3],
+    ) -> [f64; 3] {
         let rows = self.measured.len();
-        let relative = |j: usize, i: usize| {
+        let relative = |density: &IwanDensity, i: usize| {
             let (reach, value) = self.measured[i];
-            self.curve.value(&densities[j], reach) / value
+            self.curve.value(density, reach) / value
         };
         let columns: [DVector<f64>; 3] =
-            std::array::from_fn(|j| DVector::from_fn(rows, |i, _| relative(j, i)));
+            std::array::from_fn(|j| DVector::from_fn(rows, |i, _| relative(&densities[j], i)));
+        let rest = DVector::from_fn(rows, |i, _| 1.0 - relative(held, i));
         // A step far out may overflow: it is not taken.
         let free = columns.iter().zip(is_free).filter(|(_, free)| *free);
-        if free.flat_map(|(c, _)| c.iter()).any(|x| !x.is_finite()) {
+        let mut numbers = free.flat_map(|(c, _)| c.iter()).chain(rest.iter());
+        if numbers.any(|x| !x.is_finite()) {
             return [f64::NAN; 3];
         }
         // Orthogonal rotations take all rows into four, of which the shares are found faster.
         let [a, b, c] = &columns;
-        let ones = DVector::from_element(rows, 1.0);
-        let all = DMatrix::from_columns(&[a.clone(), b.clone(), c.clone(), ones]);
+        let all = DMatrix::from_columns(&[a.clone(), b.clone(), c.clone(), rest]);
         let rotated = all.qr().r();
         let columns: [DVector<f64>; 3] = std::array::from_fn(|j| rotated.column(j).into_owned());
-        let ones = rotated.column(3).into_owned();
+        let rest = rotated.column(3).into_owned();
         let mut best = ([0.0; 3], f64::INFINITY);
         for subset in 1..8_usize {
             let chosen: Vec<usize> = (0..3).filter(|j| subset >> j & 1 == 1).collect();
@@ -706,10 +808,10 @@ impl<'a> Problem<'a> {
             }
             let chosen_columns: Vec<_> = chosen.iter().map(|j| columns[*j].clone()).collect();
             let matrix = DMatrix::from_columns(&chosen_columns);
-            let Some(found) = solved(matrix.clone(), &ones, 1e-12) else {
+            let Some(found) = solved(matrix.clone(), &rest, 1e-12) else {
                 continue;
             };
-            let miss = (&matrix * &found - &ones).norm_squared();
+            let miss = (&matrix * &found - &rest).norm_squared();
             if found.iter().all(|share| *share >= 0.0) && miss < best.1 {
                 let mut shares = [0.0; 3];
                 for (j, share) in chosen.iter().zip(found.iter()) {
@@ -734,8 +836,8 @@ impl<'a> Problem<'a> {
     /// Derivatives of the errors, a column an unknown.
     fn slopes(&self, unknowns: &DVector<f64>) -> DMatrix<f64> {
         let width = 1e-5;
-        let mut slopes = DMatrix::zeros(self.measured.len(), self.unknowns);
-        for j in 0..self.unknowns {
+        let mut slopes = DMatrix::zeros(self.measured.len(), unknowns.len());
+        for j in 0..unknowns.len() {
             let mut shifted = unknowns.clone();
             shifted[j] += width;
             let above = self.errors(&shifted);

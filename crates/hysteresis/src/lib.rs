@@ -39,6 +39,7 @@ pub mod registry;
 
 mod bouc_wen_family;
 mod deteriorating;
+mod iwan_fall;
 mod iwan_fit;
 mod laws;
 mod masing;

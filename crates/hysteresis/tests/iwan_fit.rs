@@ -4,8 +4,8 @@
 use pounding_hysteresis::HysteresisError;
 use pounding_hysteresis::LawParameters;
 use pounding_hysteresis::iwan::{
-    FitDoubt, FitOptions, IwanDensity, MeasuredCurve, density_of_backbone, fit_backbone,
-    fit_dissipation, fit_from_many,
+    Fall, FitDoubt, FitOptions, IwanDensity, MeasuredCurve, density_of_backbone, fit_backbone,
+    fit_dissipation, fit_from_many, unknowns_of_fit,
 };
 
 /// A density with all six parameters.
@@ -314,5 +314,168 @@ fn backbones_of_special_cases_are_found() {
         assert!(fit.relative_error < 1e-6, "{fit:?}");
         assert!((fit.density.exponent - truth.exponent).abs() < 1e-4);
         assert!((fit.density.phi_2 / truth.phi_2 - 1.0).abs() < 1e-4);
+    }
+}
+
+/// What is given is held, whether it is zero or not, and the others are found: those that made the data where it
+/// is theirs, and a worse fit that keeps it where it is not. `slider_stiffness = 0` of many rows was fitted.
+#[test]
+fn what_is_given_is_held() {
+    let truth = document();
+    for curve in [MeasuredCurve::Backbone, MeasuredCurve::Dissipation] {
+        let measured: Vec<(f64, f64)> = (0..40)
+            .map(|i| 1.2e-5 * 1.1_f64.powi(i))
+            .map(|x| (x, curve.value(&truth, x)))
+            .collect();
+        let fit = |pairs: &[(&'static str, f64)]| {
+            let mut start = LawParameters::from_pairs(pairs);
+            start.values.insert("phi_1".to_owned(), 0.8e-5);
+            fit_from_many(curve, &measured, &start, FitOptions::default()).unwrap()
+        };
+        let own = [
+            ("exponent", truth.exponent),
+            ("phi_2", truth.phi_2),
+            ("slider_stiffness", truth.slider_stiffness),
+            ("residual_stiffness", truth.residual_stiffness),
+        ];
+        for held in [&own[..1], &own[1..2], &own[2..3], &own[3..], &own] {
+            let found = fit(held);
+            assert!(found.relative_error < 1e-7, "{held:?}: {found:?}");
+            let values = found.density.parameters().values;
+            for (name, expected) in held {
+                assert_eq!(values.get(*name), Some(expected), "{found:?}");
+            }
+            for (found, expected) in [
+                (found.density.density, truth.density),
+                (found.density.phi_1, truth.phi_1),
+                (found.density.slider_stiffness, truth.slider_stiffness),
+            ] {
+                assert!((found / expected - 1.0).abs() < 1e-4, "{held:?}: {found}");
+            }
+        }
+        for (name, value) in [
+            ("exponent", 0.5),
+            ("phi_2", 0.7e-4),
+            ("slider_stiffness", 0.0),
+            ("slider_stiffness", 1.5e4),
+            ("residual_stiffness", 0.0),
+            ("residual_stiffness", 5.0e3),
+        ] {
+            let found = fit(&[(name, value)]);
+            let held = found.density.parameters().values;
+            let held = held.get(name).copied().unwrap_or_default();
+            assert_eq!(held, value, "{name}: {found:?}");
+        }
+    }
+}
+
+/// Without anything left to search for, the density alone is solved for.
+#[test]
+fn one_unknown_takes_one_point() {
+    let truth = document();
+    let start = LawParameters::from_pairs(&[
+        ("exponent", truth.exponent),
+        ("phi_1", 0.0),
+        ("phi_2", truth.phi_2),
+        ("slider_stiffness", truth.slider_stiffness),
+        ("residual_stiffness", truth.residual_stiffness),
+    ]);
+    let curve = MeasuredCurve::Backbone;
+    assert_eq!(unknowns_of_fit(curve, &start), Ok(1));
+    let without_first = IwanDensity {
+        phi_1: 0.0,
+        ..truth
+    };
+    let measured = [(5.0e-5, without_first.backbone(5.0e-5).0)];
+    let fit = fit_from_many(curve, &measured, &start, FitOptions::default()).unwrap();
+    assert!((fit.density.density / truth.density - 1.0).abs() < 1e-9);
+    // A start from which nothing sets out is refused, and so is what makes no density.
+    for wrong in [
+        &[("phi_1", 1.0)][..],
+        &[("phi_1", -1.0e-5)],
+        &[("phi_1", 2.0e-5), ("phi_2", 1.0e-5)],
+        &[("exponent", -1.5)],
+        &[("slider_stiffness", -1.0)],
+    ] {
+        let start = LawParameters::from_pairs(wrong);
+        let many: Vec<_> = (1..=8)
+            .map(|i| 2.0e-5 * f64::from(i))
+            .map(|x| (x, truth.backbone(x).0))
+            .collect();
+        let found = fit_from_many(curve, &many, &start, FitOptions::default());
+        assert!(
+            matches!(found, Err(HysteresisError::Inconsistent { .. })),
+            "{wrong:?}: {found:?}"
+        );
+    }
+    // A density cannot be held.
+    let start = LawParameters::from_pairs(&[("density", 1.0e6)]);
+    for error in [
+        unknowns_of_fit(curve, &start).unwrap_err(),
+        fit_from_many(curve, &measured, &start, FitOptions::default()).unwrap_err(),
+    ] {
+        assert!(error.to_string().contains("`density`"), "{error}");
+        assert!(error.help().unwrap().contains("leave density out"));
+    }
+}
+
+/// Curves that fall at their end, in the middle or at one point are none of the law; noise is: by hand, of ten
+/// equal forces but one of 0.5 the best level is `(9 + 2)/(9 + 4)` where all follow it, with relative errors of
+/// 17.5 %.
+#[test]
+fn falls_are_told_from_noise() {
+    let fall = |values: &[f64]| {
+        let measured: Vec<(f64, f64)> = (1..)
+            .zip(values)
+            .map(|(i, y)| (1e-3 * f64::from(i), *y))
+            .collect();
+        Fall::of(MeasuredCurve::Backbone, &measured)
+    };
+    let humped = [10., 40., 70., 95., 100., 80., 50., 30., 20., 11.].map(|x| 1e3 * x);
+    let found = fall(&humped).unwrap();
+    assert_eq!(
+        (found.from, found.to, found.place),
+        ((5e-3, 1e5), (1e-2, 1.1e4), 9)
+    );
+    let last = [1., 1., 1., 1., 1., 1., 1., 1., 1., 0.5];
+    let found = fall(&last).unwrap();
+    assert_eq!(found.place, 9);
+    let level = 11.0 / 13.0_f64;
+    let misfit = ((9.0 * (level - 1.0).powi(2) + (2.0 * level - 1.0).powi(2)) / 10.0).sqrt();
+    assert!((found.misfit - misfit).abs() < 1e-12, "{}", found.misfit);
+    // What rises to a force that stays, with noise of up to 10 %.
+    let noise = |i: u32| 1.0 + 0.1 * (2.0 * (f64::from(i) * 0.618_033_988_75).fract() - 1.0);
+    let noisy: Vec<f64> = (1..60)
+        .map(|i| (f64::from(i) / 20.0).min(1.0) * noise(i))
+        .collect();
+    assert_eq!(fall(&noisy), None);
+    assert_eq!(fall(&[]), None);
+    // Cycles come in any order.
+    let cycles = [(3e-3, 9.0), (1e-3, 1.0), (2e-3, 4.0)];
+    assert_eq!(Fall::of(MeasuredCurve::Dissipation, &cycles), None);
+}
+
+/// A force that stays from the first deformation on puts the end of the density there or before, however many
+/// rows there are: of 40 nothing was said of it.
+#[test]
+fn an_end_at_the_first_of_the_data_is_doubted() {
+    for rows in [10, 20, 40, 80] {
+        let measured: Vec<(f64, f64)> = (0..rows)
+            .map(|i| f64::from(i) / f64::from(rows - 1))
+            .map(|part| (2e-4 * 200_f64.powf(part), 1e5))
+            .collect();
+        let start = LawParameters::default();
+        let curve = MeasuredCurve::Backbone;
+        let fit = fit_from_many(curve, &measured, &start, FitOptions::default()).unwrap();
+        let is_doubted = fit.doubts(&measured).iter().any(|doubt| {
+            matches!(
+                doubt,
+                FitDoubt::Outside {
+                    parameter: "phi_2",
+                    ..
+                }
+            )
+        });
+        assert!(is_doubted, "{rows}: {fit:?}");
     }
 }

@@ -267,7 +267,7 @@ fn slopes_and_fits_give_back_what_was_put_in() {
         .map(|a| (a, density.cycle_dissipation(a)))
         .collect();
     let start = LawParameters::default();
-    assert_eq!(unknowns_of_fit(MeasuredCurve::Dissipation, &start), 4);
+    assert_eq!(unknowns_of_fit(MeasuredCurve::Dissipation, &start), Ok(4));
     let fit = fit_from_many(
         MeasuredCurve::Dissipation,
         &measured,

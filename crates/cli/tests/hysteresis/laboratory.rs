@@ -427,3 +427,76 @@ fn a_backbone_is_fitted_too() {
     let picture = std::fs::read_to_string(&figure).unwrap();
     assert!(picture.contains("force of the backbone"));
 }
+
+/// What `--set` gives is held, and said, whatever the number of rows; a lump of `slider_stiffness=0` came back as
+/// 3 MN/m.
+#[test]
+fn values_that_are_set_are_held_in_a_fit() {
+    let truth = IwanDensity {
+        density: 2.0e8,
+        exponent: -0.3,
+        phi_1: 0.0,
+        phi_2: 1.0e-2,
+        slider_stiffness: 3.0e6,
+        residual_stiffness: 1.0e6,
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let table = |name: &str, header: &str, value: &dyn Fn(f64) -> f64| {
+        let mut rows = format!("{header}\n");
+        for i in 0..12 {
+            let reach = 2.0e-4 * 1.6_f64.powi(i);
+            rows.push_str(&format!("{:e},{:e}\n", 1.0e3 * reach, value(reach)));
+        }
+        write(folder.path(), name, &rows)
+    };
+    let backbone = table("b.csv", "deformation_mm,force_N", &|x| truth.backbone(x).0);
+    let cycles = table("d.csv", "amplitude_mm,dissipation_J", &|x| {
+        truth.cycle_dissipation(x)
+    });
+    for (name, set, held) in [
+        ("slider_stiffness", "0", 0.0),
+        ("slider_stiffness", "\"5 MN/m\"", 5.0e6),
+        ("residual_stiffness", "\"5 MN/m\"", 5.0e6),
+        ("exponent", "0.5", 0.5),
+        ("phi_2", "\"5 mm\"", 5.0e-3),
+    ] {
+        let set = set.trim_matches('"').replace(' ', "");
+        for (curve, file) in [("backbone", &backbone), ("dissipation", &cycles)] {
+            let command = format!("iwan_six_parameter --fit {curve} {file} --set {name}={set}");
+            let result = json(&command);
+            let found = number(&result["parameters"][name]);
+            assert_eq!(found, held, "{command}");
+            let shown = text(&command);
+            if curve == "backbone" {
+                assert_eq!(result["fit"]["held"], serde_json::json!([name]));
+                assert!(shown.contains(&format!("held as given: {name}")), "{shown}");
+            }
+        }
+    }
+}
+
+/// What `--dissipation` writes of laws with a threshold is fitted: cycles below it, which dissipate nothing, are
+/// left out and counted. They were refused.
+#[test]
+fn cycles_that_dissipate_nothing_are_left_out() {
+    let folder = tempfile::tempdir().unwrap();
+    for law in ["song_2004", "iwan_six_parameter", "bilinear"] {
+        let file = folder.path().join(format!("{law}.csv"));
+        let file = file.display();
+        text(&format!(
+            "{law} --dissipation 0.01mm,20mm --points 40 --csv {file}"
+        ));
+        let rows = std::fs::read_to_string(file.to_string()).unwrap();
+        let nothing = rows.lines().filter(|line| line.ends_with(",0.0")).count();
+        assert!(nothing > 0, "{rows}");
+        let command = format!("iwan_six_parameter --fit dissipation {file}");
+        let result = json(&command);
+        assert_eq!(result["fit"]["rows_left_out"], nothing, "{law}");
+        let shown = text(&command);
+        let said = match nothing {
+            1 => "without 1 row of cycles that dissipate nothing".to_owned(),
+            n => format!("without {n} rows of cycles that dissipate nothing"),
+        };
+        assert!(shown.contains(&said), "{shown}");
+    }
+}

@@ -237,10 +237,18 @@ fn curves_that_cannot_be_fitted_are_refused() {
         &format!("bilinear --fit {path}"),
         &["does not know law bilinear"],
     );
-    let path = file(folder.path(), "a_mm,d_J\n1,1\n2,0\n");
+    let path = file(folder.path(), "a_mm,d_J\n1,1\n2,-1\n");
     refused(
         &format!("iwan_six_parameter --fit {path}"),
         &["greater than zero", "input.csv:3"],
+    );
+    // Cycles that dissipate nothing are no rows of numbers above zero.
+    let path = file(folder.path(), "a_mm,d_J\n1,0\n2,0\n3,1\n");
+    refused(
+        &format!("iwan_six_parameter --fit {path}"),
+        &[
+            "1 row of numbers above zero for 4 unknowns, without 2 rows of cycles that dissipate nothing",
+        ],
     );
     let path = file(folder.path(), "a_mm,d_s\n1,1\n");
     refused(
@@ -288,10 +296,43 @@ fn curves_that_cannot_be_fitted_are_refused() {
         &format!("iwan_six_parameter --fit backbone {path}"),
         &["force falls with the deformation", "first loading alone"],
     );
+    // One that rises and falls, at the row to which it falls most.
+    let path = file(
+        folder.path(),
+        "deformation_mm,force_kN\n1,10\n2,40\n3,70\n4,95\n5,100\n6,80\n7,50\n8,30\n9,20\n10,11\n",
+    );
+    refused(
+        &format!("iwan_six_parameter --fit backbone {path}"),
+        &[
+            "input.csv:11",
+            "force falls with the deformation, from 100000 N at 5 mm to 11000 N at 10 mm",
+            "misses the data by 61 % (root mean square), and up to 10 % count as noise",
+            "first loading alone",
+        ],
+    );
     let path = file(folder.path(), "d_mm,f_kN\n1,1\n2,2\n");
     refused(
         &format!("iwan_six_parameter --fit {path}"),
-        &["2 rows of numbers above zero for 5 unknowns"],
+        &[
+            "2 rows of numbers above zero for 5 unknowns",
+            "such as slider_stiffness=0",
+        ],
+    );
+    // A start of phi_1 from which nothing can set out.
+    let path = file(
+        folder.path(),
+        "d_mm,f_kN\n1,1\n2,2\n3,2.5\n4,2.8\n5,3\n6,3.1\n",
+    );
+    for set in ["phi_1=1m", "phi_1=6mm --set phi_2=5mm"] {
+        refused(
+            &format!("iwan_six_parameter --fit {path} --set {set}"),
+            &["the sliders slip from phi_1", "below phi_2"],
+        );
+    }
+    // A density cannot be held.
+    refused(
+        &format!("iwan_six_parameter --fit {path} --set density=1e6"),
+        &["`density`", "is fitted", "leave density out"],
     );
 }
 

@@ -6,7 +6,8 @@ use pounding_case::{Dimension, unit_in};
 use pounding_catalogue::numbers::significant;
 use pounding_catalogue::wording::counted;
 use pounding_hysteresis::iwan::{
-    DensityFit, FitOptions, MeasuredCurve, density_of_backbone, fit_from_many, unknowns_of_fit,
+    DensityFit, Fall, FitOptions, MeasuredCurve, density_of_backbone, fit_from_many,
+    unknowns_of_fit,
 };
 use pounding_hysteresis::{LawDescriptor, LawParameters};
 use serde::Serialize;
@@ -25,6 +26,8 @@ pub struct Fitted {
     pub fit: DensityFit,
     /// Pairs of amplitude (m) and energy of a cycle (J), or of deformation (m) and force (N).
     pub measured: Vec<(f64, f64)>,
+    /// Rows of cycles that dissipate nothing, which are not among them.
+    pub left_out: usize,
 }
 
 /// Name of a curve in `--fit CURVE FILE`, and a header of its file.
@@ -62,8 +65,8 @@ fn asked(words: &[InputPath]) -> Result<(Option<MeasuredCurve>, &Path), Failure>
     }
 }
 
-/// Fits the density to the pairs of a file. Parameters of `--set` are where the fit sets
-/// out; `phi_1 = 0`, `slider_stiffness = 0` and, of a backbone, `residual_stiffness = 0` are kept.
+/// Fits the density to the pairs of a file. Parameters of `--set` are held, but for a `phi_1` above zero,
+/// where the fit sets out.
 pub fn fit(law: &LawDescriptor, words: &[InputPath], set: &[String]) -> Result<Fitted, Failure> {
     if law.name != LAW {
         return Err(Failure::input(
@@ -75,19 +78,35 @@ pub fn fit(law: &LawDescriptor, words: &[InputPath], set: &[String]) -> Result<F
     }
     let start = given(pounding_hysteresis::find(LAW)?, set)?;
     let (curve, path) = asked(words)?;
-    let (curve, measured) = read(path, curve, &start)?;
+    let Measured {
+        curve,
+        pairs: measured,
+        left_out,
+    } = read(path, curve, &start)?;
     let fit = fit_from_many(curve, &measured, &start, FitOptions::default())?;
-    Ok(Fitted { fit, measured })
+    Ok(Fitted {
+        fit,
+        measured,
+        left_out,
+    })
+}
+
+/// What a file holds.
+struct Measured {
+    curve: MeasuredCurve,
+    pairs: Vec<(f64, f64)>,
+    /// Rows of cycles that dissipate nothing.
+    left_out: usize,
 }
 
 /// Pairs of amplitude (m) and energy of a cycle (J), or of deformation (m) and force (N) on first
 /// loading, all positive: the unit of the second column says which, and is that of the curve asked
-/// for.
+/// for. Cycles that dissipate nothing, below a threshold, are left out and counted.
 fn read(
     path: &Path,
     asked: Option<MeasuredCurve>,
     start: &LawParameters,
-) -> Result<(MeasuredCurve, Vec<(f64, f64)>), Failure> {
+) -> Result<Measured, Failure> {
     let column = |name, dimension| Column { name, dimension };
     let force = column("force", Dimension::FORCE);
     let energy = column("dissipation", Dimension::ENERGY);
@@ -135,11 +154,17 @@ fn read(
         ),
     };
     let mut pairs: Vec<(f64, f64)> = Vec::new();
+    let (mut places, mut left_out) = (Vec::new(), 0);
     for (place, row) in source.rows(&[&columns])? {
         let (reach, value) = (row[0], row[1]);
         let before = pairs.last().map_or(0.0, |(reach, _)| *reach);
         // A backbone begins at zero.
         if is_backbone && reach == 0.0 && value == 0.0 && pairs.is_empty() {
+            continue;
+        }
+        // Laws with a threshold dissipate nothing below it, and relative errors of nothing are none.
+        if !is_backbone && reach > 0.0 && value == 0.0 {
+            left_out += 1;
             continue;
         }
         if !(reach > 0.0 && value > 0.0) {
@@ -150,7 +175,7 @@ fn read(
                 ),
                 false => (
                     "amplitude and dissipation",
-                    "leave out cycles without dissipation",
+                    "give the energy that a cycle dissipates over its amplitude, both above zero; cycles that dissipate nothing are left out",
                 ),
             };
             let message = format!("{what} must be greater than zero");
@@ -164,20 +189,41 @@ fn read(
             ));
         }
         pairs.push((reach, value));
+        places.push(place);
     }
-    let unknowns = unknowns_of_fit(curve, start);
+    if let Some(fall) = Fall::of(curve, &pairs) {
+        let place = places.swap_remove(fall.place);
+        return Err(source.error(place, fall.to_string(), fall.remedy()));
+    }
+    let unknowns = unknowns_of_fit(curve, start)?;
     if pairs.len() < unknowns {
         return Err(source.error(
             0..0,
             format!(
-                "{} of numbers above zero for {}",
+                "{} of numbers above zero for {}{}",
                 counted(pairs.len(), "row"),
-                counted(unknowns, "unknown")
+                counted(unknowns, "unknown"),
+                without(left_out)
             ),
-            "measure more amplitudes, or set slider_stiffness=0, and phi_1=0",
+            "measure more amplitudes, or hold with --set what is known, such as slider_stiffness=0",
         ));
     }
-    Ok((curve, pairs))
+    Ok(Measured {
+        curve,
+        pairs,
+        left_out,
+    })
+}
+
+/// Rows that are left out, in words.
+fn without(rows: usize) -> String {
+    match rows {
+        0 => String::new(),
+        n => format!(
+            ", without {} of cycles that dissipate nothing",
+            counted(n, "row")
+        ),
+    }
 }
 
 impl Fitted {
@@ -208,8 +254,13 @@ impl Fitted {
             MeasuredCurve::Dissipation => counted(self.measured.len(), "measured cycle"),
             MeasuredCurve::Backbone => format!("{} points of the backbone", self.measured.len()),
         };
+        let held = match &self.held()[..] {
+            [] => String::new(),
+            held => format!("held as given: {}\n", held.join(", ")),
+        };
         let mut text = format!(
-            "\nFitted to {count}\n{table}\nroot mean square of the relative errors {:.3} %, {}\ninitial stiffness {} N/m, of which residual_stiffness = {} N/m ",
+            "\nFitted to {count}{}\n{held}{table}\nroot mean square of the relative errors {:.3} %, {}\ninitial stiffness {} N/m, of which residual_stiffness = {} N/m ",
+            without(self.left_out),
             100.0 * self.fit.relative_error,
             counted(self.fit.iterations, "iteration"),
             significant(self.fit.density.initial_stiffness()),
@@ -222,6 +273,21 @@ impl Fitted {
         text.push_str(&self.density_text());
         text.push_str(&warning_lines(&self.fit.doubts(&self.measured)));
         text
+    }
+
+    /// Names of the parameters that were not fitted but given.
+    fn held(&self) -> Vec<&'static str> {
+        let held = self.fit.held;
+        // That of cycles is held even where nobody gave it, and is said in its own words.
+        let is_backbone = self.fit.curve == MeasuredCurve::Backbone;
+        let all = [
+            ("exponent", held.exponent),
+            ("phi_2", held.phi_2),
+            ("slider_stiffness", held.slider_stiffness),
+            ("residual_stiffness", held.residual_stiffness && is_backbone),
+        ];
+        let held = all.into_iter().filter(|(_, is_held)| *is_held);
+        held.map(|(name, _)| name).collect()
     }
 
     /// The density by the curvature of a backbone, for people.
@@ -270,6 +336,8 @@ impl Fitted {
             columns: [over, "measured", "fitted"],
             curve: measured.map(|(a, d)| (*a, *d, self.fitted(*a))).collect(),
             density_by_curvature: self.curvature(),
+            held: self.held(),
+            rows_left_out: self.left_out,
             relative_error: self.fit.relative_error,
             warnings: self
                 .fit
@@ -289,6 +357,8 @@ pub struct ShownFit {
     curve: Vec<(f64, f64, f64)>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     density_by_curvature: Vec<(f64, f64)>,
+    held: Vec<&'static str>,
+    rows_left_out: usize,
     relative_error: f64,
     warnings: Vec<String>,
     iterations: usize,

@@ -227,6 +227,63 @@ fn rezaeian_ensemble() {
     near(middle, asked.middle_time, 0.02);
 }
 
+/// What a high-pass takes of the expected Arias intensity is said where it is more than a tenth, and is what the
+/// mean of many motions lacks; so is a filter that would leave its bounds.
+#[test]
+fn rezaeian_high_pass_that_takes_much() {
+    let usual = RezaeianDerKiureghian2010::usual(12.0, 8.0, 3.0);
+    let cases = [
+        // Middle frequency, frequency rate, damping ratio, corner (Hz); whether the filter is held.
+        ((1.0, -0.02, 0.3, 0.15), false),
+        ((1.0, -0.1, 0.3, 0.15), true),
+        ((1.5, -0.1, 0.6, 0.2), false),
+        ((3.0, -2.0, 0.3, 0.15), true),
+        ((0.3, 0.0, 0.3, 1.0), false),
+        ((6.0, -0.1, 0.9, 0.5), false),
+    ];
+    for ((middle_frequency, frequency_rate, damping, high_pass), is_held) in cases {
+        let motion = RezaeianDerKiureghian2010 {
+            middle_frequency,
+            frequency_rate,
+            damping,
+            high_pass,
+            ..usual
+        };
+        let (mut arias, mut said) = (0.0, Vec::new());
+        let seeds = 200;
+        for seed in 0..seeds {
+            let made = motion.generate(grid(0.02, 50.0), seed).unwrap();
+            let husid = Husid::of(&made.accelerogram, Evaluation::AtSamples).unwrap();
+            arias += husid.arias_intensity() / seeds as f64;
+            said = made.warnings().map(str::to_owned).collect();
+        }
+        let of_loss = said.iter().find(|w| w.contains("high-pass")).unwrap();
+        let (_, left) = of_loss.split_once("off: ").unwrap();
+        let left: f64 = left.split_once(' ').unwrap().0.parse().unwrap();
+        // The mean of 200 motions of one to some ten independent cycles scatters by 5 % and less.
+        near(arias, left, 0.06);
+        let held = said.iter().any(|w| w.contains("is held at 0.3 Hz"));
+        assert_eq!(held, is_held, "{motion:?}: {said:?}");
+    }
+    let said = |motion: RezaeianDerKiureghian2010| {
+        let made = motion.generate(grid(0.01, 50.0), 1).unwrap();
+        let said: Vec<_> = made.warnings().map(str::to_owned).collect();
+        said.join("; ")
+    };
+    assert_eq!(said(usual), "");
+    // 3 Hz + 20 Hz/s t reaches 50 Hz 2.35 s after the middle, and 0.3 Hz 0.135 s before it.
+    let fast = said(RezaeianDerKiureghian2010 {
+        frequency_rate: 20.0,
+        ..usual
+    });
+    for words in [
+        "3 Hz at 8 s and +20 Hz/s, is held at 50 Hz, half the sampling rate, from 10.35 s",
+        "held at 0.3 Hz, the lowest of the model, until 7.865 s",
+    ] {
+        assert!(fast.contains(words), "{words}: {fast}");
+    }
+}
+
 #[test]
 fn rezaeian_scenarios() {
     let scenario = RezaeianDerKiureghianScenario {

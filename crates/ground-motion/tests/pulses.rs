@@ -321,6 +321,60 @@ fn smooth_pulses_leave_the_velocity_of_their_formula() {
     }
 }
 
+/// A wavelet of which the motion does not hold one period on either side of its centre is refused; it was cut,
+/// with a quarter of a metre per second left behind. What is just held leaves nothing behind.
+#[test]
+fn ricker_wavelets_are_not_cut() {
+    let pulse = |period: f64, centre: f64, duration: f64| {
+        let pulse = Ricker1953 {
+            amplitude: 3.0,
+            period,
+            centre,
+        };
+        pulse.generate(grid(0.01, duration))
+    };
+    for (centre, duration, words) in [
+        (1.5, 1.6, "the pulse takes 2 s, and the duration is 1.6 s"),
+        (1.5, 2.2, "centre"),
+        (0.0, 5.0, "centre"),
+        (4.5, 5.0, "centre"),
+    ] {
+        let error = pulse(1.0, centre, duration).unwrap_err().to_string();
+        assert!(error.contains(words), "{centre} {duration}: {error}");
+    }
+    for (centre, duration) in [(1.0, 2.0), (1.5, 2.5), (4.0, 5.0)] {
+        let made = pulse(1.0, centre, duration).unwrap();
+        let ground = ground(&made);
+        let peak = ground.peak_velocity(Evaluation::PiecewiseLinear).value;
+        assert!(ground.end_velocity().abs() < 1e-3 * peak, "{centre}");
+    }
+}
+
+/// Of two exponentials the faster is faster: the interval is open, and the envelope of rates that are nearly one
+/// is the limit `e r t exp(-r t)`.
+#[test]
+fn rates_of_two_exponentials_differ() {
+    let envelope = |fast: f64| Envelope::ShinozukaSato1967 { slow: 0.5, fast };
+    let sine = |fast: f64| Sine {
+        amplitude: 1.0,
+        frequency: 1.0,
+        phase: 0.0,
+        length: 20.0,
+        envelope: envelope(fast),
+    };
+    for fast in [0.5, 0.4, f64::INFINITY, f64::NAN] {
+        let error = sine(fast).generate(grid(0.01, 20.0)).unwrap_err();
+        assert!(error.to_string().contains("outside (0.5, inf)"), "{error}");
+    }
+    let nearly = 0.5_f64.next_up();
+    assert!(sine(nearly).generate(grid(0.01, 20.0)).is_ok());
+    for t in [0.5_f64, 2.0, 8.0] {
+        let limit = (1.0 - 0.5 * t).exp() * 0.5 * t;
+        near(envelope(nearly).at(t, 20.0), limit, 1e-12);
+        near(envelope(0.5 * (1.0 + 1e-5)).at(t, 20.0), limit, 1e-4);
+    }
+}
+
 /// A motion of each kind of pulse with a period (s), at 10 ms.
 fn of_period(period: f64) -> [Result<Generated, GroundMotionError>; 4] {
     let grid = grid(0.01, 8.0);

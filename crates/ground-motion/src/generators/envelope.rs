@@ -118,7 +118,14 @@ impl Envelope {
             }
             Self::ShinozukaSato1967 { slow, fast } => {
                 positive(STEP, "slower rate", slow)?;
-                within(STEP, "faster rate", fast, slow * (1.0 + 1.0e-6), f64::MAX)?;
+                if !(fast > slow && fast <= f64::MAX) {
+                    return Err(GroundMotionError::OutOfRange {
+                        step: STEP,
+                        name: "faster rate",
+                        value: fast,
+                        range: format!("({}, inf)", bound(slow)),
+                    });
+                }
             }
         }
         let one = self.first_one(duration);
@@ -144,7 +151,10 @@ impl Envelope {
             Self::HalfSine => 0.5 * duration,
             Self::Ramped { rise, .. } | Self::JenningsHousnerTsai1968 { rise, .. } => rise,
             Self::SaragoniHart1974 { power, rate } => power / rate,
-            Self::ShinozukaSato1967 { slow, fast } => libm::log(fast / slow) / (fast - slow),
+            // Rates that are nearly one have their difference to full precision.
+            Self::ShinozukaSato1967 { slow, fast } => {
+                libm::log1p((fast - slow) / slow) / (fast - slow)
+            }
         }
     }
 
@@ -180,7 +190,7 @@ impl Envelope {
                 libm::exp(power * (libm::log(part) + 1.0 - part))
             }
             Self::ShinozukaSato1967 { slow, fast } => {
-                let value = |t: f64| libm::exp(-slow * t) - libm::exp(-fast * t);
+                let value = |t: f64| -libm::exp(-slow * t) * libm::expm1(-(fast - slow) * t);
                 value(time) / value(self.first_one(duration))
             }
         }

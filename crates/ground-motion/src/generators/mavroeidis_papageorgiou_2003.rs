@@ -84,17 +84,7 @@ impl MavroeidisPapageorgiou2003 {
             });
         }
         within(STEP, "phase", self.phase, -TAU, TAU)?;
-        let half = self.half_length();
-        grid.has_room_for(STEP, 2.0 * half)?;
-        // A part of a step: pulses are put at their own half length.
-        let slack = 1.0e-9 * half;
-        within(
-            STEP,
-            "centre",
-            self.centre,
-            half - slack,
-            grid.duration - half + slack,
-        )?;
+        grid.has_room_around(STEP, self.centre, self.half_length())?;
         let step = step
             .number("velocity amplitude", self.amplitude, "m/s")
             .number("frequency", self.frequency, "Hz")

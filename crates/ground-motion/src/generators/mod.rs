@@ -190,6 +190,21 @@ impl TimeGrid {
         })
     }
 
+    /// Refuses a pulse of this length (s) on either side of its centre (s) that the motion does not hold.
+    pub(crate) fn has_room_around(
+        &self,
+        generator: &'static str,
+        centre: f64,
+        half: f64,
+    ) -> Result<(), GroundMotionError> {
+        self.has_room_for(generator, 2.0 * half)?;
+        // A part of a step: pulses are put at their own half length.
+        let slack = 1.0e-9 * half;
+        let (earliest, latest) = (half - slack, self.duration - half + slack);
+        within(generator, "centre", centre, earliest, latest)?;
+        Ok(())
+    }
+
     /// A function of time at the samples.
     pub(crate) fn sample(
         &self,

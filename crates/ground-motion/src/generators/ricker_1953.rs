@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use crate::error::{GroundMotionError, positive, within};
+use crate::error::{GroundMotionError, positive};
 use crate::generators::{Generated, Generator, TimeGrid};
 
 const STEP: &str = Ricker1953::GENERATOR.name;
@@ -18,6 +18,10 @@ pub struct Ricker1953 {
     /// Time t0 of the peak (s); from 1.5 Tp the start is below 1e-7 of the peak.
     pub centre: f64,
 }
+
+/// Periods on either side of the peak that a motion must hold: beyond them the acceleration is below 1e-3 of its
+/// peak, and so is the velocity.
+const SIDE: f64 = 1.0;
 
 impl Ricker1953 {
     /// Name, title and source.
@@ -37,14 +41,15 @@ impl Ricker1953 {
     /// The motion.
     ///
     /// # Errors
-    /// Numbers that are not positive, a period of two time steps or less, or a centre outside the
-    /// duration.
+    /// Numbers that are not positive, a period of two time steps or less, or a pulse that does not fit into the
+    /// duration, with one period on either side of its centre.
     pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
         positive(STEP, "amplitude", self.amplitude)?;
         positive(STEP, "period", self.period)?;
-        within(STEP, "centre", self.centre, 0.0, grid.duration)?;
-        let step = grid
-            .record(STEP, 1.0 / self.period)?
+        let step = grid.record(STEP, 1.0 / self.period)?;
+        let side = SIDE * self.period;
+        grid.has_room_around(STEP, self.centre, side)?;
+        let step = step
             .number("amplitude", self.amplitude, "m/s2")
             .number("period", self.period, "s")
             .number("centre", self.centre, "s");

@@ -10,7 +10,7 @@ use realfft::num_complex::Complex64;
 pub use scenario::{FaultMechanism, RezaeianDerKiureghianScenario};
 
 use crate::distributions::{gamma_exceedance, gamma_quantile, ln_gamma};
-use crate::error::{GroundMotionError, positive, within};
+use crate::error::{GroundMotionError, bound, positive, within};
 use crate::generators::noise::Noise;
 use crate::generators::{Generated, Generator, TimeGrid, WARNING};
 use crate::measures::GRAVITY;
@@ -73,6 +73,10 @@ impl Modulation {
 const BEYOND: f64 = 0.05;
 /// Part up to which a motion is said to hold the Arias intensity.
 const NEARLY_ALL: f64 = 0.999;
+/// Part of the Arias intensity that the high-pass leaves, below which it is said.
+const LITTLE_LOST: f64 = 0.9;
+/// Part of the Arias intensity beyond which a filter that is held at a bound is said.
+const HELD: f64 = 0.01;
 
 impl Modulation {
     /// What is to be said of a duration (s) that ends the motion before 95 % of the Arias intensity
@@ -177,10 +181,70 @@ impl RezaeianDerKiureghian2010 {
         self.modulation().is_ok()
     }
 
-    /// The filter's frequency (rad/s) at a time.
+    /// The filter's frequency (Hz) at a time, by its line.
+    fn line_of_frequency(&self, time: f64) -> f64 {
+        self.middle_frequency + self.frequency_rate * (time - self.middle_time)
+    }
+
+    /// The filter's frequency (rad/s) at a time, held within bounds.
     fn filter_frequency(&self, time: f64, highest: f64) -> f64 {
-        let f = self.middle_frequency + self.frequency_rate * (time - self.middle_time);
-        TAU * f.clamp(LEAST_FREQUENCY, highest)
+        TAU * self.line_of_frequency(time).clamp(LEAST_FREQUENCY, highest)
+    }
+
+    /// What is to be said of a high-pass that takes much of the expected Arias intensity off, and of a
+    /// filter that is held at a bound where more than a trifle of it lies.
+    fn expected_warnings(
+        &self,
+        grid: TimeGrid,
+        count: usize,
+        modulation: &Modulation,
+    ) -> Vec<String> {
+        let nyquist = 0.5 / grid.time_step;
+        let corner = TAU * self.high_pass;
+        let [mut whole, mut kept, mut below, mut above] = [0.0; 4];
+        for i in 0..count {
+            let time = i as f64 * grid.time_step;
+            let square = modulation.at(time).powi(2);
+            let w = self.filter_frequency(time, nyquist);
+            whole += square;
+            kept += square * part_above(corner, w, self.damping);
+            let f = self.line_of_frequency(time);
+            below += if f < LEAST_FREQUENCY { square } else { 0.0 };
+            above += if f > nyquist { square } else { 0.0 };
+        }
+        let mut warnings = Vec::new();
+        if kept < LITTLE_LOST * whole {
+            warnings.push(format!(
+                "{WARNING}the high-pass of {} Hz, which comes after the motion is scaled, takes {:.0} % of the expected Arias intensity off: {} m/s are left of {} m/s; a lower corner takes less, and a larger Arias intensity makes up for it",
+                bound(self.high_pass),
+                100.0 * (1.0 - kept / whole),
+                bound(self.arias_intensity * kept / whole),
+                bound(self.arias_intensity)
+            ));
+        }
+        // A frequency that falls is too low after a time, one that rises before it.
+        let held = |is_below: bool, part: f64, at: f64, what: &str| {
+            (part > HELD * whole).then(|| {
+                let time = self.middle_time + (at - self.middle_frequency) / self.frequency_rate;
+                let when = match is_below == (self.frequency_rate < 0.0) {
+                    true => "from",
+                    false => "until",
+                };
+                format!(
+                    "{WARNING}the frequency of the filter, {} Hz at {} s and {:+} Hz/s, is held at {what}, {when} {} s, where {:.0} % of the expected Arias intensity lie; a frequency rate nearer to zero keeps it within its bounds",
+                    bound(self.middle_frequency),
+                    bound(self.middle_time),
+                    self.frequency_rate,
+                    bound(time),
+                    100.0 * part / whole
+                )
+            })
+        };
+        let least = format!("{LEAST_FREQUENCY} Hz, the lowest of the model");
+        let most = format!("{} Hz, half the sampling rate", bound(nyquist));
+        warnings.extend(held(true, below, LEAST_FREQUENCY, &least));
+        warnings.extend(held(false, above, nyquist, &most));
+        warnings
     }
 
     /// The motion of a seed.
@@ -210,10 +274,9 @@ impl RezaeianDerKiureghian2010 {
             .number("a2", 0.5 * (modulation.shape + 1.0), "-")
             .number("a3", 0.5 * modulation.rate, "1/s")
             .remark(format!("seed {seed}"));
-        let step = match modulation.cut_off(grid.duration) {
-            Some(warning) => step.remark(warning),
-            None => step,
-        };
+        let warnings = modulation.cut_off(grid.duration).into_iter();
+        let expected = self.expected_warnings(grid, count, &modulation);
+        let step = warnings.chain(expected).fold(step, StepRecord::remark);
         grid.finish(samples, step)
     }
 
@@ -247,6 +310,22 @@ impl RezaeianDerKiureghian2010 {
         }
         sum
     }
+}
+
+/// Part of the variance of white noise through the filter of frequency `w` and damping ratio `zeta` that the
+/// high-pass of corner `c` (rad/s) leaves: the integral of `|H|^2`,
+/// `H = s^2/((s + c)^2 (s^2 + 2 zeta w s + w^2))`, by Newland (An Introduction to Random Vibrations, 1975,
+/// appendix 1, n = 4), over that without it, `pi/(2 zeta w^3)`.
+fn part_above(c: f64, w: f64, zeta: f64) -> f64 {
+    // In units of the frequency of the filter.
+    let c = c / w;
+    let [a0, a1, a2, a3] = [
+        c * c,
+        2.0 * c * (1.0 + zeta * c),
+        1.0 + 4.0 * zeta * c + c * c,
+        2.0 * (zeta + c),
+    ];
+    2.0 * zeta * a1 / (a1 * a2 * a3 - a0 * a3 * a3 - a1 * a1)
 }
 
 /// The acceleration z'' of `z'' + 2 w z' + w^2 z = x` from rest, exact for an input

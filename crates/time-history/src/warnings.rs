@@ -711,6 +711,13 @@ impl Warning {
         warnings
     }
 
+    /// That the ground shakes as hardly any record does, by its peak acceleration (m/s2).
+    #[must_use]
+    pub fn of_peak_ground_acceleration(peak: f64) -> Option<Self> {
+        let is_beyond = peak > GROUND_ACCELERATION * STANDARD_GRAVITY;
+        is_beyond.then_some(Self::GroundAcceleration { peak })
+    }
+
     /// What can be said of ground motions, forces and initial state: that the ground shakes as no
     /// record does or stays apart, that all is left at rest, or that the run ends before the
     /// ground shakes most, or before a force is largest.
@@ -723,9 +730,7 @@ impl Warning {
             .chain(further)
             .flat_map(|g| g.samples.iter());
         let peak = samples.fold(0.0_f64, |m, a| m.max(a.abs()));
-        if peak > GROUND_ACCELERATION * STANDARD_GRAVITY {
-            warnings.push(Self::GroundAcceleration { peak });
-        }
+        warnings.extend(Self::of_peak_ground_acceleration(peak));
         warnings.extend(Self::of_rest(system, options));
         let duration = options.duration.unwrap_or_else(|| system.record_duration());
         warnings.extend(system.forces().iter().filter_map(|force| {

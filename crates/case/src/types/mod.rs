@@ -680,6 +680,13 @@ pub fn bare_acceleration(what: &str, value: f64, least: f64) -> Option<String> {
     usual::bare_acceleration(what, value, least)
 }
 
+/// What is said of a velocity of the ground (m/s) that was written without a unit, where no ground reaches
+/// it. `what` has the words for the value and where it stands.
+#[must_use]
+pub fn bare_ground_velocity(what: &str, value: f64) -> Option<String> {
+    usual::bare_ground_velocity(what, value)
+}
+
 impl GroundMotion {
     /// The same of the spectra to which the motion, and that across the row, is scaled.
     #[must_use]

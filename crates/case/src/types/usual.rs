@@ -115,6 +115,17 @@ pub(super) fn bare_acceleration(what: &str, value: f64, least: f64) -> Option<St
     })
 }
 
+/// Peak ground velocity (m/s) that no record has.
+const NO_GROUND_VELOCITY: f64 = 5.0;
+
+/// What is said of a velocity of the ground (m/s) without a unit that no ground reaches.
+pub(super) fn bare_ground_velocity(what: &str, value: f64) -> Option<String> {
+    (value > NO_GROUND_VELOCITY).then(|| {
+        let number = six_digits(value);
+        format!("{what} is {number} m/s, which no ground reaches: was \"{number} cm/s\" meant?")
+    })
+}
+
 /// Dimensions in plan (m) of buildings.
 const PLAN: (f64, f64) = (1.0, 1000.0);
 

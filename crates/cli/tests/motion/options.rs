@@ -481,7 +481,21 @@ fn accelerations_without_a_unit_are_asked_about() {
             "-o",
             &out,
         ];
-        for arguments in [&process[..], &synth] {
+        let sine = |name| {
+            [
+                "synth",
+                name,
+                "--amplitude",
+                peak,
+                "--duration",
+                "5",
+                "-o",
+                &out,
+            ]
+        };
+        let ricker = [&sine("ricker_1953")[..], &["--period", "0.5"]].concat();
+        let sine = [&sine("sine")[..], &["--frequency", "2"]].concat();
+        for arguments in [&process[..], &synth, &ricker, &sine] {
             let output = run(arguments);
             let told = String::from_utf8_lossy(&output.stderr);
             assert!(output.status.success(), "{told}");
@@ -489,4 +503,56 @@ fn accelerations_without_a_unit_are_asked_about() {
             assert_eq!(told.contains("was \"0.3 g\" meant?"), asked, "{told}");
         }
     }
+}
+
+/// Numbers without a unit that no motion has are asked about, and a peak that no record reaches is said.
+#[test]
+fn synth_asks_about_bare_numbers() {
+    let folder = Folder::new();
+    let out = folder.name("made.csv");
+    let said = |arguments: &str| {
+        let mut words: Vec<&str> = arguments.split(' ').collect();
+        words.splice(0..0, ["synth"]);
+        words.extend(["--duration", "120", "-o", &out]);
+        let output = run(&words);
+        let told = String::from_utf8_lossy(&output.stderr);
+        assert!(output.status.success(), "{told}");
+        told.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
+    let boore = "boore_2003 --magnitude 6.5 --seed 1";
+    let near = said(&format!("{boore} --distance 20"));
+    assert!(
+        near.contains("--distance is 20 m") && near.contains("was \"20 km\" meant?"),
+        "{near}"
+    );
+    assert!(near.contains("that the strongest records reach"), "{near}");
+    for usual in ["20km", "20000"] {
+        let usual = said(&format!("{boore} --distance {usual}"));
+        assert!(!usual.contains("warning"), "{usual}");
+    }
+    assert!(!said(&format!("{boore} --distance 20m")).contains("meant?"));
+    let weak = said(&format!("{boore} --distance 20km --stress-parameter 90000"));
+    assert!(
+        weak.contains("--stress-parameter is 90000 Pa") && weak.contains("\"8 MPa\""),
+        "{weak}"
+    );
+    for pulse in [
+        "makris_roussos_2000 --type a --period 2",
+        "mavroeidis_papageorgiou_2003 --frequency 0.5 --gamma 2",
+    ] {
+        let fast = said(&format!("{pulse} --amplitude 80"));
+        assert!(
+            fast.contains("--amplitude is 80 m/s") && fast.contains("was \"80 cm/s\" meant?"),
+            "{fast}"
+        );
+        assert!(fast.contains("that the strongest records reach"), "{fast}");
+        let usual = said(&format!("{pulse} --amplitude 0.8"));
+        assert!(!usual.contains("warning"), "{usual}");
+    }
+    let strong = said("sine --amplitude 3.1g --frequency 2.5");
+    assert!(
+        strong.contains("peak ground acceleration is 3.1"),
+        "{strong}"
+    );
+    assert!(!said("sine --amplitude 3g --frequency 2").contains("warning"));
 }

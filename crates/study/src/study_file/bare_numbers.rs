@@ -1,6 +1,6 @@
 //! What is asked about bare numbers, without a unit, that would be usual in another one.
 
-use pounding_case::{Dimension, bare_acceleration};
+use pounding_case::{Dimension, bare_acceleration, bare_ground_velocity};
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::numbers::six_digits;
 
@@ -25,8 +25,6 @@ const NO_DRIFT_LIMIT: f64 = 0.2;
 const NO_LENGTH: f64 = 5.0;
 /// Force (N) up to which no limit lies.
 const NO_FORCE: f64 = 1000.0;
-/// Peak ground velocity (m/s) that no record has.
-const NO_GROUND_VELOCITY: f64 = 5.0;
 
 /// The greatest number among values.
 fn greatest(values: &Values) -> Option<f64> {
@@ -43,12 +41,8 @@ fn greatest(values: &Values) -> Option<f64> {
 /// scaled, or a velocity that no ground has.
 pub(super) fn of_intensities(measure: &IntensityMeasure, values: &Values) -> Option<String> {
     if *measure == IntensityMeasure::PeakGroundVelocity {
-        let most = greatest(values).filter(|most| *most > NO_GROUND_VELOCITY)?;
-        let number = six_digits(most);
-        return Some(format!(
-            "the greatest `intensity`, {}, is {number} m/s, which no ground reaches: was \"{number} cm/s\" meant?",
-            measure.title()
-        ));
+        let what = format!("the greatest `intensity`, {},", measure.title());
+        return bare_ground_velocity(&what, greatest(values)?);
     }
     if measure.dimension() != Dimension::ACCELERATION {
         return None;

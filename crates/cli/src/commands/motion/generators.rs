@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use pounding_case::{Dimension, bare_acceleration};
+use pounding_case::{Dimension, bare_acceleration, bare_ground_velocity};
 use pounding_ground_motion::generators::{
     Boore2003, CloughPenzien1975, Diminution, FaultMechanism, Generated, KanaiTajimi1960,
     MakrisRoussos2000, MavroeidisPapageorgiou2003, PulseType, RezaeianDerKiureghian2010,
@@ -56,11 +56,43 @@ fn frequency_rate(text: &str) -> Result<f64, Failure> {
     })
 }
 
+/// Least peak acceleration (g) that is usual.
+const LEAST_PEAK: f64 = 0.1;
+/// Least distance (m) that is usual.
+const LEAST_DISTANCE: f64 = 1.0e3;
+/// Least stress parameter (Pa) that earthquakes have.
+const LEAST_STRESS: f64 = 1.0e5;
+
+/// Whether a quantity was written without a unit.
+fn is_bare(text: &str) -> bool {
+    text.trim().parse::<f64>().is_ok()
+}
+
+/// An acceleration, with a question where a number without a unit is as small as none that is asked for.
+fn acceleration(text: &str, name: &str) -> Result<f64, Failure> {
+    let found = value(text, name, Dimension::ACCELERATION)?;
+    let question = bare_acceleration(&format!("--{name}"), found, LEAST_PEAK);
+    if let Some(question) = question.filter(|_| is_bare(text)) {
+        warn(&question);
+    }
+    Ok(found)
+}
+
+/// A velocity of the ground, with a question where a number without a unit is one that no ground reaches.
+fn ground_velocity(text: &str, name: &str) -> Result<f64, Failure> {
+    let found = value(text, name, Dimension::VELOCITY)?;
+    let question = bare_ground_velocity(&format!("--{name}"), found);
+    if let Some(question) = question.filter(|_| is_bare(text)) {
+        warn(&question);
+    }
+    Ok(found)
+}
+
 /// A sine.
 pub fn sine(a: &SineArguments) -> Result<Generated, Failure> {
     let grid = grid(&a.grid)?;
     let motion = Sine {
-        amplitude: value(&a.amplitude, "amplitude", Dimension::ACCELERATION)?,
+        amplitude: acceleration(&a.amplitude, "amplitude")?,
         frequency: frequency(&a.frequency, "frequency")?,
         phase: angle(&a.phase, "phase")?,
         length: match &a.length {
@@ -76,7 +108,7 @@ pub fn sine(a: &SineArguments) -> Result<Generated, Failure> {
 pub fn ricker(a: &RickerArguments) -> Result<Generated, Failure> {
     let period = time(&a.period, "period")?;
     let motion = Ricker1953 {
-        amplitude: value(&a.amplitude, "amplitude", Dimension::ACCELERATION)?,
+        amplitude: acceleration(&a.amplitude, "amplitude")?,
         period,
         centre: match &a.centre {
             Some(text) => time(text, "centre")?,
@@ -91,7 +123,7 @@ pub fn velocity_pulse(a: &MavroeidisPapageorgiouArguments) -> Result<Generated, 
     let frequency = frequency(&a.frequency, "frequency")?;
     let oscillation = number(&a.gamma, "gamma")?;
     let motion = MavroeidisPapageorgiou2003 {
-        amplitude: value(&a.amplitude, "amplitude", Dimension::VELOCITY)?,
+        amplitude: ground_velocity(&a.amplitude, "amplitude")?,
         frequency,
         oscillation,
         phase: angle(&a.phase, "phase")?,
@@ -119,7 +151,7 @@ pub fn trigonometric_pulse(a: &MakrisRoussosArguments) -> Result<Generated, Fail
                 cycles: a.cycles.unwrap_or(1),
             },
         },
-        amplitude: value(&a.amplitude, "amplitude", Dimension::VELOCITY)?,
+        amplitude: ground_velocity(&a.amplitude, "amplitude")?,
         period: time(&a.period, "period")?,
         start: time(&a.start, "start")?,
     };
@@ -134,20 +166,10 @@ struct Ground {
     damping: f64,
 }
 
-/// Least peak acceleration (g) that is usual.
-const LEAST_PEAK: f64 = 0.1;
-
 impl Ground {
     fn of(a: &GroundArguments) -> Result<Self, Failure> {
-        let given = &a.peak_acceleration;
-        let peak = value(given, "peak-acceleration", Dimension::ACCELERATION)?;
-        if given.trim().parse::<f64>().is_ok()
-            && let Some(question) = bare_acceleration("--peak-acceleration", peak, LEAST_PEAK)
-        {
-            warn(&question);
-        }
         Ok(Self {
-            peak,
+            peak: acceleration(&a.peak_acceleration, "peak-acceleration")?,
             factor: number(&a.peak_factor, "peak-factor")?,
             frequency: match &a.ground_frequency {
                 Some(text) => TAU * frequency(text, "ground-frequency")?,
@@ -275,11 +297,22 @@ pub fn rezaeian(a: &RezaeianDerKiureghianArguments) -> Result<Generated, Failure
 
 /// The motion of a point source.
 pub fn boore(a: &BooreArguments) -> Result<Generated, Failure> {
-    let mut source = Boore2003::western_north_america(
-        number(&a.magnitude, "magnitude")?,
-        value(&a.distance, "distance", Dimension::LENGTH)?,
-    );
-    source.stress_parameter = value(&a.stress_parameter, "stress-parameter", Dimension::PRESSURE)?;
+    let distance = value(&a.distance, "distance", Dimension::LENGTH)?;
+    if is_bare(&a.distance) && (0.0..LEAST_DISTANCE).contains(&distance) {
+        let given = a.distance.trim();
+        warn(&format!(
+            "--distance is {given} m, near for an earthquake; a number without unit is in m: was \"{given} km\" meant? If not, write \"{given} m\""
+        ));
+    }
+    let stress = value(&a.stress_parameter, "stress-parameter", Dimension::PRESSURE)?;
+    if is_bare(&a.stress_parameter) && (0.0..LEAST_STRESS).contains(&stress) {
+        let given = a.stress_parameter.trim();
+        warn(&format!(
+            "--stress-parameter is {given} Pa, which no earthquake has; a number without unit is in Pa: write a usual one as \"8 MPa\", which is 80 bar"
+        ));
+    }
+    let mut source = Boore2003::western_north_america(number(&a.magnitude, "magnitude")?, distance);
+    source.stress_parameter = stress;
     source.diminution = Diminution::Kappa(time(&a.kappa, "kappa")?);
     if a.hard_rock {
         source.amplification.clear();

@@ -2,12 +2,14 @@
 
 use pounding_case::Dimension;
 use pounding_ground_motion::generators::{Envelope, Generated, TimeGrid};
+use pounding_time_history::Warning;
 
 use super::words::Words;
 use super::{generators, writing};
 use crate::arguments::value;
 use crate::arguments::{Generator, GridArguments, SynthArguments};
 use crate::failure::Failure;
+use crate::output::warn;
 use crate::progress::Progress;
 
 /// Makes a motion and writes it.
@@ -28,6 +30,10 @@ pub fn synth(arguments: &SynthArguments) -> Result<(), Failure> {
 }
 
 fn finish(made: &Generated, grid: &GridArguments) -> Result<(), Failure> {
+    let peak = made.accelerogram.peak().value.abs();
+    if let Some(warning) = Warning::of_peak_ground_acceleration(peak) {
+        warn(&warning.to_string());
+    }
     let name = made.steps.first().map_or("motion", |s| &*s.step);
     let title = format!("Synthetic motion, {name}");
     writing::finish(&grid.output, &made.accelerogram, &title, None)

@@ -429,9 +429,50 @@ fn the_other_kind_of_file_leads_to_its_command() {
     bench.study("case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.2 g\"]\n[ida]\nhazard = [[1, 1e-3], [2, 1e-2]]\n");
     let told = bench.complaint("ida study.toml", 2);
     assert!(
-        told.contains("the hazard curve: intensities must rise"),
+        told.contains("the hazard curve: point 2: intensities must rise"),
         "{told}"
     );
+}
+
+/// Of a hazard curve in a list the point is named and pointed at, as that of a file with its line.
+#[test]
+fn points_of_a_hazard_list_are_named() {
+    let bench = Bench::new(MIXED);
+    for (points, column, said) in [
+        (
+            "[[0.5, 0.3], [1, 0.06], [2, 0.06], [4, 0.002]]",
+            34,
+            "point 3: intensities must rise and frequencies fall",
+        ),
+        (
+            "[[0.5, 0.3], [0.4, 0.06]]",
+            23,
+            "point 2: intensities must rise",
+        ),
+        (
+            "[[0.5, 0.3], [1, 1e-200]]",
+            23,
+            "point 2: intensities and frequencies must be from 1e-100",
+        ),
+        ("[[0.5, 0.3], [1]]", 23, "point 2: a point is a pair"),
+        ("[[0.5, 0.3]]", 10, "it has fewer than two points"),
+    ] {
+        bench.study(&format!("case = \"case.toml\"\n[[variable]]\nrecords = [\"MOTIONS/el_centro_1940_ns.csv\"]\n[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.2 g\"]\n[ida]\nhazard = {points}\n"));
+        let told = bench.complaint("ida study.toml", 2);
+        assert!(
+            told.contains(&format!("the hazard curve: {said}")),
+            "{told}"
+        );
+        assert!(told.contains(&format!("study.toml:8:{column}")), "{told}");
+    }
+    // The limits of the numbers are those of the schema.
+    let schema: serde_json::Value = serde_json::from_str(&bench.text("schema hazard")).unwrap();
+    for column in schema["items"]["prefixItems"].as_array().unwrap() {
+        assert_eq!(
+            (&column["minimum"], &column["maximum"]),
+            (&1.0e-100.into(), &1.0e100.into())
+        );
+    }
 }
 
 /// Options that could do nothing are errors, not silence.

@@ -8,6 +8,7 @@ use pounding_case::{Dimension, parse_quantity, read_regular_text};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
 use super::IntensityMeasure;
+use super::ida::HAZARD_NUMBERS;
 
 /// Message, with file and line, and remedy.
 pub(super) type Refusal = (String, String);
@@ -65,7 +66,8 @@ impl JsonSchema for Points {
                         "title": "intensity",
                         "description": "Intensity in the measure of the study (SI, or with a unit); a column states its unit",
                         "type": ["number", "string"],
-                        "exclusiveMinimum": 0,
+                        "minimum": HAZARD_NUMBERS.start(),
+                        "maximum": HAZARD_NUMBERS.end(),
                         "names": {
                             "of_any_measure": ANY_INTENSITY,
                             "peak_ground_acceleration": GROUND_ACCELERATION,
@@ -78,7 +80,8 @@ impl JsonSchema for Points {
                         "title": "frequency",
                         "description": "Mean annual frequency with which the intensity is exceeded (1/year); a column states its unit unless its name does",
                         "type": ["number", "string"],
-                        "exclusiveMinimum": 0,
+                        "minimum": HAZARD_NUMBERS.start(),
+                        "maximum": HAZARD_NUMBERS.end(),
                         "names": { "without_unit": ANNUAL, "with_unit": FREQUENCY },
                         "units": PER_YEAR,
                     },

@@ -863,16 +863,20 @@ fn hazard_curve(
 ) -> Option<(HazardCurve, bool)> {
     let Located { value, span } = hazard;
     let mut is_bare = true;
-    let wrong = |reason: &str| {
+    let wrong = |span: Range<usize>, reason: &str| {
         let help = "give intensities (SI, or with a unit) and mean annual frequencies (1/year), intensities rising, frequencies falling";
-        reader.error(span.clone(), format!("the hazard curve: {reason}"), help)
+        reader.error(span, format!("the hazard curve: {reason}"), help)
     };
-    // Of a file with the lines that its points stand in.
-    let (points, lines) = match (value, file) {
+    // With the place of each point, here or in a file, and that of the whole curve.
+    let (points, places, whole) = match (value, file) {
         (Hazard::Points(points), _) => {
-            let points = all(points.into_iter().map(|item| {
-                let Ok([intensity, frequency]) = <[_; 2]>::try_from(item.value()?) else {
-                    reader.errors.record(wrong("a point is a pair"));
+            let points = all(points.into_iter().zip(1..).map(|(item, number)| {
+                let item = item.located()?;
+                let place = (item.span, format!("point {number}: "));
+                let Ok([intensity, frequency]) = <[_; 2]>::try_from(item.value) else {
+                    let (span, name) = place;
+                    let reason = format!("{name}a point is a pair");
+                    reader.errors.record(wrong(span, &reason));
                     return None;
                 };
                 let mut number = |item: Field<Written>, wanted: Option<Dimension>| {
@@ -889,9 +893,10 @@ fn hazard_curve(
                     let value = AnnualFrequency::try_from(item.value).map(f64::from);
                     reader.keep(&item.span, "hazard", value)
                 });
-                intensity.zip(frequency)
+                Some((intensity.zip(frequency)?, place))
             }))?;
-            (points, None)
+            let (points, places): (Vec<_>, Vec<_>) = points.into_iter().unzip();
+            (points, places, (span, String::new()))
         }
         (Hazard::File(_), file) => {
             let refused = |refusals: Vec<hazard_file::Refusal>| {
@@ -903,28 +908,24 @@ fn hazard_curve(
             let points = hazard_file::points(file?, &text, measure?);
             let (points, has_header) = points.map_err(refused).ok()?;
             is_bare = !has_header;
-            let (lines, points) = points.into_iter().unzip();
-            (points, Some((file?, lines)))
+            let file = file?.display();
+            let place = |line| (span.clone(), format!("{file}:{line}: "));
+            let points = points.into_iter().map(|(line, point)| (point, place(line)));
+            let (points, places): (Vec<_>, Vec<_>) = points.unzip();
+            (points, places, (span.clone(), format!("{file}: ")))
         }
     };
     measure?;
     let Some((point, reason)) = HazardCurve::fault(&points) else {
         return Some((HazardCurve { points }, is_bare));
     };
-    let place = lines.map(|(file, lines): (_, Vec<usize>)| {
-        let line = lines
-            .get(point)
-            .map_or(String::new(), |line| format!(":{line}"));
-        format!("{}{line}: ", file.display())
-    });
-    reader
-        .errors
-        .record(wrong(&(place.unwrap_or_default() + reason)));
+    let (span, name) = places.into_iter().nth(point).unwrap_or(whole);
+    reader.errors.record(wrong(span, &(name + reason)));
     None
 }
 
 /// Intensities (SI) and frequencies (1/year) of a hazard curve.
-const USUAL: std::ops::RangeInclusive<f64> = 1.0e-100..=1.0e100;
+pub(super) const HAZARD_NUMBERS: std::ops::RangeInclusive<f64> = 1.0e-100..=1.0e100;
 
 impl HazardCurve {
     /// A curve through these points.
@@ -952,7 +953,7 @@ impl HazardCurve {
             return Some((point, "intensities and frequencies must be above zero"));
         }
         // Power laws of more extreme points leave the range of numbers.
-        let usual = |(a, b): &(f64, f64)| [a, b].into_iter().all(|x| USUAL.contains(x));
+        let usual = |(a, b): &(f64, f64)| [a, b].into_iter().all(|x| HAZARD_NUMBERS.contains(x));
         if let Some(point) = points.iter().position(|p| !usual(p)) {
             return Some((
                 point,

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 
 use crate::number;
-use crate::quantity::SeriesUnit;
+use crate::quantity::{Quantity, SeriesUnit};
 use crate::text::in_brackets;
 
 mod words;
@@ -258,7 +258,8 @@ pub(crate) fn factors(lower: &str) -> Vec<f64> {
     found
 }
 
-/// The line with powers of ten, `10^-3`, `10**-3` and `10^(-3)`, as numbers, `1e-3`.
+/// The line with powers of ten, `10^-3`, `10**-3` and `10^(-3)`, as numbers, `1e-3`. Those that no record is multiplied
+/// by, and exponents that are no whole numbers, stay.
 fn powers_of_ten(lower: &str) -> Cow<'_, str> {
     let mut line = Cow::Borrowed(lower);
     for mark in ["10^", "10**"] {
@@ -269,18 +270,36 @@ fn powers_of_ten(lower: &str) -> Cow<'_, str> {
             let sign = usize::from(bare.starts_with(['-', '+']));
             let digits = bare[sign..].bytes().take_while(u8::is_ascii_digit).count();
             let (exponent, rest) = bare.split_at(sign + digits);
-            from = at + mark.len();
-            if digits > 0 && !before.ends_with(|c: char| c.is_ascii_digit() || c == '.') {
-                let rest = match bare.len() < behind.len() {
-                    true => rest.strip_prefix(')').unwrap_or(rest),
-                    false => rest,
-                };
-                line = Cow::Owned(format!("{before}1e{exponent}{rest}"));
+            let rest = match bare.len() < behind.len() {
+                true => rest.strip_prefix(')').unwrap_or(rest),
+                false => rest,
+            };
+            let ends = |text: &str, of: fn(char) -> bool| text.chars().next_back().is_some_and(of);
+            let part_of_number = |c: char| c.is_ascii_digit() || c == '.';
+            let is_whole = (1..=LONGEST_EXPONENT).contains(&digits)
+                && !(rest.starts_with('.') && rest[1..].starts_with(|c: char| c.is_ascii_digit()));
+            if !is_whole || ends(before, part_of_number) {
+                from = at + mark.len();
+                continue;
             }
+            // `2*10^-3`, `2 x 10^-3`.
+            let mantissa = before.trim_end().strip_suffix(['*', 'x']);
+            let mantissa = mantissa
+                .map(str::trim_end)
+                .filter(|m| ends(m, part_of_number));
+            let number = match mantissa {
+                Some(mantissa) => format!("{mantissa}e{exponent}"),
+                None => format!("{before}1e{exponent}"),
+            };
+            from = number.len();
+            line = Cow::Owned(number + rest);
         }
     }
     line
 }
+
+/// Digits of the exponent of a power of ten at most.
+const LONGEST_EXPONENT: usize = 2;
 
 /// The amplification that a line in lower case states, and nothing else: with other words it may be that of an instrument
 /// or a site, `magnification: 1000 (instrument)`.
@@ -412,7 +431,9 @@ pub(crate) fn unit_in_words(lower: &str) -> Option<&str> {
         rest = behind;
     }
     // `data` may be what the values are of.
-    rest = first_word_of(rest, &VALUES_THEMSELVES)
+    let of_units = first_word_of(rest, &["units"]);
+    rest = of_units
+        .or_else(|| first_word_of(rest, &VALUES_THEMSELVES))
         .or_else(|| first_word_of(before, &VALUES_THEMSELVES))?;
     while let Some(behind) = first_word_of(rest, &ARE_GIVEN) {
         rest = behind;
@@ -422,13 +443,20 @@ pub(crate) fn unit_in_words(lower: &str) -> Option<&str> {
     let unit = of.unwrap_or(rest).trim();
     // A remark in brackets ends the line.
     let (name, remark) = unit.split_at(unit.find(['(', '[']).unwrap_or(unit.len()));
-    let (unit, name) = match AND_SECONDS.iter().find_map(|of| name.strip_suffix(of)) {
-        Some(name) => (name, name),
-        None => (unit, name),
-    };
+    let times = AND_SECONDS.iter().find_map(|of| name.strip_suffix(of));
+    let (unit, name) = times.map_or((unit, name), |name| (name, name));
+    // `units are in cm and seconds` is a system of units.
+    if (of_units.is_some() || times.is_some()) && !is_of_acceleration(name.trim()) {
+        return None;
+    }
     let is_alone = !name.contains([',', ';', ':', '=', '|', '\t'])
         && (remark.is_empty() || remark.find([')', ']']) == Some(remark.len() - 1));
     Some(unit).filter(|unit| is_alone && !unit.is_empty())
+}
+
+/// Whether a text is a unit of acceleration.
+fn is_of_acceleration(text: &str) -> bool {
+    SeriesUnit::parse(text).is_some_and(|unit| unit.quantity == Quantity::Acceleration)
 }
 
 /// What follows the first word of a text, if it is one of these.

@@ -123,6 +123,12 @@ fn units_of_the_values_in_sentences() {
         "Vs30 360; values in m/s",
         "Site depth 30, data in m",
         "Data in columns",
+        "Units are in cm and seconds",
+        "Units are in m and s",
+        "Units in metres and seconds",
+        "Units are in cm",
+        "Units in counts",
+        "Data in m and s",
         "Values in ASCII",
         "Data recorded in Taiwan",
     ] {
@@ -273,6 +279,12 @@ fn factors_in_sentences() {
         ("Multiply by 10^-3", "0.001"),
         ("Multiply values by 10**-3 to get g", "0.001"),
         ("Scale factor = 10^(2)", "100"),
+        ("Multiply by 10**3", "1000"),
+        ("Scale factor = 10**(2)", "100"),
+        ("Multiply by 10**5\u{e9}", "100000"),
+        ("Scale factor: 2*10^-3", "0.002"),
+        ("Scale factor: 2 x 10**2", "200"),
+        ("Multiply by 10^400", "10"),
         ("Escala: 0.1", "0.1"),
         ("Multiply by 0.1", "0.1"),
     ] {
@@ -297,6 +309,8 @@ fn factors_in_sentences() {
         "Scale by hand",
         "Recorded by 2 instruments",
         "Scale the values by 1",
+        "Note 10**2",
+        "Notes 10**3 10^4 10**(5) 110^2",
     ] {
         let recording = read(&plain(&format!("units: g\ndt: 0.02 s\n{line}"))).unwrap();
         assert!(!is_warned_of(&recording, "factor"), "{line}");

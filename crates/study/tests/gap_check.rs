@@ -738,8 +738,12 @@ fn a_gap_of_the_width_of_its_demand_has_no_neighbour() {
         let gap = &again.gaps[0];
         assert_eq!(gap.demand[0], demand);
         assert_eq!(gap.records_driven, 0, "{method}");
+        assert_eq!(gap.records_at_demand, gap.records_in_contact, "{method}");
         assert_eq!(gap.adequate, gap.records_in_contact == 0);
         closed += gap.records_in_contact;
+        let wider = demand * (1.0 + 1e-6);
+        let case = Case::parse(&by.replace("\"25 mm\"", &wider.to_string()), &file).unwrap();
+        assert!(check(&case, &[], &options()).gaps[0].adequate, "{method}");
     }
     assert!(closed > 0, "none of {methods:?} closes it by round-off");
 }

@@ -423,8 +423,7 @@ pub(super) const OF_VALUES: [&str; 20] = [
     "aceleracion",
 ];
 /// Words for the values themselves, in a statement of their unit.
-pub(super) const VALUES_THEMSELVES: [&str; 17] = [
-    "units",
+pub(super) const VALUES_THEMSELVES: [&str; 16] = [
     "values",
     "data",
     "amplitudes",

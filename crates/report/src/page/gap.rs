@@ -289,6 +289,13 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
              the other gap wide enough first."
         ));
     }
+    let at_demand = answer.at(&at("records_at_demand")).as_u64();
+    if let Some(count) = at_demand.filter(|count| *count > 0) {
+        points.push(format!(
+            "Under {count} of them the width is the demand to the last digits, and round-off of the run closes it: a \
+             millionth more suffices."
+        ));
+    }
     if !known {
         points.push(format!(
             "No width is enough: under {} a building collapses without contact.",

@@ -10,10 +10,6 @@ use super::error::CheckError;
 use super::parallel::{Progress, runs_in_parallel};
 use super::records::CaseUnderRecord;
 
-/// Part of a width by which its demand may miss it where a run closes it by round-off: by more, something else drives
-/// the floors together.
-const AT_DEMAND: f64 = 1.0e-6;
-
 /// A contact level of a gap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct GapLevel {
@@ -133,16 +129,17 @@ impl RecordDemand {
         self.demand[gap][level].value > width
     }
 
-    /// Whether the gap closes by this demand: where it exceeds the width of a level, or equals it as far as steps
-    /// that are not exact tell, and the run closed the gap. `levels` are those of the gap.
+    /// Whether the gap closed in the run though its demand is no more than the width of any level, and no other gap did:
+    /// the width is the demand to the last digits, which steps that are not exact miss by round-off.
     #[must_use]
-    pub fn closes_by_demand(&self, gap: usize, levels: &[GapLevel]) -> bool {
+    pub fn closed_at_demand(&self, gap: usize, levels: &[GapLevel]) -> bool {
         let mut all = levels.iter().enumerate();
-        let reaches = |(l, level): (usize, &GapLevel)| {
-            self.demand[gap][l].value >= level.width * (1.0 - AT_DEMAND)
+        let exceeds = all.any(|(l, level)| self.demand_exceeds(gap, l, level.width));
+        let Ok((_, gaps)) = &self.pounding else {
+            return false;
         };
-        let exceeds = |(l, level): (usize, &GapLevel)| self.demand_exceeds(gap, l, level.width);
-        all.clone().any(exceeds) || self.closed(gap) && all.any(reaches)
+        let mut others = gaps.iter().enumerate().filter(|(other, _)| *other != gap);
+        !exceeds && closes(&gaps[gap]) && !others.any(|(_, other)| closes(other))
     }
 
     /// Maximum displacement of the ground on one side of a level relative to that on the

@@ -101,6 +101,8 @@ pub struct GapReport {
     /// Of these, records that close it only because another gap of the row closes: the
     /// demand does not see them.
     pub records_driven: usize,
+    /// Of these, records whose [demand is the width](RecordDemand::closed_at_demand) to the last digits.
+    pub records_at_demand: usize,
     /// Bounds of the probability of contact under records like these, by Clopper and
     /// Pearson (Biometrika 26 (1934) 404), at the confidence asked for.
     pub contact_bounds: (f64, f64),
@@ -443,12 +445,17 @@ fn report(
     let by_record: Vec<Vec<f64>> = records.iter().map(by_level).collect();
     let over_levels = |levels: &Vec<f64>| levels.iter().fold(0.0_f64, |m, d| m.max(*d));
     let demand: Vec<f64> = by_record.iter().map(over_levels).collect();
-    let touches = |r: &&RecordDemand| r.closes_by_demand(place.gap, &levels);
+    let touches = |r: &&RecordDemand| {
+        let mut closed = levels.iter().enumerate();
+        closed.any(|(l, level)| r.demand_exceeds(place.gap, l, level.width))
+    };
+    let at_demand = |r: &&RecordDemand| r.closed_at_demand(place.gap, &levels);
+    let records_at_demand = records.iter().filter(at_demand).count();
     // A building that was hit on its other side can close a gap that it would have left open.
-    let driven = |r: &&RecordDemand| !touches(r) && r.closed(place.gap);
+    let driven = |r: &&RecordDemand| !touches(r) && !at_demand(r) && r.closed(place.gap);
     let records_driven = records.iter().filter(driven).count();
     let touching = records.iter().filter(touches).count();
-    let records_in_contact = touching + records_driven + collapsed;
+    let records_in_contact = touching + records_at_demand + records_driven + collapsed;
     let all = records.len() + collapsed;
     let required = required::required_gap(&demand, collapsed, options);
     let allowed = required.allowed_contacts;
@@ -468,6 +475,7 @@ fn report(
         records_in_contact,
         records_collapsed: collapsed,
         records_driven,
+        records_at_demand,
         suite: SuiteStatistics::of(&demand),
         code: None,
         demand,

@@ -85,14 +85,22 @@ fn records_that_close(gap: &GapReport) -> String {
     )
 }
 
+/// Records that close the gap without a demand beyond its width, and why.
 fn driven(gap: &GapReport) -> String {
-    if gap.records_driven == 0 {
-        return String::new();
+    let mut text = String::new();
+    if gap.records_driven > 0 {
+        text.push_str(&format!(
+            "  under {} of them only because another gap of the row closes: no width by demand or rule sees that, make the other gap wide enough first\n",
+            gap.records_driven
+        ));
     }
-    format!(
-        "  under {} of them only because another gap of the row closes: no width by demand or rule sees that, make the other gap wide enough first\n",
-        gap.records_driven
-    )
+    if gap.records_at_demand > 0 {
+        text.push_str(&format!(
+            "  under {} of them the width is the demand to the last digits, and round-off of the run closes it: a millionth more suffices\n",
+            gap.records_at_demand
+        ));
+    }
+    text
 }
 
 /// A width that is provided (m) in mm: one decimal, or as many as it has.

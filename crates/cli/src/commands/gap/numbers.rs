@@ -226,6 +226,7 @@ struct Gap<'c> {
     adequate: bool,
     records_in_contact: usize,
     records_driven_by_neighbours: usize,
+    records_at_demand: usize,
     contact_probability_bounds: (f64, f64),
     governing_level: usize,
     /// `null` where records that collapse decide.
@@ -573,6 +574,7 @@ impl<'c> Gap<'c> {
             adequate: gap.adequate,
             records_in_contact: gap.records_in_contact,
             records_driven_by_neighbours: gap.records_driven,
+            records_at_demand: gap.records_at_demand,
             contact_probability_bounds: gap.contact_bounds,
             governing_level: gap.governing.level + 1,
             governing: gap.required.by_count.map(|_| Governing {

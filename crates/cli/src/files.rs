@@ -218,7 +218,10 @@ fn kind_of_old(old: &Path, new: &Path) -> Old {
             .strip_prefix("# pounding ")
             .and_then(|of| of.split_once(": "))
         {
-            Some((command, _)) => Some(format!("{command}: {}", lines.next().unwrap_or_default())),
+            Some((command, _)) => {
+                let columns = lines.find(|line| !line.starts_with('#'));
+                Some(format!("{command}: {}", columns.unwrap_or_default()))
+            }
             None => Some(first.to_owned()),
         }
     };

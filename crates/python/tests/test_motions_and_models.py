@@ -170,7 +170,8 @@ def test_periods_are_real_numbers(periods: object) -> None:
         pounding.Motion(periods, 0.02)
     # Numbers that lie in memory are such.
     held = array.array("d", [0.1, 0.2])
-    for numbers in (held, memoryview(held)):
+    in_bytes = memoryview(held.tobytes()).cast("d")
+    for numbers in (held, memoryview(held), in_bytes):
         assert list(motion.spectrum(numbers)["period"].values) == [0.1, 0.2]
 
 

@@ -518,6 +518,14 @@ fn what_is_replaced_is_named() {
         let note = "law.csv is replaced, which was no earlier output of this kind";
         assert_eq!(told.matches(note).count(), told_of, "{table}: {told}");
     }
+    let tables = [("curves.csv", "--csv"), ("table.csv", "--table --csv")];
+    for ((name, option), stiffness) in tables.into_iter().flat_map(|t| [(t, "9e7"), (t, "8e7")]) {
+        let told = message(&run(&format!(
+            "impact linear_elastic -p stiffness={stiffness} {option} {name}"
+        )));
+        assert!(fixture.path(name).exists(), "{told}");
+        assert!(!told.contains(&format!("{name} is replaced")), "{told}");
+    }
     std::fs::create_dir(fixture.path("man")).unwrap();
     std::fs::write(fixture.path("man/pounding-run.1"), "mine\n").unwrap();
     let told = message(&run("man --pages man"));

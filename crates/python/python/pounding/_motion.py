@@ -22,9 +22,9 @@ __all__ = ["Motion", "formats", "measures", "read_motion", "spectrum"]
 
 def _real(values: npt.ArrayLike, name: str, of: str) -> npt.NDArray[np.float64]:
     """Real numbers along one dimension."""
-    # Whose codes of characters would be read as numbers.
-    held = values.obj if isinstance(values, memoryview) else values
-    if isinstance(held, (bytes, bytearray)):
+    # Whose codes of characters would be read as numbers; a view of them that was cast to numbers is of such.
+    of_bytes = isinstance(values, memoryview) and values.format in ("B", "b", "c")
+    if of_bytes or isinstance(values, (bytes, bytearray)):
         what = f"{name} is a {type(values).__name__}, which is no list of numbers"
         raise refused(what, "give real numbers", CaseTypeError)
     try:

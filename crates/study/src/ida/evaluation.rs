@@ -642,9 +642,10 @@ impl Evaluation<'_> {
         records.len()
     }
 
-    /// How many structures have runs.
+    /// The same of structures.
     fn structures(&self) -> usize {
-        let structures: BTreeSet<usize> = self.runs.iter().map(|run| run.structure).collect();
+        let known = self.runs.iter().filter(|run| !run.failed);
+        let structures: BTreeSet<usize> = known.map(|run| run.structure).collect();
         structures.len()
     }
 

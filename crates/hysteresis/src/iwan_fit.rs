@@ -191,6 +191,12 @@ pub enum FitDoubt {
         /// Least and largest amplitude or deformation of the data (m).
         measured: [f64; 2],
     },
+    /// A `phi_2` that was given, beyond which fewer than two of the data lie: a lump of sliders there and what never
+    /// slips act alike.
+    OneStiffness {
+        /// `phi_2` (m).
+        phi_2: f64,
+    },
     /// A straight line, along which nothing slips.
     Straight,
     /// A lump of sliders alone, beside which a density has next to no part.
@@ -231,6 +237,11 @@ impl std::fmt::Display for FitDoubt {
                     millimetres(*largest)
                 )
             }
+            Self::OneStiffness { phi_2 } => write!(
+                f,
+                "fewer than two of the data lie beyond phi_2 = {} mm: they determine the sum of slider_stiffness and residual_stiffness alone",
+                millimetres(*phi_2)
+            ),
             Self::Straight => f.write_str(
                 "the fit is a straight line, along which no slider slips: the data determine neither density, exponent nor phi_2, but the sum of all stiffnesses alone",
             ),
@@ -279,6 +290,10 @@ impl DensityFit {
             value,
             measured: ends,
         }));
+        let held = self.held;
+        if beyond < 2 && held.phi_2 && !held.slider_stiffness && !held.residual_stiffness {
+            doubts.push(FitDoubt::OneStiffness { phi_2 });
+        }
         if self.is_lump_alone() {
             doubts.push(FitDoubt::LumpAlone);
         } else if exponent < -1.0 + 2.0 * LEAST_ABOVE && !self.held.exponent {

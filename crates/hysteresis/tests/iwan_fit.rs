@@ -369,6 +369,29 @@ fn what_is_given_is_held() {
     }
 }
 
+/// Below a `phi_2` that is given, a lump of sliders there and what never slips are one spring.
+#[test]
+fn a_given_phi_2_beyond_the_data_leaves_a_sum_of_stiffnesses() {
+    let truth = document();
+    let curve = MeasuredCurve::Backbone;
+    let measured: Vec<(f64, f64)> = (1..40)
+        .map(|i| 0.02 * f64::from(i) * truth.phi_2)
+        .map(|x| (x, curve.value(&truth, x)))
+        .collect();
+    let doubted = |pairs: &[(&'static str, f64)]| {
+        let start = LawParameters::from_pairs(pairs);
+        let fit = fit_from_many(curve, &measured, &start, FitOptions::default()).unwrap();
+        let doubts = fit.doubts(&measured);
+        doubts.contains(&FitDoubt::OneStiffness { phi_2: truth.phi_2 })
+    };
+    let (phi_2, residual) = (
+        ("phi_2", truth.phi_2),
+        ("residual_stiffness", truth.residual_stiffness),
+    );
+    assert!(doubted(&[phi_2]));
+    assert!(!doubted(&[phi_2, residual]));
+}
+
 /// Without anything left to search for, the density alone is solved for.
 #[test]
 fn one_unknown_takes_one_point() {

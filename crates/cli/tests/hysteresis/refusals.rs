@@ -250,6 +250,15 @@ fn curves_that_cannot_be_fitted_are_refused() {
             "1 row of numbers above zero for 4 unknowns, without 2 rows of cycles that dissipate nothing",
         ],
     );
+    // Below a threshold alone a cycle dissipates nothing.
+    let path = file(folder.path(), "a_mm,d_J\n1,0\n2,5\n3,0\n4,9\n");
+    refused(
+        &format!("iwan_six_parameter --fit {path}"),
+        &[
+            "this cycle dissipates nothing, but one of 2 mm does",
+            "input.csv:4",
+        ],
+    );
     let path = file(folder.path(), "a_mm,d_s\n1,1\n");
     refused(
         &format!("iwan_six_parameter --fit {path}"),

@@ -154,7 +154,7 @@ fn read(
         ),
     };
     let mut pairs: Vec<(f64, f64)> = Vec::new();
-    let (mut places, mut left_out) = (Vec::new(), 0);
+    let (mut places, mut zeros) = (Vec::new(), Vec::new());
     for (place, row) in source.rows(&[&columns])? {
         let (reach, value) = (row[0], row[1]);
         let before = pairs.last().map_or(0.0, |(reach, _)| *reach);
@@ -164,7 +164,7 @@ fn read(
         }
         // Laws with a threshold dissipate nothing below it, and relative errors of nothing are none.
         if !is_backbone && reach > 0.0 && value == 0.0 {
-            left_out += 1;
+            zeros.push((reach, place));
             continue;
         }
         if !(reach > 0.0 && value > 0.0) {
@@ -190,6 +190,19 @@ fn read(
         }
         pairs.push((reach, value));
         places.push(place);
+    }
+    let least = pairs.iter().map(|(reach, _)| *reach);
+    let least = least.fold(f64::INFINITY, f64::min);
+    let left_out = zeros.len();
+    if let Some((_, place)) = zeros.into_iter().find(|(reach, _)| *reach > least) {
+        return Err(source.error(
+            place,
+            format!(
+                "this cycle dissipates nothing, but one of {} mm does",
+                significant(1.0e3 * least)
+            ),
+            "correct the row or leave it out: below a threshold alone a cycle dissipates nothing",
+        ));
     }
     if let Some(fall) = Fall::of(curve, &pairs) {
         let place = places.swap_remove(fall.place);

@@ -215,11 +215,9 @@ impl RezaeianDerKiureghian2010 {
         let mut warnings = Vec::new();
         if kept < LITTLE_LOST * whole {
             warnings.push(format!(
-                "{WARNING}the high-pass of {} Hz, which comes after the motion is scaled, takes {:.0} % of the expected Arias intensity off: {} m/s are left of {} m/s; a lower corner takes less, and a larger Arias intensity makes up for it",
+                "{WARNING}the high-pass of {} Hz, which comes after the motion is scaled, takes {:.0} % of the expected Arias intensity off, and more of a motion that is short beside the periods of its filter; a lower corner takes less",
                 bound(self.high_pass),
                 100.0 * (1.0 - kept / whole),
-                bound(self.arias_intensity * kept / whole),
-                bound(self.arias_intensity)
             ));
         }
         // A frequency that falls is too low after a time, one that rises before it.
@@ -231,7 +229,7 @@ impl RezaeianDerKiureghian2010 {
                     false => "until",
                 };
                 format!(
-                    "{WARNING}the frequency of the filter, {} Hz at {} s and {:+} Hz/s, is held at {what}, {when} {} s, where {:.0} % of the expected Arias intensity lie; a frequency rate nearer to zero keeps it within its bounds",
+                    "{WARNING}the frequency of the filter, {} Hz at {} s and {:+} Hz/s, is held at {what}, {when} {} s, where {:.0} % of the expected Arias intensity lie; a frequency rate nearer to zero, or of another seed where it is drawn, keeps it within its bounds",
                     bound(self.middle_frequency),
                     bound(self.middle_time),
                     self.frequency_rate,

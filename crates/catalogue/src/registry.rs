@@ -50,16 +50,20 @@ impl<D: Descriptor> Registry<D> {
             })
     }
 
-    /// The known name that is meant: one that is nearly so spelt, else one by a word that means
-    /// it, else one of which this is a part, else one that is spelt somehow so. Empty if it is
-    /// like none.
+    /// The known name that is meant: one with the same letters and numbers, else one that but for a slip
+    /// is so spelt, else one by a word that means it, else one that is nearly so spelt, else one of which
+    /// this is a part, else one that is spelt somehow so. Empty if it is like none.
     #[must_use]
     pub fn nearest(&self, name: &str) -> &'static str {
         let known = || self.all.iter().flat_map(|d| names(*d));
-        let nearly = suggestion::nearest_within(name, known(), 1 + name.chars().count() / 4);
+        let within = |most| suggestion::nearest_within(name, known(), most);
+        let nearly = 1 + name.chars().count() / 4;
         let by_part = || known().find(|k| !name.is_empty() && k.contains(name));
-        nearly
+        known()
+            .find(|known| has_parts_of(known, name))
+            .or_else(|| within(nearly.min(SLIP)))
             .or_else(|| self.by_word(name))
+            .or_else(|| within(nearly))
             .or_else(by_part)
             .or_else(|| suggestion::misspelt(name, known()))
             .unwrap_or_default()
@@ -73,6 +77,32 @@ impl<D: Descriptor> Registry<D> {
         let (_, meant) = meanings.find(|(words, _)| words.iter().any(within))?;
         Some(meant)
     }
+}
+
+/// Letters to change that are a slip, and no other word.
+const SLIP: usize = 2;
+
+/// Whether a known name has the letters of this one and begins with its numbers, whatever separates them: `asce7-16` is
+/// `asce_7_2016`.
+fn has_parts_of(known: &str, name: &str) -> bool {
+    let letters = |name: &str| -> String {
+        let letters = name.chars().filter(|c| c.is_alphabetic());
+        letters.flat_map(char::to_lowercase).collect()
+    };
+    let (given, of_known) = (numbers(name), numbers(known));
+    let is_same = |(given, known): (&&str, &&str)| {
+        let is_year = given.len() == 2 && known.len() == 4;
+        given == known || is_year && known.ends_with(*given)
+    };
+    letters(known) == letters(name)
+        && (1..=of_known.len()).contains(&given.len())
+        && given.iter().zip(&of_known).all(is_same)
+}
+
+/// The numbers within a name.
+fn numbers(name: &str) -> Vec<&str> {
+    let numbers = name.split(|c: char| !c.is_ascii_digit());
+    numbers.filter(|number| !number.is_empty()).collect()
 }
 
 fn names<D: Descriptor>(descriptor: &D) -> impl Iterator<Item = &'static str> + use<D> {
@@ -119,7 +149,10 @@ mod tests {
             &Law("linear_spring", &[]),
             &Law("cubic_spring", &[]),
         ],
-        &[(&["elastic", "hooke"], "linear_spring")],
+        &[
+            (&["elastic", "hooke"], "linear_spring"),
+            (&["bent"], "cubic_spring"),
+        ],
     );
 
     #[test]
@@ -134,6 +167,8 @@ mod tests {
             ("bic", "cubic_spring"),
             ("cub_spr", "cubic_spring"),
             ("cobic_sprngs", "cubic_spring"),
+            // Five letters from the linear one, by a word the other.
+            ("linear_bent_spring", "cubic_spring"),
             // Like none.
             ("peer_at2", ""),
         ] {
@@ -152,6 +187,20 @@ mod tests {
         assert_eq!(help("peer_at2").as_deref(), Some(all));
         let names: Vec<_> = ALL.names().collect();
         assert_eq!(names, ["coulomb_friction", "linear_spring", "cubic_spring"]);
+    }
+
+    /// Whatever separates letters and numbers, which are nearer to each other than to those of another name.
+    #[test]
+    fn names_are_known_by_their_letters_and_numbers() {
+        static CODES: Registry<Law> =
+            Registry::new(&[&Law("code_41", &[]), &Law("code_7_2016", &[])], &[]);
+        for (name, nearest) in [
+            ("CODE7-16", "code_7_2016"),
+            ("code 7", "code_7_2016"),
+            ("code41", "code_41"),
+        ] {
+            assert_eq!(CODES.nearest(name), nearest, "{name}");
+        }
     }
 
     #[test]

@@ -41,10 +41,21 @@ pub fn build(
 /// Words of other programs and of the literature, and the model that does what they say; they
 /// are suggested, never taken.
 const SYNONYMS: &[(&[&str], &str)] = &[
+    // The words of several before those within them.
+    (
+        &[
+            "jankowski",
+            "nonlinear_viscoelastic",
+            "non_linear_viscoelastic",
+        ],
+        "jankowski_2005",
+    ),
     (&["kelvin", "voigt", "viscoelastic"], "anagnostopoulos_2004"),
-    (&["jankowski", "nonlinear_viscoelastic"], "jankowski_2005"),
+    (
+        &["hertz", "nonlinear_elastic", "non_linear_elastic"],
+        "hertz_1882",
+    ),
     (&["linear", "spring", "elastic"], "linear_elastic"),
-    (&["hertz", "nonlinear_elastic"], "hertz_1882"),
     (&["muthukumar", "desroches"], "muthukumar_desroches_2006"),
     (&["hunt", "crossley"], "hunt_crossley_1975"),
     (&["lankarani", "nikravesh"], "lankarani_nikravesh_1990"),
@@ -66,6 +77,8 @@ mod tests {
             ("hertz", "hertz_1882"),
             ("jankowski", "jankowski_2005"),
             ("linear_spring", "linear_elastic"),
+            ("linear_viscoelastic", "anagnostopoulos_2004"),
+            ("nonlinear_viscoelastic", "jankowski_2005"),
             // Misspelt, not meant otherwise.
             ("jankowski_2005x", "jankowski_2005"),
             ("kelvin_voit", "kelvin_voigt"),

@@ -1050,6 +1050,10 @@ mod tests {
             ("en1998-1", "eurocode_8_2004"),
             ("en_1998_1_2004", "eurocode_8_2004"),
             ("asce_7_16", "asce_7_2016"),
+            // As near to `asce_41` by letters.
+            ("asce7-16", "asce_7_2016"),
+            ("ASCE 7-22", "asce_7_2022"),
+            ("asce41", "asce_41"),
         ] {
             let help = find_code(wrong).unwrap_err().help().unwrap();
             assert_eq!(help, format!("did you mean \"{meant}\"?"), "{wrong}");

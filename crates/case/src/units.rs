@@ -1,9 +1,13 @@
 //! Quantities with units, at the file boundary only.
 
+mod other_forms;
+
 use std::fmt;
 use std::ops::Range;
 
 use pounding_catalogue::suggestion::letters_to_change;
+
+use other_forms::without_brackets;
 
 /// Powers of kilogram, metre and second. Powers of a length may be fractions, as
 /// in the contact stiffness N/m^1.5. Two dimensions are equal if their powers
@@ -114,6 +118,11 @@ impl fmt::Display for Dimension {
             (Self::FLEXIBILITY, "a flexibility (m/N)"),
             (Self::FLEXURAL_RIGIDITY, "a flexural rigidity (N m2)"),
             (Self::DASHPOT, "a dashpot coefficient (N s/m)"),
+            // Also the coefficient of a damper whose force is proportional to the squared velocity.
+            (
+                Self::new(1.0, -1.0, 0.0),
+                "a mass over a length (kg/m = N s^2/m^2)",
+            ),
             (
                 Self::ENERGY,
                 "a moment, an energy or a rotational stiffness (N m)",
@@ -225,12 +234,18 @@ impl UnitError {
     /// one that gives it.
     #[must_use]
     pub fn help_for(&self, wanted: Option<Dimension>) -> String {
+        if let Some(help) = self.of_form(wanted) {
+            return help;
+        }
         match self {
             Self::Comma { .. } => {
                 "write a decimal point, and nothing between thousands: 3.46, 25000".to_owned()
             }
             Self::NotFinite { .. } => "correct the number".to_owned(),
-            Self::UnknownUnit { text, .. } => {
+            Self::UnknownUnit { text, symbol } => {
+                if let Some(said) = of_tons(text, symbol, wanted) {
+                    return said;
+                }
                 let guess = meant(text, wanted);
                 let guess =
                     guess.map_or_else(String::new, |unit| format!("did you mean \"{unit}\"? "));
@@ -251,6 +266,95 @@ impl UnitError {
         }
     }
 }
+
+impl UnitError {
+    /// What to do about brackets in a unit, and about other signs than blanks between its factors.
+    fn of_form(&self, wanted: Option<Dimension>) -> Option<String> {
+        let (Self::UnknownUnit { text, .. }
+        | Self::Power { text, .. }
+        | Self::Incomplete { text }
+        | Self::Ambiguous { text }) = self
+        else {
+            return None;
+        };
+        let unit = unit_of_text(text);
+        let plain = without_brackets(&unit).filter(|plain| gives(plain, wanted));
+        if unit.contains(['(', ')', '[', ']', '{', '}']) {
+            let write = plain.map_or_else(
+                || {
+                    "all factors before `/` and one `/` for each divisor, as in \"kN s/m\""
+                        .to_owned()
+                },
+                |plain| format!("\"{plain}\""),
+            );
+            return Some(format!("brackets are not read in units: write {write}"));
+        }
+        // A full stop behind a unit is no sign between two.
+        let plain = plain.filter(|plain| plain.contains([' ', '/']))?;
+        matches!(self, Self::UnknownUnit { .. })
+            .then(|| format!("write \"{plain}\": blanks between factors, and powers as in m^2"))
+    }
+}
+
+/// The unit of a text, in plain signs.
+fn unit_of_text(text: &str) -> String {
+    let plain = text.trim();
+    normal(plain[number_length(plain)..].trim())
+}
+
+/// Whether a unit can be read, and is of the dimension that is wanted.
+fn gives(unit: &str, wanted: Option<Dimension>) -> bool {
+    let found = parse_unit(unit, unit).ok();
+    found.is_some_and(|(_, _, found)| wanted.is_none_or(|wanted| wanted == found))
+}
+
+/// What to do about tons, of which there are several.
+fn of_tons(text: &str, symbol: &str, wanted: Option<Dimension>) -> Option<String> {
+    if !matches!(symbol.to_lowercase().as_str(), "ton" | "tons") {
+        return None;
+    }
+    let unit = unit_of_text(text);
+    let fits = |known: &str| gives(&unit.replacen(symbol, known, 1), wanted);
+    if fits("t") {
+        return Some(
+            "a metric ton is \"t\"; a US (short) ton is 907.185 kg or 2000 \"lb\"".to_owned(),
+        );
+    }
+    fits("tf").then(|| {
+        "a metric ton of force is \"tf\"; a US (short) ton of force is 2 \"kip\"".to_owned()
+    })
+}
+
+/// A quantity with a unit of force for that of mass which people call alike, where that is of the dimension that is
+/// wanted; in words.
+pub(crate) fn force_meant(text: &str, wanted: Dimension) -> Option<String> {
+    let plain = text.trim();
+    let (number, unit) = plain.split_at(number_length(plain));
+    let mut terms = Vec::new();
+    let mut replaced = None;
+    for term in unit.split_inclusive(|c: char| !c.is_alphanumeric()) {
+        let symbol = term.trim_end_matches(|c: char| !c.is_alphabetic());
+        let force = OF_WEIGHT.iter().find(|(mass, _, _)| *mass == symbol);
+        match force {
+            Some((mass, force, name)) if replaced.is_none() => {
+                replaced = Some((mass, force, name));
+                terms.push(term.replacen(mass, force, 1));
+            }
+            _ => terms.push(term.to_owned()),
+        }
+    }
+    let (mass, force, name) = replaced?;
+    let with_force = terms.concat();
+    gives(with_force.trim(), Some(wanted))
+        .then(|| format!("{mass} is a mass; {name} of force are {force}: \"{number}{with_force}\""))
+}
+
+/// Units of mass that people use for weights, and those of their weights.
+const OF_WEIGHT: [(&str, &str, &str); 3] = [
+    ("t", "tf", "tonnes"),
+    ("kg", "kgf", "kilograms"),
+    ("lb", "lbf", "pounds"),
+];
 
 /// A unit. Its size in SI units is `up / down`, both exact, so that a decimal
 /// value comes out as the nearest double to what it says wherever possible.
@@ -345,8 +449,7 @@ const MOST_CORRECTED: usize = 3;
 /// make it a unit of the wanted dimension with the fewest letters changed, upper and lower
 /// case apart. The symbol alone where one is wrong, else the whole unit.
 fn meant(text: &str, wanted: Option<Dimension>) -> Option<String> {
-    let plain = text.trim();
-    let unit = normal(plain[number_length(plain)..].trim());
+    let unit = unit_of_text(text);
     let unknown = unknown_symbols(&unit);
     if unknown.is_empty() || unknown.len() > MOST_CORRECTED {
         return None;
@@ -366,11 +469,7 @@ fn meant(text: &str, wanted: Option<Dimension>) -> Option<String> {
         };
         choices = choices.iter().flat_map(put).collect();
     }
-    let fits = |unit: &str| {
-        let found = parse_unit(unit, unit).ok();
-        found.is_some_and(|(_, _, found)| wanted.is_none_or(|wanted| wanted == found))
-    };
-    let fitting = choices.into_iter().filter(|(_, unit)| fits(unit));
+    let fitting = choices.into_iter().filter(|(_, unit)| gives(unit, wanted));
     let (_, corrected) = fitting.min_by_key(|(cost, _)| *cost)?;
     match unknown.as_slice() {
         [one] => {

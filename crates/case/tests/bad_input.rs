@@ -511,3 +511,167 @@ fn units_of_a_case_are_suggested_for_their_key() {
         assert!(help.starts_with(&said), "{help}");
     }
 }
+
+/// Brackets, and other signs than blanks between units, lead to the unit as it can be read, where that is of the
+/// dimension that is wanted.
+#[test]
+fn units_in_other_forms_are_shown_as_they_are_read() {
+    use pounding_case::Dimension;
+    let help = |text: &str, wanted| parse_quantity(text).unwrap_err().help_for(wanted);
+    for (text, wanted, said) in [
+        (
+            "1500 kN/(m/s)",
+            Some(Dimension::DASHPOT),
+            "brackets are not read in units: write \"kN s/m\"",
+        ),
+        (
+            "1500 kN (s/m)^0.5",
+            None,
+            "brackets are not read in units: write \"kN s^0.5/m^0.5\"",
+        ),
+        (
+            "3 kN/(m s^(2))",
+            None,
+            "brackets are not read in units: write \"kN/m/s^2\"",
+        ),
+        (
+            "3 MN/(m)",
+            Some(Dimension::LENGTH),
+            "brackets are not read in units: write all factors before `/`",
+        ),
+        ("1500 kN-s/m", None, "write \"kN s/m\": "),
+        (
+            "1500 kN.s/m",
+            Some(Dimension::DASHPOT),
+            "write \"kN s/m\": ",
+        ),
+        (
+            "1500 kN s m-1",
+            Some(Dimension::DASHPOT),
+            "write \"kN s/m\": ",
+        ),
+        // Of what is wanted is the one without the second.
+        (
+            "1500 kN-s/m",
+            Some(Dimension::STIFFNESS),
+            "did you mean \"kN\"? ",
+        ),
+        // Two ways to read it.
+        ("3 kN/m-s", Some(Dimension::DASHPOT), "known units: "),
+        ("20 mm.", Some(Dimension::LENGTH), "did you mean \"mm\"? "),
+        (
+            "110 ton",
+            Some(Dimension::MASS),
+            "a metric ton is \"t\"; a US (short) ton is 907.185 kg",
+        ),
+        (
+            "110 ton/in",
+            Some(Dimension::STIFFNESS),
+            "a metric ton of force is \"tf\"; a US (short) ton of force is 2 \"kip\"",
+        ),
+    ] {
+        let told = help(text, wanted);
+        assert!(told.starts_with(said), "{text}: {told}");
+    }
+    let refused = |text: &str, wanted| {
+        let fault = parse_quantity(text).unwrap().of(wanted).unwrap_err();
+        format!("{fault:?}")
+    };
+    let told = refused("20.4 t/cm", Dimension::STIFFNESS);
+    assert!(told.contains("is a mass over a length"), "{told}");
+    let said = "t is a mass; tonnes of force are tf: \\\"20.4 tf/cm\\\"";
+    assert!(told.contains(said), "{told}");
+    assert!(refused("3 kg/m", Dimension::STIFFNESS).contains("\"3 kgf/m"));
+    assert!(refused("3 t", Dimension::LENGTH).contains("correct the unit"));
+}
+
+/// What comes with pasted text is named at its place, in texts and comments it is taken.
+#[test]
+fn signs_of_pasted_text_are_named() {
+    for (from, to, line, column, said) in [
+        (
+            "name = \"a\"",
+            "name = \u{201c}a\u{201d}",
+            3,
+            8,
+            "the quotation mark \u{201c} is a typographic one",
+        ),
+        (
+            "name = \"a\"",
+            "name = \"a\u{201d}",
+            3,
+            10,
+            "the quotation mark \u{201d} is a typographic one",
+        ),
+        (
+            "[\"a\", \"b\"]",
+            "[\"a\", \u{2018}b\u{2019}]",
+            17,
+            17,
+            "the quotation mark \u{2018} is a typographic one",
+        ),
+        (
+            "width = ",
+            "width\u{a0}= ",
+            18,
+            6,
+            "a no-break space (U+00A0) stands here",
+        ),
+        (
+            "width = ",
+            "width =\u{200b} ",
+            18,
+            8,
+            "an invisible sign (U+200B) stands here",
+        ),
+        (
+            "height = 3.0",
+            "height = 3,0",
+            14,
+            10,
+            "3,0 has a decimal comma",
+        ),
+        (
+            "{ ratio = 0.05,",
+            "{ ratio = 0,05,",
+            15,
+            21,
+            "0,05 has a decimal comma",
+        ),
+        (
+            "height = 3.0",
+            "height = [3, 3,05]",
+            14,
+            14,
+            "3,05 has a decimal comma",
+        ),
+    ] {
+        assert!(CASE.contains(from), "{from}");
+        let text = CASE.replacen(from, to, 1);
+        let error = Case::parse(&text, Path::new("c")).unwrap_err();
+        let told = error.to_string();
+        assert!(told.contains(said), "{to}: {told}");
+        assert_eq!((error.line, error.column), (line, column), "{to}");
+    }
+    let error = Case::parse("height = 3,05", Path::new("c")).unwrap_err();
+    assert_eq!(
+        error.help.as_deref(),
+        Some("decimals have a point: 3.05"),
+        "{error}"
+    );
+    // Elsewhere in the line such signs are no fault, and the parser speaks.
+    let error = Case::parse("height = 3 m # \u{201c}3,05\u{201d}", Path::new("c")).unwrap_err();
+    assert!(!error.to_string().contains("typographic"), "{error}");
+    let pasted = CASE.replacen("\"20 mm\"", "\"20\u{a0}mm\" # \u{201c}0,05\u{201d}", 1);
+    assert!(Case::parse(&pasted, Path::new("c")).is_ok());
+}
+
+/// A Rayleigh damping that is a number is shown as it is written.
+#[test]
+fn rayleigh_damping_is_shown() {
+    let text = CASE.replacen("{ stiffness_proportional = 0.05 }", "{ rayleigh = 5 }", 1);
+    let error = Case::parse(&text, Path::new("c")).unwrap_err();
+    let help = error.help.unwrap();
+    assert!(help.contains("rayleigh = { alpha = "), "{help}");
+    assert!(help.contains("{ ratio = 0.05, modes = [1, 2] }"), "{help}");
+}

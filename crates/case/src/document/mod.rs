@@ -16,6 +16,7 @@ mod deserializer;
 mod entries;
 mod error;
 mod numbers;
+mod pasted;
 mod schema;
 
 use std::ops::Range;
@@ -128,7 +129,14 @@ impl Reader<'_> {
                     of_second_table = twice.keys;
                     self.error(span, twice.message, twice.help)
                 }
-                None => self.error(span, format!("this is not TOML: {}", e.message()), help),
+                None => match pasted::sign_in(self.source, &span) {
+                    Some(pasted) => self.error(
+                        pasted.place,
+                        format!("this is not TOML: {}", pasted.message),
+                        pasted.help,
+                    ),
+                    None => self.error(span, format!("this is not TOML: {}", e.message()), help),
+                },
             };
             self.errors.record(error);
         }

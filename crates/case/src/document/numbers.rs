@@ -11,7 +11,7 @@ use serde::de::{self, Deserializer, Visitor};
 
 use super::entries::ask;
 use super::error::Fault;
-use crate::units::{Dimension, Quantity, parse_quantity};
+use crate::units::{Dimension, Quantity, force_meant, parse_quantity};
 
 /// A number in SI units or a text with a unit, as written.
 #[derive(Debug, Clone, PartialEq)]
@@ -111,7 +111,7 @@ impl Quantity {
             )),
             Some(found) if found != wanted => Err(Fault::new(
                 format!(" must be {wanted}, but \"{}\" is {found}", self.text),
-                dimension_help(wanted, found),
+                dimension_help(&self.text, wanted, found),
             )),
             _ => Ok(self.value),
         }
@@ -131,7 +131,7 @@ impl Quantity {
     }
 }
 
-fn dimension_help(wanted: Dimension, found: Dimension) -> String {
+fn dimension_help(text: &str, wanted: Dimension, found: Dimension) -> String {
     if wanted == Dimension::MASS && found == Dimension::FORCE {
         "a weight is a force: divide it by g, or write the mass in kg or t".to_owned()
     } else if wanted == Dimension::STIFFNESS && found == Dimension::FORCE {
@@ -140,6 +140,8 @@ fn dimension_help(wanted: Dimension, found: Dimension) -> String {
         "\"g\" is the acceleration of gravity; write the mass in kg or t".to_owned()
     } else if wanted == Dimension::FORCE && found == Dimension::MASS {
         "a mass is no force: write N, kN, MN, kgf, tf, lbf or kip".to_owned()
+    } else if let Some(force) = force_meant(text, wanted) {
+        force
     } else {
         "correct the unit; plain numbers are SI".to_owned()
     }

@@ -128,6 +128,9 @@ enum DampingTable {
 }
 
 #[derive(Clone, Deserialize, JsonSchema)]
+#[serde(
+    expecting = "a table\nfor example rayleigh = { alpha = 0.3, beta = 0.002 }, the factors of mass (1/s) and stiffness (s); ratios in two modes are damping = { ratio = 0.05, modes = [1, 2] }"
+)]
 struct Rayleigh {
     /// Mass factor (1/s)
     alpha: NotNegative<Frequency>,

@@ -666,6 +666,31 @@ fn signs_of_pasted_text_are_named() {
     assert!(Case::parse(&pasted, Path::new("c")).is_ok());
 }
 
+/// Widths of a metre and more without a unit are asked about, up to where a warning says the same of any.
+#[test]
+fn bare_widths_of_gaps_are_asked_about() {
+    let asked = |width: &str| {
+        let text = CASE.replacen("\"20 mm\"", width, 1);
+        Case::parse(&text, Path::new("c")).unwrap().asked
+    };
+    for (width, meant) in [
+        (
+            "2",
+            "`width` of the gap \"a-b\" is 2 m, wide for a joint; a number without unit is in m: was \"2 cm\" or \"2 in\" meant?",
+        ),
+        (
+            "[0.02, 1]",
+            "was \"1 cm\" or \"1 in\" meant? If not, write \"1 m\"",
+        ),
+    ] {
+        let asked = asked(width);
+        assert!(asked.len() == 1 && asked[0].contains(meant), "{asked:?}");
+    }
+    for width in ["0.99", "\"2 m\"", "\"20 mm\"", "[0.02, \"1 m\"]", "20"] {
+        assert!(asked(width).is_empty(), "{width}");
+    }
+}
+
 /// A Rayleigh damping that is a number is shown as it is written.
 #[test]
 fn rayleigh_damping_is_shown() {

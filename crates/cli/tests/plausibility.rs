@@ -456,6 +456,45 @@ fn a_contact_that_is_softer_than_storeys() {
     );
 }
 
+/// Widths of gaps and peaks of records that a study varies are asked about as those of a case.
+#[test]
+fn bare_values_of_paths() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let scaled = CASE.replace("file =", "scale = { pga = \"0.3 g\" }\nfile =");
+    std::fs::write(path.join("case.toml"), scaled).unwrap();
+    std::fs::write(path.join("record.csv"), record()).unwrap();
+    for (entry, values, meant) in [
+        (
+            "ground_motion.scale.pga",
+            "values = [0.2, 0.6, 0.4]",
+            "the greatest of `ground_motion.scale.pga`: `pga` of `scale` is 0.6 m/s2 (0.061183 g)",
+        ),
+        (
+            "ground_motion.scale.pga",
+            "from = 0.2\nto = 0.6\ncount = 2",
+            "was \"0.6 g\" meant?",
+        ),
+        ("ground_motion.scale.pga", "values = [0.2, 5]", ""),
+        ("ground_motion.scale.pga", "values = [\"0.02 g\"]", ""),
+        (
+            "gap.a-b.width",
+            "values = [1, 2]",
+            "was \"2 cm\" or \"2 in\" meant?",
+        ),
+        ("gap.a-b.width", "values = [\"1 m\", \"2 m\"]", ""),
+        ("gap.a-b.width", "values = [0.1, 0.2]", ""),
+    ] {
+        let text = format!("case = \"case.toml\"\n[[variable]]\npath = \"{entry}\"\n{values}\n");
+        std::fs::write(path.join("study.toml"), text).unwrap();
+        let told = pounding(path, &["sweep", "study.toml", "-o", "out.h5"]);
+        match meant {
+            "" => assert!(!told.contains("meant?"), "{values}: {told}"),
+            meant => assert!(told.contains(meant), "{values}: {told}"),
+        }
+    }
+}
+
 /// Peaks and intensities in m/s2 that are usual in g, in every command that scales records.
 #[test]
 fn accelerations_without_a_unit() {

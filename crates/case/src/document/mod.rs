@@ -92,6 +92,12 @@ impl Reader<'_> {
         self.error(span, message, help.replace("{key}", key))
     }
 
+    /// Whether the number that stands here has no unit, which needs quotes.
+    pub(crate) fn is_bare(&self, place: &Range<usize>) -> bool {
+        let written = self.source.get(place.clone()).unwrap_or_default();
+        !written.starts_with(['"', '\''])
+    }
+
     /// Line of a place, from 1.
     #[must_use]
     pub fn line(&self, span: &Range<usize>) -> usize {

@@ -14,7 +14,7 @@ use crate::document::{
     Entry, Field, Force, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader,
     Signed,
 };
-use crate::types::{ContactLevel, Facing, Gap, HitColumns, Located, Side};
+use crate::types::{ContactLevel, Facing, Gap, HitColumns, Located, Side, bare_gap_width};
 
 /// A gap between neighbours, or to a rigid wall
 #[derive(Clone, Deserialize, JsonSchema)]
@@ -79,7 +79,7 @@ enum Wall {
     Fixed,
 }
 
-type Widths = OneOrEach<NotNegative<Length>>;
+type Widths = OneOrEach<Located<NotNegative<Length>>>;
 
 impl GapTable {
     /// Reads a gap; also returns where its `between` stands. Where neighbours, levels or
@@ -96,6 +96,10 @@ impl GapTable {
             levels: self.levels,
             tolerance: self.elevation_tolerance,
             columns: self.column,
+        };
+        let stated: Vec<Located<NotNegative<Length>>> = match &self.width {
+            Field::Given(widths) => widths.value.clone().into_list(),
+            Field::Wrong => Vec::new(),
         };
         let placed = placed(reader, faces, self.width, self.floor_to_floor, row);
         if let (Some((_, placed)), Some(span)) = (&placed, self.wall.span())
@@ -142,8 +146,10 @@ impl GapTable {
             floor_to_floor: false,
             columns: [None, None],
         });
+        let name = name.unwrap_or_else(|| placed.names.join("-"));
+        ask(reader, &name, &stated, &placed, row);
         let gap = Gap {
-            name: name.unwrap_or_else(|| placed.names.join("-")),
+            name,
             between: placed.between,
             levels: placed.levels,
             elevation_tolerance: placed.tolerance,
@@ -159,6 +165,46 @@ impl GapTable {
         };
         Some((gap, place))
     }
+}
+
+/// Asks about the widest of the widths without a unit, unless it is above the height of a storey beside the gap, which a
+/// warning says of widths with a unit too.
+fn ask(
+    reader: &Reader<'_>,
+    name: &str,
+    stated: &[Located<NotNegative<Length>>],
+    placed: &Placed,
+    row: &Row,
+) {
+    let bare = stated.iter().filter(|width| reader.is_bare(&width.span));
+    let widest = bare.map(|width| f64::from(width.value)).fold(0.0, f64::max);
+    let beside = |level: &ContactLevel| {
+        let sides = placed.between.iter().zip([level.left, level.right]);
+        let heights = sides.filter_map(|(side, facing)| storey_height(*side, facing, row));
+        heights.fold(f64::INFINITY, f64::min)
+    };
+    let is_told = |level: &ContactLevel| level.width >= widest && level.width > beside(level);
+    if placed.levels.iter().any(is_told) {
+        return;
+    }
+    let what = format!("`width` of the gap \"{name}\" is");
+    if let Some(question) = bare_gap_width(&what, widest) {
+        reader.errors.ask(question);
+    }
+}
+
+/// Height of the storey (m) that a side of a level belongs to.
+fn storey_height(side: Side, facing: Facing, row: &Row) -> Option<f64> {
+    let Side::Building(building) = side else {
+        return None;
+    };
+    let storey = match facing {
+        Facing::Floor(storey) | Facing::Column { storey, .. } => storey,
+        Facing::Wall => return None,
+    };
+    let floors = row.elevations.get(building)?;
+    let below = storey.checked_sub(1).map_or(Some(&0.0), |s| floors.get(s));
+    Some(floors.get(storey)? - below?)
 }
 
 /// Where a gap lies, and how wide it is.
@@ -199,7 +245,9 @@ fn placed(
             given.value
         }
     };
-    let widths: Vec<f64> = spread(reader, width.located()?, faced.pairs.len(), "contact level")?;
+    let widths: Vec<Located<NotNegative<Length>>> =
+        spread(reader, width.located()?, faced.pairs.len(), "contact level")?;
+    let widths = widths.into_iter().map(|width| f64::from(width.value));
     let pairs = faced.pairs.into_iter().zip(widths);
     let levels = pairs.map(|(([left, right], place), width)| ContactLevel {
         left,

@@ -155,8 +155,7 @@ const LEAST_PEAK: f64 = 0.1;
 /// Asks about the acceleration (m/s2) of a key whose value stands here, if it has no unit and is less
 /// than usual (g).
 fn ask(reader: &Reader<'_>, (key, value): (&str, f64), place: &Range<usize>, least: f64) {
-    let written = reader.source.get(place.clone()).unwrap_or_default();
-    if written.starts_with(['"', '\'']) {
+    if !reader.is_bare(place) {
         return;
     }
     let what = format!("`{key}` of `scale`");

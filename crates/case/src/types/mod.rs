@@ -687,6 +687,13 @@ pub fn bare_ground_velocity(what: &str, value: f64) -> Option<String> {
     usual::bare_ground_velocity(what, value)
 }
 
+/// What is said of the width of a gap (m) that was written without a unit, where hardly a joint is as wide. `what`
+/// has the words for the value and where it stands, with their verb.
+#[must_use]
+pub fn bare_gap_width(what: &str, value: f64) -> Option<String> {
+    usual::bare_gap_width(what, value)
+}
+
 impl GroundMotion {
     /// The same of the spectra to which the motion, and that across the row, is scaled.
     #[must_use]

@@ -126,6 +126,25 @@ pub(super) fn bare_ground_velocity(what: &str, value: f64) -> Option<String> {
     })
 }
 
+/// Width (m) of a gap from which on a number without a unit was more often meant in another one.
+const WIDE_GAP: f64 = 1.0;
+/// Number from which on the width of a gap was meant in millimetres.
+const MANY_MILLIMETRES: f64 = 20.0;
+
+/// What is said of the width of a gap (m) without a unit that hardly a joint has.
+pub(super) fn bare_gap_width(what: &str, value: f64) -> Option<String> {
+    (value >= WIDE_GAP).then(|| {
+        let number = six_digits(value);
+        let meant = match value < MANY_MILLIMETRES {
+            true => format!("\"{number} cm\" or \"{number} in\""),
+            false => format!("\"{number} mm\""),
+        };
+        format!(
+            "{what} {number} m, wide for a joint; a number without unit is in m: was {meant} meant? If not, write \"{number} m\""
+        )
+    })
+}
+
 /// Dimensions in plan (m) of buildings.
 const PLAN: (f64, f64) = (1.0, 1000.0);
 

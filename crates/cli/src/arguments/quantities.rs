@@ -60,6 +60,11 @@ pub fn time_limit(text: &str, option: &str) -> Result<f64, Failure> {
     }
 }
 
+/// Whether a quantity was written without a unit.
+pub fn is_bare(text: &str) -> bool {
+    text.trim().parse::<f64>().is_ok()
+}
+
 /// The value of an option that may be left out.
 pub fn optional(
     text: Option<&str>,

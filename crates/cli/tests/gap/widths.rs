@@ -79,6 +79,25 @@ fn alike_buildings_need_no_sweep() {
     );
     let swept = json(&call(&["--to", "10 mm", "--points", "2", "--json"]))["sweep"].clone();
     assert_eq!(swept["runs"][0][0]["impacts"], 0, "{swept}");
+    // Metres are hardly meant where no unit stands.
+    for (ends, question) in [
+        (
+            ["--from", "20", "--to", "200"],
+            "--to is 200 m, wide for a joint; a number without unit is in m: was \"200 mm\" meant?",
+        ),
+        (
+            ["--from", "0", "--to", "2"],
+            "was \"2 cm\" or \"2 in\" meant?",
+        ),
+        (["--from", "0", "--to", "2 m"], ""),
+        (["--from", "0", "--to", "0.2"], ""),
+    ] {
+        let output = call(&[&ends[..], &["--points", "2"]].concat());
+        let said = text(&output.stderr);
+        let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+        assert_eq!(said.contains("meant?"), !question.is_empty(), "{said}");
+        assert!(said.contains(question), "{said}");
+    }
 }
 
 /// Equal buildings of one storey, whose damping is the same matrix in other words: they move alike but for round-off, which

@@ -52,6 +52,12 @@ impl<'v, 's> Variant<'v, 's> {
         }
     }
 
+    /// What is asked about values that have no unit in the text.
+    pub(crate) fn asked(&self) -> Result<Vec<String>, CaseError> {
+        // The tree has its places in the text before the edits, where units may stand.
+        Ok(self.written()?.asked)
+    }
+
     fn text(&self) -> String {
         apply(self.base.source(), self.edits)
     }

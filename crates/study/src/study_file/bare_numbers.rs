@@ -1,6 +1,6 @@
 //! What is asked about bare numbers, without a unit, that would be usual in another one.
 
-use pounding_case::{Dimension, bare_acceleration, bare_ground_velocity};
+use pounding_case::{Dimension, bare_acceleration, bare_gap_width, bare_ground_velocity};
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::numbers::six_digits;
 
@@ -21,13 +21,13 @@ const STRONGEST_HAZARD: f64 = 1.5;
 const LIMIT_AT_LEAST: f64 = 0.25;
 /// Drift ratio from which on no limit lies.
 const NO_DRIFT_LIMIT: f64 = 0.2;
-/// Displacement (m) from which on no limit lies, and width (m) of no gap between buildings.
+/// Displacement (m) from which on no limit lies.
 const NO_LENGTH: f64 = 5.0;
 /// Force (N) up to which no limit lies.
 const NO_FORCE: f64 = 1000.0;
 
 /// The greatest number among values.
-fn greatest(values: &Values) -> Option<f64> {
+pub(super) fn greatest(values: &Values) -> Option<f64> {
     match values {
         Values::Numbers(numbers) => Some(numbers.iter().copied().fold(0.0, f64::max)),
         Values::Range { from, to, .. } => Some(from.max(*to)),
@@ -106,12 +106,7 @@ pub(super) fn of_hazard(
 
 /// What is said of widths of gaps without a unit, of which the greatest is this (m).
 pub(super) fn of_widths(greatest: f64) -> Option<String> {
-    let number = six_digits(greatest);
-    (greatest > NO_LENGTH).then(|| {
-        format!(
-            "`gaps` go up to {number} m, further than buildings sway: was \"{number} mm\" meant?"
-        )
-    })
+    bare_gap_width("`gaps` go up to", greatest)
 }
 
 /// What is said of a limit without a unit that hardly any demand has in SI units.
@@ -187,6 +182,7 @@ mod tests {
         assert_eq!(limit(DemandKind::ContactForce, 0.0, true), None);
         assert_eq!(limit(DemandKind::ContactForce, 5e5, true), None);
         assert!(of_widths(40.0).unwrap().contains("\"40 mm\""));
+        assert!(of_widths(2.0).unwrap().contains("\"2 cm\""));
         assert_eq!(of_widths(0.4), None);
         let velocity = IntensityMeasure::PeakGroundVelocity;
         let greatest = |x: f64| of_intensities(&velocity, &Values::Numbers(vec![0.1, x]));

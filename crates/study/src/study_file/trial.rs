@@ -7,11 +7,12 @@ use pounding_assembly::parameter_dimension;
 use pounding_case::document::{Reader, Written};
 use pounding_case::{Case, CaseTree, Dimension, Located};
 
+use super::bare_numbers;
 use super::rows::{self, Refused};
 use super::values::unit_of;
 use super::varied_entry::{VariedEntry, set_all, set_numbers};
 use super::{Target, Value, Values};
-use crate::case_text::{Edit, places_of_keys};
+use crate::case_text::{Edit, Variant, places_of_keys};
 
 /// Tries values in the case.
 pub(super) struct Trial<'r> {
@@ -48,6 +49,16 @@ impl Trial<'_> {
                 .map(|quantity| set_numbers(&self.entries, quantity.value));
             (span, given.into_iter().chain(number).collect())
         }))
+    }
+
+    /// What the case asks about the greatest of numbers without a unit, and not about its own.
+    pub(super) fn question(&self, values: &Values) -> Option<String> {
+        let edits = set_numbers(&self.entries, bare_numbers::greatest(values)?);
+        // Where it is refused the case says why.
+        let asked = Variant::new(&self.tree, &edits).asked().ok()?;
+        let new = |question: &String| !self.base.asked.contains(question);
+        let question = asked.into_iter().find(new)?;
+        Some(format!("the greatest of {}: {question}", self.paths))
     }
 
     /// Whether the case takes numbers within a range, which begins at this place, as it does its ends: it does

@@ -346,7 +346,7 @@ impl VariableTable {
             }
             _ => false,
         };
-        let mut unit = String::new();
+        let (mut unit, mut asked) = (String::new(), None);
         let (values, target) = match (first, self.values) {
             (Some(TableOr::Table(_)), Some(Field::Given(list))) if !relative => {
                 models(reader, list, paths.as_deref(), tried)?
@@ -369,7 +369,11 @@ impl VariableTable {
                 let tried = tried?;
                 unit = unit_of_numbers(&places, &tried);
                 let first = places.first().map(|place| place.span.clone());
+                let is_bare = !relative && places.iter().all(|written| written.value.is_plain());
                 tried.numbers(places)?;
+                if is_bare {
+                    asked = tried.question(&values);
+                }
                 tried.inner(&values, first.unwrap_or(place))?;
                 (values, tried.target(Vec::new()))
             }
@@ -381,7 +385,7 @@ impl VariableTable {
             unit,
             values,
             target,
-            asked: None,
+            asked,
         })
     }
 }

@@ -10,7 +10,7 @@ mod text;
 
 use std::path::Path;
 
-use pounding_case::{Case, Dimension, Separation};
+use pounding_case::{Case, Dimension, Separation, bare_gap_width};
 use pounding_files::FileUse;
 use pounding_report::page::Picture;
 use pounding_report::pictures::gap::{amplifications, no_amplification, spectra};
@@ -18,13 +18,13 @@ use pounding_report::{Answered, AnsweredCommand};
 use pounding_study::Deal;
 use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
 
-use crate::arguments::{GapArguments, OutputPath, optional};
+use crate::arguments::{GapArguments, OutputPath, is_bare, optional};
 use crate::asked_separation::{Asked, overridden};
 use crate::deal::{deal, told_part};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::{an_answer_has_a_place, have_a_place};
-use crate::output::{pretty, print};
+use crate::output::{pretty, print, warn};
 use crate::progress::{Progress, Unit, threads};
 use crate::{page, plot};
 
@@ -200,6 +200,18 @@ fn decided_twice(arguments: &GapArguments, set: &[Separation]) -> Option<Failure
 fn options(arguments: &GapArguments) -> Result<GapCheckOptions, Failure> {
     let width = |text: &Option<String>, name| optional(text.as_deref(), name, Dimension::LENGTH);
     let (from, to) = (width(&arguments.from, "from")?, width(&arguments.to, "to")?);
+    // Of two ends the greater says what was meant.
+    let ends = [
+        ("--to", to, &arguments.to),
+        ("--from", from, &arguments.from),
+    ];
+    let bare = ends.into_iter().find_map(|(name, width, text)| {
+        let is_bare = text.as_deref().is_some_and(is_bare);
+        bare_gap_width(&format!("{name} is"), width.filter(|_| is_bare)?)
+    });
+    if let Some(question) = bare {
+        warn(&question);
+    }
     let of_sweep = [
         ("--from", &arguments.from),
         ("--to", &arguments.to),

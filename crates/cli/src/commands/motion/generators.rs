@@ -13,7 +13,7 @@ use super::synth::{envelope, grid};
 use crate::arguments::{
     BooreArguments, CloughPenzienArguments, GroundArguments, KanaiTajimiArguments,
     MakrisRoussosArguments, MavroeidisPapageorgiouArguments, MechanismWord, PulseWord,
-    RezaeianDerKiureghianArguments, RickerArguments, SineArguments, frequency, value,
+    RezaeianDerKiureghianArguments, RickerArguments, SineArguments, frequency, is_bare, value,
 };
 use crate::failure::Failure;
 use crate::output::warn;
@@ -62,11 +62,6 @@ const LEAST_PEAK: f64 = 0.1;
 const LEAST_DISTANCE: f64 = 1.0e3;
 /// Least stress parameter (Pa) that earthquakes have.
 const LEAST_STRESS: f64 = 1.0e5;
-
-/// Whether a quantity was written without a unit.
-fn is_bare(text: &str) -> bool {
-    text.trim().parse::<f64>().is_ok()
-}
 
 /// An acceleration, with a question where a number without a unit is as small as none that is asked for.
 fn acceleration(text: &str, name: &str) -> Result<f64, Failure> {

@@ -8,7 +8,7 @@ use pounding_case::{
     BandSource, Case, CaseError, GivenFiles, GroundMotion, Located, SpectrumSource,
 };
 use pounding_ground_motion::processing::{
-    BandTarget, ProcessingStep, Scale, distinct, process, rotate,
+    BandTarget, ProcessingStep, Scale, along_a_row, distinct, process, rotate,
 };
 use pounding_ground_motion::spectra::TargetSpectrum;
 use pounding_ground_motion::{
@@ -139,7 +139,7 @@ fn processed(
         let made = step.value.with_target(|band| target(case, band))?;
         record = process(&record, &[made]).map_err(refused)?.accelerogram;
     }
-    Ok(record)
+    Ok(along_a_row(record))
 }
 
 /// Reads a record that the case names.

@@ -79,6 +79,25 @@ fn the_example_runs_into_both_walls() {
     assert!(result["warnings"].as_array().unwrap().is_empty());
 }
 
+/// Levels that nobody gave are all floors, up to the roof; to say so is to mean it.
+#[test]
+fn walls_that_are_as_high_as_the_building_are_asked_about() {
+    let asked = |levels: &str| {
+        let (_folder, case) = changed(&[("levels = [1]\n", levels)]);
+        let answer = json(&["check"], &case);
+        let all = answer["warnings"].as_array().unwrap().clone();
+        let all = all.into_iter().filter_map(|w| Some(w.as_str()?.to_owned()));
+        all.filter(|w| w.contains("its wall meets all 4 floors of \"office\""))
+            .collect::<Vec<_>>()
+    };
+    let told = asked("");
+    assert_eq!(told.len(), 2, "{told:?}");
+    assert!(told[0].starts_with("gap left wall: "), "{told:?}");
+    assert!(told[0].contains("`levels = [1]`"), "{told:?}");
+    assert_eq!(asked("levels = \"matching\"\n"), [""; 0]);
+    assert_eq!(asked("levels = [1]\n"), [""; 0]);
+}
+
 /// Without impacts, the clearance that is left is the width less what the gap check finds.
 #[test]
 fn clearance_is_width_less_demand() {

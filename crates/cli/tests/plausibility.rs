@@ -354,6 +354,189 @@ fn values_as_no_building_has_them() {
     );
 }
 
+/// Lists that begin at the wrong end or hold sums, seats in inches, ratios in percent, forces in kN: each ran without a
+/// word.
+#[test]
+fn lists_and_numbers_as_nobody_means_them() {
+    let of_b = "storeys = 2\nmass = \"100 t\"\nstiffness = \"30 MN/m\"\nheight = \"3 m\"";
+    assert!(CASE.contains(of_b));
+    let listed = |stiffness: &str, height: &str| {
+        let lists = format!(
+            "storeys = 4\nmass = \"100 t\"\nstiffness = [{stiffness}]\nheight = [{height}]"
+        );
+        let case = CASE.replace(of_b, &lists);
+        said(&case.replace("width", "levels = \"matching\"\nwidth"))
+    };
+    let elevations = listed("40e6, 38e6, 36e6, 30e6", "3, 6, 9, 12");
+    one(
+        &elevations,
+        &[
+            "b: its storeys are 3 m high at the bottom and 12 m at the top",
+            "grow by 3 m",
+            "were these elevations?",
+        ],
+    );
+    let roof_down = listed("20e6, 25e6, 28e6, 30e6", "3, 3, 3, 3");
+    one(
+        &roof_down,
+        &[
+            "b: its storeys are stiffer from one to the next, 20 MN/m at the bottom and 30 MN/m",
+            "from the roof down?",
+        ],
+    );
+    for sound in [
+        listed("40e6, 38e6, 36e6, 30e6", "3, 3.3, 3.6, 3.9"),
+        listed("30e6, 31e6, 32e6, 33e6", "3, 3, 3, 3"),
+    ] {
+        assert_eq!(sound.check, [""; 0]);
+    }
+    let seat = CASE.replace("width = \"20 mm\"", "width = \"20 mm\"\nseat = 12");
+    one(
+        &said(&seat),
+        &["gap a-b: the seat is 12 m wide", "\"12 in\" 0.305 m"],
+    );
+    let damped = |ratio: &str| {
+        let model =
+            "model = \"anagnostopoulos_2004\"\nstiffness = \"93.5 MN/m\"\nrestitution = 0.65";
+        assert!(CASE.contains(model));
+        let given = model.replace("restitution = 0.65", &format!("damping_ratio = {ratio}"));
+        said(&CASE.replace(model, &given))
+    };
+    one(
+        &damped("5"),
+        &["gap a-b: the `damping_ratio` of its contacts is 5", "0.05"],
+    );
+    assert_eq!(damped("0.05").check, [""; 0]);
+    let modal = |ratio: &str| {
+        said(&CASE.replace(
+            "{ ratio = 0.05, modes = [1, 2] }",
+            &format!("{{ modal = {ratio} }}"),
+        ))
+    };
+    one(
+        &modal("0.0005"),
+        &["b: the damping of its fundamental mode is 0.05 %"],
+    );
+    assert_eq!(modal("0.001").check, [""; 0]);
+    let isolated = |force: &str| {
+        let isolator = format!(
+            "stiffness = [\"30 MN/m\"]\nisolator = {{ model = \"lead_rubber\", post_yield_stiffness = \"1.26 MN/m\", yield_force = {force} }}"
+        );
+        let case = CASE.replacen("stiffness = \"30 MN/m\"", &isolator, 1);
+        said(&case.replace("{ ratio = 0.05, modes = [1, 2] }", "{ modal = 0.05 }"))
+    };
+    one(
+        &isolated("100"),
+        &["b: the strength of its isolators is", "is in N"],
+    );
+    assert_eq!(isolated("\"100 kN\"").check, [""; 0]);
+}
+
+/// E I in kN m2 and a shear in kN, of columns that floors at 2 and 4 m hit.
+#[test]
+fn columns_that_are_next_to_nothing() {
+    let columns = |given: &str| {
+        let case = CASE.replacen("height = \"3 m\"", "height = \"2 m\"", 1);
+        let column = format!(
+            "restitution = 0.65\nlevels = \"all_floors\"\ncolumn = {{ of = \"b\", contact_mass = \"2.4 t\", {given} }}"
+        );
+        said(&case.replace("restitution = 0.65", &column))
+    };
+    let soft = columns("flexural_rigidity = 20000");
+    one(
+        &soft,
+        &[
+            "gap a-b: the columns of b that are hit in storey 1 give 0.0296 %",
+            "20000 N m2",
+        ],
+    );
+    one(
+        &columns("flexural_rigidity = \"20 MN m2\", shear_capacity = 900"),
+        &[
+            "gap a-b: the columns of b that are hit bear a shear of 900 N, 0.0459 %",
+            "in N",
+        ],
+    );
+    let sound = columns("flexural_rigidity = \"20 MN m2\", shear_capacity = \"900 kN\"");
+    let of_columns = |w: &&String| w.contains("the columns of b that are hit");
+    assert_eq!(sound.check.iter().find(of_columns), None);
+}
+
+/// A row of three with one gap; a link leaves none to be missed, too.
+#[test]
+fn neighbours_that_nothing_keeps_apart() {
+    let row = |more: &str| {
+        let third = "[[building]]\nname = \"c\"\nstoreys = 2\nmass = \"50 t\"\nstiffness = \"30 MN/m\"\nheight = \"3 m\"\ndamping = { modal = 0.05 }\n[[gap]]\nbetween = [\"a\"";
+        let case = CASE.replace("[[gap]]\nbetween = [\"a\"", third);
+        said(&format!("{case}{more}"))
+    };
+    one(
+        &row(""),
+        &[
+            "nothing keeps \"b\" and \"c\" apart",
+            "is a [[gap]] missing?",
+        ],
+    );
+    let gap = "[[gap]]\nbetween = [\"b\", \"c\"]\nwidth = \"20 mm\"\nmodel = \"linear_elastic\"\nstiffness = \"93.5 MN/m\"\n";
+    let link = "[[link]]\nbetween = [\"b\", \"c\"]\nmodel = \"linear\"\nstiffness = \"1 MN/m\"\n";
+    for joined in [gap, link] {
+        assert_eq!(row(joined).check, [""; 0], "{joined}");
+    }
+}
+
+#[test]
+fn a_ground_acceleration_that_nobody_feels() {
+    let scaled = |pga: &str, building: &str| {
+        let case = CASE.replace(
+            "file = \"record.csv\"",
+            &format!("file = \"record.csv\"\nscale = {{ pga = \"{pga}\" }}"),
+        );
+        said(&case.replacen("height", &format!("{building}height"), 1))
+    };
+    one(
+        &scaled("0.001 g", ""),
+        &[
+            "the peak ground acceleration is 0.001 g",
+            "unit and scale of the record",
+        ],
+    );
+    assert_eq!(scaled("0.006 g", "").check, [""; 0]);
+    let released = scaled("0.001 g", "initial_displacement = \"1 mm\"\n");
+    assert_eq!(released.check, [""; 0]);
+}
+
+/// Of the case, and of every record that takes its place.
+#[test]
+fn a_vertical_component_along_the_row() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let mut record = "SITE CODE= 41000\n LAT.=  35.0000\n LON.= 135.0000\n SAMPLING RATE= 100Hz\n UNIT  = gal(cm/s/s)\n INITIAL TIME = 2000 01 01 00 00 00\nNS,EW,UD\n".to_owned();
+    for i in 0..300 {
+        let a = 100.0 * (0.1 * f64::from(i)).sin();
+        record.push_str(&format!("{a:.3},{:.3},{:.3}\n", 0.5 * a, -0.7 * a));
+    }
+    std::fs::write(path.join("jma.csv"), record).unwrap();
+    let told = |component: &str| {
+        let motion = format!("file = \"jma.csv\"\ncomponent = \"{component}\"");
+        let case = CASE.replace("file = \"record.csv\"", &motion);
+        let case = case.replace("20 mm", "1 m");
+        std::fs::write(path.join("case.toml"), case).unwrap();
+        let commands = [
+            &["check", "case.toml"][..],
+            &["run", "case.toml", "--no-output"],
+            &["gap", "case.toml", "--points", "0"],
+        ];
+        commands.map(|arguments| {
+            let words = pounding(path, arguments);
+            words
+                .matches("component \"UD\" is vertical, and the buildings")
+                .count()
+        })
+    };
+    assert_eq!(told("UD"), [1; 3]);
+    assert_eq!(told("NS"), [0; 3]);
+}
+
 #[test]
 fn a_gap_wider_than_a_storey_is_high() {
     let said = said(&CASE.replace("20 mm", "20 m"));

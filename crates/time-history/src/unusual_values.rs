@@ -7,6 +7,7 @@ use pounding_shear_building::ShearBuilding;
 
 use crate::elements::Element;
 use crate::estimate::short;
+use crate::soft_contact::stiffness_text;
 use crate::system::{LinkedMotion, System};
 use crate::warnings::{SMALL_MASS, Warning};
 
@@ -17,16 +18,24 @@ const HEIGHT_IN_MILLIMETRES: f64 = 1000.0;
 /// Mass (kg) of hardly any floor of a building, in storeys of at least this height (m): a square metre of a slab has as
 /// much.
 const LEAST_FLOOR: (f64, f64) = (500.0, 2.0);
+/// Storeys from which a list of heights may be one of elevations, and part by which its steps may differ then.
+const ELEVATIONS: (usize, f64) = (3, 0.2);
+/// Storeys from which a list of stiffnesses may be written from the roof down, and last over first from which it is.
+const ROOF_DOWN: (usize, f64) = (4, 1.5);
 /// Damping ratios of the fundamental mode that dampers give at most, and that a structure has at least (-).
-const DAMPING: (f64, f64) = (0.5, 1.0e-4);
+const DAMPING: (f64, f64) = (0.5, 1.0e-3);
+/// Part of a damping ratio that is no more than its round-off.
+const SAME_RATIO: f64 = 1.0e-9;
 /// Period on soil over that on a fixed base (-) beyond which no building is left on such soil.
 const LENGTHENING: f64 = 6.0;
 /// Longest period (s) of isolators after yield or on their dishes.
 const ISOLATED_PERIOD: f64 = 15.0;
 /// Displacement (m) at which no isolator is still to yield.
 const YIELD_DISPLACEMENT: f64 = 0.5;
-/// Width (m) of no seat.
-const SEAT: f64 = 30.0;
+/// Strength of isolators over the weight on them (-) that none of those that yield or slide is below.
+const ISOLATOR_STRENGTH: f64 = 1.0e-3;
+/// Width (m) of no seat, and that from which on millimetres were meant, and not centimetres or inches.
+const SEAT: (f64, f64) = (5.0, 150.0);
 
 /// Deformations (m) to which a link is drawn and pushed, at a metre a second: beyond the last no floors move.
 const DEFORMATIONS: [f64; 9] = [1.0e-5, 1.0e-4, 0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0];
@@ -38,13 +47,13 @@ pub(crate) fn of(system: &System) -> Vec<Warning> {
     let buildings = system.buildings().iter();
     let mut found: Vec<Warning> = buildings.flat_map(|b| of_building(b)).collect();
     let seats = system.gaps().iter();
-    let seats = seats.filter_map(|gap| Some((gap, gap.seat.filter(|seat| *seat > SEAT)?)));
+    let seats = seats.filter_map(|gap| Some((gap, gap.seat.filter(|seat| *seat > SEAT.0)?)));
     found.extend(seats.map(|(gap, seat)| Warning::UnusualValue {
         of: format!("gap {}", gap.name),
         says: format!(
             "the seat is {} m wide, as no seat is: {}",
             short(seat),
-            in_millimetres(seat)
+            in_another_unit(seat, SEAT.1)
         ),
     }));
     let links = (0..system.links().len()).filter_map(|link| weak_link(system, link));
@@ -122,18 +131,27 @@ fn greatest_force(element: &Element) -> f64 {
     forces.fold(at_yield, |most, point| most.max(point.force.abs()))
 }
 
-/// What a length in metres would be if millimetres were meant.
-fn in_millimetres(length: f64) -> String {
+/// What a length in metres would be if millimetres were meant, as beyond this number of them, or centimetres or inches.
+fn in_another_unit(length: f64, in_millimetres: f64) -> String {
     let number = short(length);
-    format!(
-        "check the unit; \"{number} mm\" would be {} m",
-        short(length / 1000.0)
-    )
+    match length > in_millimetres {
+        true => format!(
+            "check the unit; \"{number} mm\" would be {} m",
+            short(length / 1000.0)
+        ),
+        false => format!(
+            "check the unit; \"{number} cm\" would be {} m, and \"{number} in\" {} m",
+            short(0.01 * length),
+            short(0.0254 * length)
+        ),
+    }
 }
 
 fn of_building(building: &ShearBuilding) -> Vec<Warning> {
     let said = [
         height(building),
+        elevations(building),
+        roof_down(building),
         light_floor(building),
         upside_down(building),
         damping(building),
@@ -151,19 +169,56 @@ fn height(building: &ShearBuilding) -> Option<String> {
     let storeys = building.height().iter().enumerate();
     let (storey, height) = storeys.max_by(|a, b| a.1.total_cmp(b.1))?;
     (*height > HEIGHT).then(|| {
-        let meant = match *height > HEIGHT_IN_MILLIMETRES {
-            true => in_millimetres(*height),
-            false => format!(
-                "check the unit; \"{0} cm\" would be {1} m, and \"{0} in\" {2} m",
-                short(*height),
-                short(0.01 * height),
-                short(0.0254 * height)
-            ),
-        };
         format!(
-            "storey {} is {} m high: {meant}",
+            "storey {} is {} m high: {}",
             storey + 1,
-            short(*height)
+            short(*height),
+            in_another_unit(*height, HEIGHT_IN_MILLIMETRES)
+        )
+    })
+}
+
+/// Heights that grow from storey to storey by as much as the first, as elevations do.
+fn elevations(building: &ShearBuilding) -> Option<String> {
+    let (storeys, part) = ELEVATIONS;
+    // That of isolators stands before them.
+    let isolators = usize::from(building.isolator().is_some());
+    let heights = building.height().get(isolators..)?;
+    if heights.len() < storeys {
+        return None;
+    }
+    let (first, last) = (heights.first()?, heights.last()?);
+    let step = (last - first) / (heights.len() - 1) as f64;
+    let like_others = |x: f64, part: f64| ((1.0 - part) * step..=(1.0 + part) * step).contains(&x);
+    let even = heights.windows(2).all(|h| like_others(h[1] - h[0], part));
+    // The lowest storey is often higher than others.
+    let from_ground = (0.5 * step..=2.0 * step).contains(first);
+    (step > 0.0 && even && from_ground).then(|| {
+        format!(
+            "its storeys are {} m high at the bottom and {} m at the top, and grow by {} m from one to the next: heights are of each storey, from the bottom up; were these elevations?",
+            short(*first),
+            short(*last),
+            short(step)
+        )
+    })
+}
+
+/// Stiffnesses of storeys that grow towards the roof, as in a list that begins there.
+fn roof_down(building: &ShearBuilding) -> Option<String> {
+    let (storeys, times) = ROOF_DOWN;
+    let own = building.without_foundation();
+    if own.elastic_stiffness_matrix().is_some() {
+        return None;
+    }
+    let isolators = usize::from(own.isolator().is_some());
+    let stiffness = own.stiffness().get(isolators..)?;
+    let (first, last) = (stiffness.first()?, stiffness.last()?);
+    let grow = stiffness.windows(2).all(|k| k[1] > k[0]);
+    (stiffness.len() >= storeys && grow && *last >= times * first).then(|| {
+        format!(
+            "its storeys are stiffer from one to the next, {} at the bottom and {} at the top: lists begin at the bottom; was this one written from the roof down?",
+            stiffness_text(*first),
+            stiffness_text(*last)
         )
     })
 }
@@ -226,9 +281,9 @@ fn damping(building: &ShearBuilding) -> Option<String> {
             "the damping of its fundamental mode is {percent} % of the critical one, more than dampers give: of `rayleigh` alpha is the factor of the masses (1/s), beta that of the stiffnesses (s); of dashpots check the unit"
         ));
     }
-    (ratio > 0.0 && ratio < DAMPING.1).then(|| {
+    (ratio > 0.0 && ratio < (1.0 - SAME_RATIO) * DAMPING.1).then(|| {
         format!(
-            "the damping of its fundamental mode is {percent} % of the critical one, as good as none: check the unit; dashpots without one are in N s/m"
+            "the damping of its fundamental mode is {percent} % of the critical one, as good as none: check the unit; a ratio of 5 % is 0.05, and dashpots without a unit are in N s/m"
         )
     })
 }
@@ -260,6 +315,14 @@ fn isolators(building: &ShearBuilding) -> Vec<String> {
         said.push(format!(
             "its isolators yield at {} m, further than any moves: they never do",
             short(made.yield_displacement)
+        ));
+    }
+    // Plain rubber has none.
+    if made.strength > 0.0 && made.strength < ISOLATOR_STRENGTH * made.weight {
+        said.push(format!(
+            "the strength of its isolators is {} N, {} % of the weight on them, as good as none: check its unit; a `yield_force` without one is in N, and a `strength` or friction of 5 % is 0.05",
+            short(made.strength),
+            short(100.0 * made.strength / made.weight)
         ));
     }
     said

@@ -30,6 +30,8 @@ pub(crate) const SMALL_MASS: (f64, f64, f64) = (1000.0, 2.0, 0.2);
 const YIELD_DRIFT_RATIO: f64 = 5.0e-5;
 /// Peak ground acceleration (g) that strong records hardly exceed.
 const GROUND_ACCELERATION: f64 = 3.0;
+/// Peak ground acceleration (g) that is hardly felt.
+const FELT: f64 = 0.005;
 /// Drift ratio beyond which buildings are no longer what the case says.
 const DRIFT_RATIO: f64 = 0.1;
 /// Part by which fixed steps of an implicit method may lengthen a fundamental period, or shorten it.
@@ -155,6 +157,11 @@ pub enum Warning {
     },
     /// A ground acceleration that hardly any record has.
     GroundAcceleration {
+        /// Peak (m/s2).
+        peak: f64,
+    },
+    /// A ground acceleration that is hardly felt, where nothing else moves the buildings.
+    WeakGroundAcceleration {
         /// Peak (m/s2).
         peak: f64,
     },
@@ -387,6 +394,11 @@ impl fmt::Display for Warning {
             Self::GroundAcceleration { peak } => write!(
                 f,
                 "the peak ground acceleration is {} g, more than the {GROUND_ACCELERATION} g that the strongest records reach: are unit and scale of the record right?",
+                short(peak / STANDARD_GRAVITY)
+            ),
+            Self::WeakGroundAcceleration { peak } => write!(
+                f,
+                "the peak ground acceleration is {} g, less than the {FELT} g that are felt: are unit and scale of the record right?",
                 short(peak / STANDARD_GRAVITY)
             ),
             Self::EndsBeforePeak {
@@ -719,7 +731,7 @@ impl Warning {
     }
 
     /// What can be said of ground motions, forces and initial state: that the ground shakes as no
-    /// record does or stays apart, that all is left at rest, or that the run ends before the
+    /// record does, hardly shakes or stays apart, that all is left at rest, or that the run ends before the
     /// ground shakes most, or before a force is largest.
     #[must_use]
     pub fn of_excitation(system: &System, options: &RunOptions) -> Vec<Self> {
@@ -731,6 +743,10 @@ impl Warning {
             .flat_map(|g| g.samples.iter());
         let peak = samples.fold(0.0_f64, |m, a| m.max(a.abs()));
         warnings.extend(Self::of_peak_ground_acceleration(peak));
+        let is_weak = peak > 0.0 && peak < FELT * STANDARD_GRAVITY;
+        if is_weak && !is_pushed_or_released(system) {
+            warnings.push(Self::WeakGroundAcceleration { peak });
+        }
         warnings.extend(Self::of_rest(system, options));
         let duration = options.duration.unwrap_or_else(|| system.record_duration());
         warnings.extend(system.forces().iter().filter_map(|force| {

@@ -5,11 +5,16 @@ use std::sync::Arc;
 use pounding_case::{
     Building, Case, CaseError, ContactLevel, Errors, Facing, Gap, HitColumns, Located, Side,
 };
+use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_gap_element::{GapElementError, ImpactModel, in_series};
 use pounding_shear_building::{ColumnError, ContactLine, HitColumn, HitLine, decimal};
-use pounding_time_history::{BuildingPoint, Floor, LevelResponse, System};
+use pounding_time_history::{BuildingPoint, Floor, LevelResponse, System, short};
 
 use crate::error::AssemblyError;
+
+/// Stiffness of columns over that of their storey (-), and shear that they bear over the weight of their building (-),
+/// below which none are: a thousandth of what columns have is below both.
+const LEAST: (f64, f64) = (0.01, 0.001);
 
 /// A level of a gap at which columns are hit.
 #[derive(Debug, Clone, Copy)]
@@ -69,6 +74,62 @@ pub(super) fn never_hit(case: &Case) -> Vec<String> {
         }
     }
     told
+}
+
+/// Columns of each gap that are as soft or as weak as none are, in words: of a case whose columns can be hit.
+pub(super) fn unlikely(case: &Case) -> Vec<String> {
+    let hits = Hits::of(case);
+    let lines = hits.as_ref().map_or(&[][..], |hits| &hits.lines);
+    let mut told: Vec<String> = Vec::new();
+    let mut gaps: Vec<(usize, usize)> = Vec::new();
+    for hit in lines.iter().filter_map(|line| line.hits.first()) {
+        let gap = (hit.gap.0, hit.side);
+        let of_hit: Vec<String> = [soft(case, hit), weak(case, hit)]
+            .into_iter()
+            .flatten()
+            .collect();
+        if !of_hit.is_empty() && !gaps.contains(&gap) {
+            gaps.push(gap);
+            told.extend(of_hit);
+        }
+    }
+    told
+}
+
+/// Columns that are next to nothing of their storey.
+fn soft(case: &Case, hit: &Hit<'_>) -> Option<String> {
+    let b = &case.buildings[hit.building];
+    // A matrix does not say what a storey is.
+    let stiffness = *b.stiffness.get(hit.storey)?;
+    let own = hit.column.storey_stiffness();
+    (own < LEAST.0 * stiffness).then(|| {
+        format!(
+            "gap {}: the columns of {} that are hit in storey {} give {} % of its stiffness, {} of {} N/m: check the unit of `flexural_rigidity`, {} N m2; a number without one is in N m2",
+            hit.gap.1.name,
+            b.name.value,
+            hit.storey + 1,
+            short(100.0 * own / stiffness),
+            short(own),
+            short(stiffness),
+            short(hit.given.value.flexural_rigidity)
+        )
+    })
+}
+
+/// Columns that bear next to nothing.
+fn weak(case: &Case, hit: &Hit<'_>) -> Option<String> {
+    let b = &case.buildings[hit.building];
+    let capacity = hit.given.value.shear_capacity?;
+    let weight = STANDARD_GRAVITY * b.mass.iter().sum::<f64>();
+    (capacity < LEAST.1 * weight).then(|| {
+        format!(
+            "gap {}: the columns of {} that are hit bear a shear of {} N, {} % of its weight: check the unit of `shear_capacity`; a number without one is in N",
+            hit.gap.1.name,
+            b.name.value,
+            short(capacity),
+            short(100.0 * capacity / weight)
+        )
+    })
 }
 
 impl<'c> Hits<'c> {

@@ -10,6 +10,7 @@ mod laws;
 mod method;
 mod motions;
 mod plan;
+mod unlikely;
 
 pub use again::{assemble_with_record, assemble_without_gaps, regap};
 pub use laws::{parameters_of_link, parameters_of_storeys};
@@ -137,10 +138,12 @@ fn of_record(case: &Case, files: &RecordFiles, whose: Whose) -> Result<Assembly,
     })
 }
 
-/// What a case gives and nothing uses, frames beside their building, and parameters of spectra that no code has, in
-/// words: each once, with motions that are out of step.
+/// What a case gives and nothing uses, frames beside their building, columns, rows, contacts and parameters of spectra
+/// as none are, in words: each once, with motions that are out of step.
 fn unused(case: &Case, out_of_step: Vec<String>) -> Vec<String> {
     let mut told = column::never_hit(case);
+    told.extend(column::unlikely(case));
+    told.extend(unlikely::unlikely(case));
     told.extend(method::without_effect(case));
     told.extend(plan::frames_outside(case));
     told.extend(out_of_step);

@@ -91,6 +91,7 @@ impl GapTable {
         row: &Row,
     ) -> Option<(Gap, Option<Range<usize>>)> {
         let name = name(reader, self.name, "gap");
+        let by_default = self.levels.is_none();
         let faces = Faces {
             between: self.between,
             levels: self.levels,
@@ -163,6 +164,9 @@ impl GapTable {
             spring,
             parameters,
         };
+        if by_default {
+            ask_of_moat(reader, &gap, row);
+        }
         Some((gap, place))
     }
 }
@@ -205,6 +209,26 @@ fn storey_height(side: Side, facing: Facing, row: &Row) -> Option<f64> {
     let floors = row.elevations.get(building)?;
     let below = storey.checked_sub(1).map_or(Some(&0.0), |s| floors.get(s));
     Some(floors.get(storey)? - below?)
+}
+
+/// Asks about a wall that meets all floors of a building on isolators because nobody said which: moats end at the slab
+/// above the isolators.
+fn ask_of_moat(reader: &Reader<'_>, gap: &Gap, row: &Row) {
+    let building = match gap.between {
+        [Side::Building(b), Side::Wall] | [Side::Wall, Side::Building(b)] => row.readable.get(b),
+        _ => None,
+    };
+    let Some(building) = building.filter(|b| b.isolator.is_some()) else {
+        return;
+    };
+    if gap.levels.len() > 1 {
+        reader.errors.ask(format!(
+            "gap {}: its wall meets all {} floors of \"{}\", which stands on isolators, up to the roof: the wall of a moat meets the slab above the isolators alone, `levels = [1]`; `levels = \"matching\"` says that this wall is as high as the building",
+            gap.name,
+            gap.levels.len(),
+            building.name.value
+        ));
+    }
 }
 
 /// Where a gap lies, and how wide it is.

@@ -199,12 +199,29 @@ pub fn across_one_another(
     along: &Accelerogram,
     across: &Accelerogram,
 ) -> Result<(), GroundMotionError> {
-    let is_vertical = |of| matches!(direction(of), Some(Direction::Up | Direction::Down));
     let of_one_file = of_one_file(along, across) && !is_one_series(along, across);
     if of_one_file || is_vertical(along) || is_vertical(across) {
         at_right_angles(along, across).map_err(of_across)?;
     }
     Ok(())
+}
+
+/// A record under which buildings of a row move along it: with a warning where it is a vertical component.
+#[must_use]
+pub fn along_a_row(record: Accelerogram) -> Accelerogram {
+    let component = record.origin().map(|origin| origin.component.as_str());
+    let said = is_vertical(&record).then(|| {
+        format!(
+            "component \"{}\" is vertical, and the buildings are shaken by it along their row: was a horizontal one meant?",
+            component.unwrap_or_default()
+        )
+    });
+    record.warned(said.as_deref())
+}
+
+/// Whether a component is known to point up or down.
+fn is_vertical(of: &Accelerogram) -> bool {
+    matches!(direction(of), Some(Direction::Up | Direction::Down))
 }
 
 /// Whether two records are the same component of one file, or of a copy of it, as the one record that there is may stand for

@@ -19,8 +19,8 @@ use crate::unit::AccelerationUnit;
 pub use baseline::{Baseline, SegmentWindow};
 pub use butterworth::{Butterworth, Phase};
 pub use components::{
-    RotatedPair, across_one_another, distinct, fault_components, is_one_series, rotate,
-    start_together, starts_apart, starts_later,
+    RotatedPair, across_one_another, along_a_row, distinct, fault_components, is_one_series,
+    rotate, start_together, starts_apart, starts_later,
 };
 pub(crate) use components::{Together, at_right_angles, together};
 pub use resampling::{Interpolation, to_even_steps};

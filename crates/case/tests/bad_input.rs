@@ -645,6 +645,21 @@ fn signs_of_pasted_text_are_named() {
             14,
             "3,05 has a decimal comma",
         ),
+        (
+            "height = 3.0",
+            "height = 3,000",
+            14,
+            10,
+            "3,000 has a comma within the number",
+        ),
+        (
+            "name = \"a\"",
+            "```toml\nname = \"a\"",
+            3,
+            1,
+            "``` is a sign of Markdown",
+        ),
+        ("name = \"a\"", "name = `a`", 3, 8, "` is no quotation mark"),
     ] {
         assert!(CASE.contains(from), "{from}");
         let text = CASE.replacen(from, to, 1);
@@ -658,6 +673,21 @@ fn signs_of_pasted_text_are_named() {
         error.help.as_deref(),
         Some("decimals have a point: 3.05"),
         "{error}"
+    );
+    // In a list of several lines a missing comma is no decimal one, and the mark of a comment ends no text.
+    for (text, sign) in [
+        ("height = [ # [\n  100,200 300\n]\n", "comma within"),
+        ("height = [ # [\n  100,200 300\n]\n", "decimal comma"),
+        ("name = \"a # see \u{201c}plan\u{201d}\n", "typographic"),
+    ] {
+        let error = Case::parse(text, Path::new("c")).unwrap_err();
+        assert!(!error.to_string().contains(sign), "{error}");
+    }
+    let error = Case::parse("mass = 100,000", Path::new("c")).unwrap_err();
+    let help = error.help.unwrap_or_default();
+    assert!(
+        help.contains("100.000") && help.contains("100000"),
+        "{help}"
     );
     // Elsewhere in the line such signs are no fault, and the parser speaks.
     let error = Case::parse("height = 3 m # \u{201c}3,05\u{201d}", Path::new("c")).unwrap_err();

@@ -52,6 +52,15 @@ const SYNONYMS: &[(&[&str], &str)] = &[
     ),
     (&["kelvin", "voigt", "viscoelastic"], "anagnostopoulos_2004"),
     (
+        &[
+            "hertz_damped",
+            "hertz_damping",
+            "hertz_damper",
+            "damped_hertz",
+        ],
+        "muthukumar_desroches_2006",
+    ),
+    (
         &["hertz", "nonlinear_elastic", "non_linear_elastic"],
         "hertz_1882",
     ),
@@ -75,6 +84,7 @@ mod tests {
             ("kelvin-voigt-model", "anagnostopoulos_2004"),
             ("rigid", "stereomechanical"),
             ("hertz", "hertz_1882"),
+            ("hertz_damped", "muthukumar_desroches_2006"),
             ("jankowski", "jankowski_2005"),
             ("linear_spring", "linear_elastic"),
             ("linear_viscoelastic", "anagnostopoulos_2004"),

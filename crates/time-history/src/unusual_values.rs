@@ -191,8 +191,8 @@ fn elevations(building: &ShearBuilding) -> Option<String> {
     let step = (last - first) / (heights.len() - 1) as f64;
     let like_others = |x: f64, part: f64| ((1.0 - part) * step..=(1.0 + part) * step).contains(&x);
     let even = heights.windows(2).all(|h| like_others(h[1] - h[0], part));
-    // The lowest storey is often higher than others.
-    let from_ground = (0.5 * step..=2.0 * step).contains(first);
+    // The lowest storey is often higher than others; one of twice the step, as of 3, 4.5 and 6 m, is no first elevation.
+    let from_ground = (0.5 * step..=1.6 * step).contains(first);
     (step > 0.0 && even && from_ground).then(|| {
         format!(
             "its storeys are {} m high at the bottom and {} m at the top, and grow by {} m from one to the next: heights are of each storey, from the bottom up; were these elevations?",
@@ -203,7 +203,8 @@ fn elevations(building: &ShearBuilding) -> Option<String> {
     })
 }
 
-/// Stiffnesses of storeys that grow towards the roof, as in a list that begins there.
+/// Stiffnesses of storeys that grow towards the roof, as in a list that begins there. Columns that are alike are stiffer in
+/// lower storeys of less height, by its third power, and the lowest storey may be a soft one.
 fn roof_down(building: &ShearBuilding) -> Option<String> {
     let (storeys, times) = ROOF_DOWN;
     let own = building.without_foundation();
@@ -213,8 +214,15 @@ fn roof_down(building: &ShearBuilding) -> Option<String> {
     let isolators = usize::from(own.isolator().is_some());
     let stiffness = own.stiffness().get(isolators..)?;
     let (first, last) = (stiffness.first()?, stiffness.last()?);
-    let grow = stiffness.windows(2).all(|k| k[1] > k[0]);
-    (stiffness.len() >= storeys && grow && *last >= times * first).then(|| {
+    let heights = own.height().get(isolators..)?;
+    let columns = stiffness.iter().zip(heights).map(|(k, h)| k * h.powi(3));
+    let columns: Vec<f64> = columns.collect();
+    let grow = [stiffness, &columns].map(|of| of.windows(2).all(|k| k[1] > k[0]));
+    let [.., highest] = columns.as_slice() else {
+        return None;
+    };
+    let are_many = columns.len() >= storeys && *highest >= times * columns[1];
+    (are_many && grow == [true; 2]).then(|| {
         format!(
             "its storeys are stiffer from one to the next, {} at the bottom and {} at the top: lists begin at the bottom; was this one written from the roof down?",
             stiffness_text(*first),

@@ -5,16 +5,17 @@ use std::sync::Arc;
 use pounding_case::{
     Building, Case, CaseError, ContactLevel, Errors, Facing, Gap, HitColumns, Located, Side,
 };
-use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_gap_element::{GapElementError, ImpactModel, in_series};
 use pounding_shear_building::{ColumnError, ContactLine, HitColumn, HitLine, decimal};
 use pounding_time_history::{BuildingPoint, Floor, LevelResponse, System, short};
 
 use crate::error::AssemblyError;
 
-/// Stiffness of columns over that of their storey (-), and shear that they bear over the weight of their building (-),
-/// below which none are: a thousandth of what columns have is below both.
-const LEAST: (f64, f64) = (0.01, 0.001);
+/// Flexural rigidity (N m2) below which no columns of a building are (a steel section of 100 mm has twice as much), where they
+/// give their storey less than this part of its stiffness (-), too.
+const LEAST_RIGIDITY: (f64, f64) = (5.0e5, 0.01);
+/// Shear (N) below which no columns bear.
+const LEAST_CAPACITY: f64 = 5.0e3;
 
 /// A level of a gap at which columns are hit.
 #[derive(Debug, Clone, Copy)]
@@ -102,7 +103,8 @@ fn soft(case: &Case, hit: &Hit<'_>) -> Option<String> {
     // A matrix does not say what a storey is.
     let stiffness = *b.stiffness.get(hit.storey)?;
     let own = hit.column.storey_stiffness();
-    (own < LEAST.0 * stiffness).then(|| {
+    let rigidity = hit.given.value.flexural_rigidity;
+    (rigidity < LEAST_RIGIDITY.0 && own < LEAST_RIGIDITY.1 * stiffness).then(|| {
         format!(
             "gap {}: the columns of {} that are hit in storey {} give {} % of its stiffness, {} of {} N/m: check the unit of `flexural_rigidity`, {} N m2; a number without one is in N m2",
             hit.gap.1.name,
@@ -111,23 +113,20 @@ fn soft(case: &Case, hit: &Hit<'_>) -> Option<String> {
             short(100.0 * own / stiffness),
             short(own),
             short(stiffness),
-            short(hit.given.value.flexural_rigidity)
+            short(rigidity)
         )
     })
 }
 
 /// Columns that bear next to nothing.
 fn weak(case: &Case, hit: &Hit<'_>) -> Option<String> {
-    let b = &case.buildings[hit.building];
     let capacity = hit.given.value.shear_capacity?;
-    let weight = STANDARD_GRAVITY * b.mass.iter().sum::<f64>();
-    (capacity < LEAST.1 * weight).then(|| {
+    (capacity < LEAST_CAPACITY).then(|| {
         format!(
-            "gap {}: the columns of {} that are hit bear a shear of {} N, {} % of its weight: check the unit of `shear_capacity`; a number without one is in N",
+            "gap {}: the columns of {} that are hit bear a shear of {} N: check the unit of `shear_capacity`; a number without one is in N",
             hit.gap.1.name,
-            b.name.value,
-            short(capacity),
-            short(100.0 * capacity / weight)
+            case.buildings[hit.building].name.value,
+            short(capacity)
         )
     })
 }

@@ -17,18 +17,52 @@ pub(super) fn sign_in(source: &str, place: &Range<usize>) -> Option<Pasted> {
     let start = source.get(..place.start)?.rfind('\n');
     let start = start.map_or(0, |end| end + 1);
     let line = source.get(start..)?.split('\n').next()?;
-    let mut found = outside_of_texts(line)?;
+    if let Some(offset) = line.find(FENCE).filter(|at| line[..*at].trim().is_empty()) {
+        return Some(Pasted {
+            place: start + offset..start + offset + FENCE.len(),
+            message: format!("{FENCE} is a sign of Markdown"),
+            help: "take this line out: what stands between two of them is the text".to_owned(),
+        });
+    }
+    let mut found = outside_of_texts(line, open_lists(&source[..start]))?;
     found.place = found.place.start + start..found.place.end + start;
     Some(found)
 }
 
-/// The first such sign in a line, outside of texts and comments.
-fn outside_of_texts(line: &str) -> Option<Pasted> {
+/// What begins and ends code in Markdown.
+const FENCE: &str = "```";
+
+/// Lists that are open at the end of these lines.
+fn open_lists(before: &str) -> usize {
+    let mut lists = 0_usize;
+    for line in before.lines() {
+        let mut rest = line;
+        while let Some(at) = rest.find(['#', '"', '\'', '[', ']']) {
+            let (sign, behind) = (rest.as_bytes()[at], &rest[at + 1..]);
+            rest = match sign {
+                b'#' => "",
+                b'[' | b']' => {
+                    lists = if sign == b'[' {
+                        lists + 1
+                    } else {
+                        lists.saturating_sub(1)
+                    };
+                    behind
+                }
+                _ => &behind[end_of_text(behind, char::from(sign)).unwrap_or(behind.len())..],
+            };
+        }
+    }
+    lists
+}
+
+/// The first such sign in a line, outside of texts and comments, that begins within so many lists.
+fn outside_of_texts(line: &str, mut lists: usize) -> Option<Pasted> {
     // Texts of several lines have their own signs.
     if line.contains("\"\"\"") || line.contains("'''") {
         return None;
     }
-    let (mut at, mut lists) = (0, 0_usize);
+    let mut at = 0;
     while let Some(sign) = line.get(at..).and_then(|rest| rest.chars().next()) {
         let rest = &line[at..];
         let next = at + sign.len_utf8();
@@ -41,7 +75,7 @@ fn outside_of_texts(line: &str) -> Option<Pasted> {
                 }
                 // A text that ends with another sign than it began with.
                 None => {
-                    let mut signs = line[next..].char_indices();
+                    let mut signs = line[next..].char_indices().take_while(|(_, c)| *c != '#');
                     let (offset, end) = signs.find(|(_, c)| quotation_mark(*c) == Some(sign))?;
                     return Some(of_quotation_mark(next + offset, end, sign));
                 }
@@ -103,7 +137,10 @@ fn quotation_mark(sign: char) -> Option<char> {
 fn of_quotation_mark(at: usize, sign: char, plain: char) -> Pasted {
     Pasted {
         place: at..at + sign.len_utf8(),
-        message: format!("the quotation mark {sign} is a typographic one"),
+        message: match sign {
+            '`' => "` is no quotation mark".to_owned(),
+            _ => format!("the quotation mark {sign} is a typographic one"),
+        },
         help: format!("write {plain} before and after the text"),
     }
 }
@@ -141,9 +178,18 @@ fn decimal_comma(text: &str, length: usize, in_list: bool) -> Option<Pasted> {
     let begins_with_zero = mantissa.len() > 1 && mantissa.starts_with('0');
     let is_key = after[decimals.len()..].trim_start().starts_with(['=', '.']);
     let is_one = are_digits(whole) && are_digits(mantissa) && !is_key;
+    let point = format!("decimals have a point: {whole}.{decimals}");
+    let may_be_thousands = decimals.len() == 3 && length <= 3 && !whole.starts_with('0');
     (is_one && (!in_list || begins_with_zero)).then(|| Pasted {
         place: 0..length + 1 + decimals.len(),
-        message: format!("{whole},{decimals} has a decimal comma"),
-        help: format!("decimals have a point: {whole}.{decimals}"),
+        message: match !in_list && may_be_thousands {
+            true => format!("{whole},{decimals} has a comma within the number"),
+            false => format!("{whole},{decimals} has a decimal comma"),
+        },
+        help: match (in_list, may_be_thousands) {
+            (true, _) => format!("{point}; values of a list do not begin with a zero"),
+            (false, true) => format!("{point}; thousands stand without a comma: {whole}{decimals}"),
+            _ => point,
+        },
     })
 }

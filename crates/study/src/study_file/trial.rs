@@ -6,6 +6,7 @@ use std::ops::Range;
 use pounding_assembly::parameter_dimension;
 use pounding_case::document::{Reader, Written};
 use pounding_case::{Case, CaseTree, Dimension, Located};
+use pounding_catalogue::numbers::six_digits;
 
 use super::bare_numbers;
 use super::rows::{self, Refused};
@@ -53,10 +54,15 @@ impl Trial<'_> {
 
     /// What the case asks about the greatest of numbers without a unit, and not about its own.
     pub(super) fn question(&self, values: &Values) -> Option<String> {
-        let edits = set_numbers(&self.entries, bare_numbers::greatest(values)?);
+        let greatest = bare_numbers::greatest(values)?;
+        let edits = set_numbers(&self.entries, greatest);
         // Where it is refused the case says why.
         let asked = Variant::new(&self.tree, &edits).asked().ok()?;
-        let new = |question: &String| !self.base.asked.contains(question);
+        // That of another value may change with this one.
+        let number = six_digits(greatest);
+        let new = |question: &String| {
+            !self.base.asked.contains(question) && question.contains(number.as_str())
+        };
         let question = asked.into_iter().find(new)?;
         Some(format!("the greatest of {}: {question}", self.paths))
     }

@@ -1,6 +1,6 @@
 //! The records of a gap check, one by one and together.
 
-use pounding_catalogue::numbers::six_digits;
+use pounding_catalogue::numbers::{rounded_up_beside, six_digits};
 use pounding_study::gap_check::GapCheck;
 
 use crate::tables::{G, decimal, new_table};
@@ -77,7 +77,7 @@ pub fn suite(check: &GapCheck, index: usize, all: bool) -> String {
             record.name.clone(),
             decimal(record.factor, 4),
             format!("{:.3}", record.peak_ground_acceleration / G),
-            format!("{:.2}", gap.demand[r] * 1e3),
+            rounded_up_beside(gap.demand[r] * 1e3, gap.levels[level].width * 1e3, 2),
             gap.levels[level].place.label(),
             format!("{:.3}", peak.time),
             if closes || record.closed(index) {

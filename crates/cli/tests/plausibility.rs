@@ -484,7 +484,7 @@ fn neighbours_that_nothing_keeps_apart() {
         &row(""),
         &[
             "nothing keeps \"b\" and \"c\" apart",
-            "is a [[gap]] missing, or do they stand far apart?",
+            "is a [[gap]] missing? If they stand far apart, a [[gap]] of that width says so",
         ],
     );
     let gap = "[[gap]]\nbetween = [\"b\", \"c\"]\nwidth = \"20 mm\"\nmodel = \"linear_elastic\"\nstiffness = \"93.5 MN/m\"\n";

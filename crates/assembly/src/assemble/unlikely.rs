@@ -31,7 +31,7 @@ fn apart(case: &Case) -> Vec<String> {
     lost.map(|left| {
         let [left, right] = [left, left + 1].map(|b| &case.buildings[b].name.value);
         format!(
-            "nothing keeps \"{left}\" and \"{right}\" apart, neighbours in the row with neither gap nor link between them, while others have gaps: is a [[gap]] missing, or do they stand far apart?"
+            "nothing keeps \"{left}\" and \"{right}\" apart, neighbours in the row with neither gap nor link between them, while others have gaps: is a [[gap]] missing? If they stand far apart, a [[gap]] of that width says so"
         )
     })
     .collect()

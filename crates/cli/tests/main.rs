@@ -24,6 +24,7 @@ mod impact;
 mod isolation;
 mod levels;
 mod links_and_rows;
+mod lost_strength;
 mod messages;
 mod model_pages;
 mod motion;

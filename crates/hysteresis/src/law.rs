@@ -121,6 +121,17 @@ pub trait HysteresisLaw: Send + Sync + std::fmt::Debug {
         !self.descriptor().rate_dependent
     }
 
+    /// Whether the element may lose all its strength: what it then is has no force for ever.
+    fn may_lose_all_strength(&self) -> bool {
+        false
+    }
+
+    /// Whether it has.
+    fn has_lost_all_strength(&self, history: &History) -> bool {
+        let _ = history;
+        false
+    }
+
     /// Number of internal variables, at most
     /// [`crate::MAXIMUM_INTERNAL_VARIABLES`].
     fn internal_variables(&self) -> usize {

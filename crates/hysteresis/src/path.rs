@@ -23,6 +23,17 @@ pub(crate) trait PathLaw: Send + Sync + std::fmt::Debug {
         false
     }
 
+    /// [`HysteresisLaw::may_lose_all_strength`].
+    fn may_fail(&self) -> bool {
+        false
+    }
+
+    /// [`HysteresisLaw::has_lost_all_strength`].
+    fn has_failed(&self, history: &History) -> bool {
+        let _ = history;
+        false
+    }
+
     /// Stiffness (N/m) on the steepest branch.
     fn steepest(&self) -> f64 {
         self.stiffness_when_new()
@@ -111,6 +122,12 @@ impl<L: PathLaw> HysteresisLaw for L {
     }
     fn deforms_by_force_alone(&self) -> bool {
         !self.opens()
+    }
+    fn may_lose_all_strength(&self) -> bool {
+        self.may_fail()
+    }
+    fn has_lost_all_strength(&self, history: &History) -> bool {
+        self.has_failed(history)
     }
     fn virgin(&self) -> History {
         self.begin()

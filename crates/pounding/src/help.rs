@@ -260,6 +260,9 @@ pub(crate) fn warning(warning: &Warning) -> String {
             "correct them with `process`",
             "correct them by `ground_motion::processing`",
         ),
+        Warning::StrengthMayBeLost { .. } | Warning::StrengthLost { .. } => {
+            text.replace("`p_delta = true`", "`.p_delta()`")
+        }
         Warning::SoftContact { .. } => text.replace(
             "that `pounding stiffness` derives",
             "from `gap_element::contact_stiffness`",

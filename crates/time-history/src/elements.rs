@@ -150,6 +150,8 @@ pub(crate) struct Elements {
     pub turned: Vec<bool>,
     /// How often each element changed its branch at this very instant.
     pub changes: Vec<usize>,
+    /// Since when (s) each element has been without strength for ever.
+    pub lost: Vec<Option<f64>>,
 }
 
 /// Round-off of a coefficient over the largest of the motions that it is made from.
@@ -171,6 +173,7 @@ impl Elements {
             histories: system.elements().iter().map(|e| e.law.virgin()).collect(),
             turned: vec![false; system.elements().len()],
             changes: vec![0; system.elements().len()],
+            lost: vec![None; system.elements().len()],
         }
     }
 
@@ -223,6 +226,16 @@ impl Elements {
                     history.commit(candidate);
                     state[range].copy_from_slice(history.variables());
                 }
+            }
+        }
+    }
+
+    /// Notes which elements have lost all their strength by this time (s).
+    pub(crate) fn note_lost(&mut self, system: &System, time: f64) {
+        let elements = system.elements().iter().zip(&self.histories);
+        for ((element, history), lost) in elements.zip(&mut self.lost) {
+            if lost.is_none() && element.law.has_lost_all_strength(history) {
+                *lost = Some(time);
             }
         }
     }

@@ -164,6 +164,8 @@ pub struct YieldingStorey {
     pub residual_drift_ratio: f64,
     /// Energy dissipated by the law (J).
     pub hysteretic_energy: f64,
+    /// When it lost all its strength (s), to bear no force for the rest of the run.
+    pub strength_lost: Option<f64>,
 }
 
 /// What a level of a link went through.
@@ -182,6 +184,8 @@ pub struct LinkLevelOutcome {
     pub final_deformation: f64,
     /// Energy dissipated by the law (J).
     pub energy_dissipated: f64,
+    /// When it lost all its strength (s), to bear no force for the rest of the run.
+    pub strength_lost: Option<f64>,
 }
 
 /// What a link went through, levels from the bottom.

@@ -12,6 +12,7 @@ use pounding_shear_building::{
     Damping, DampingMatrix, Modes, OVERTURNING_RATIO, ShearBuilding, UPLIFT_BEGINS,
 };
 
+use crate::elements::ElementPlace;
 use crate::estimate::{StepEstimate, StepLimit, short, step_taken};
 use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome, Peak};
@@ -273,6 +274,22 @@ pub enum Warning {
         /// Rotation of the foundation (rad), which gravity follows too; zero without P-Delta or
         /// on a base that does not rotate.
         rotation: f64,
+    },
+    /// A storey whose law may lose all its strength, where gravity does not act through the drift.
+    StrengthMayBeLost {
+        /// Name of the building.
+        building: String,
+        /// The lowest such storey, from 1.
+        storey: usize,
+    },
+    /// A storey or a link that lost all its strength.
+    StrengthLost {
+        /// Storey or level of a link, in words.
+        place: String,
+        /// When it did (s).
+        time: f64,
+        /// Whether it is a storey through whose drift gravity does not act.
+        stands: bool,
     },
     /// A moment on a foundation that lifts its edge off the soil.
     Uplift {
@@ -540,6 +557,24 @@ impl fmt::Display for Warning {
                     ""
                 }
             ),
+            Self::StrengthMayBeLost { building, storey } => write!(
+                f,
+                "{building}, storey {storey}: its law may lose all strength, and without P-Delta nothing then brings the building down: a run in which it does counts as one without collapse, with drifts of floors that nothing but damping holds; give the building `p_delta = true`"
+            ),
+            Self::StrengthLost {
+                place,
+                time,
+                stands,
+            } => write!(
+                f,
+                "{place}: it has lost all its strength at t = {} s, and bears no force from then on{}",
+                short(*time),
+                if *stands {
+                    "; the building has collapsed, but without P-Delta nothing brings it down: its peaks and residual drifts thereafter are those of floors that nothing but damping holds; give it `p_delta = true`"
+                } else {
+                    ""
+                }
+            ),
             Self::UnusualValue { of, says } => write!(f, "{of}: {says}"),
             Self::StiffSoil {
                 building,
@@ -663,6 +698,47 @@ fn small_yield_drift(building: &ShearBuilding) -> Option<Warning> {
     })
 }
 
+/// The warning of a building by its lowest storey that may lose all its strength and yet stand.
+fn strength_may_be_lost(building: &ShearBuilding) -> Option<Warning> {
+    let laws = building.laws().iter().zip(building.geometric_stiffness());
+    let mut may = laws.map(|(law, geometric)| {
+        let law = law.as_ref();
+        *geometric == 0.0 && law.is_some_and(|law| law.law.may_lose_all_strength())
+    });
+    may.position(|may| may)
+        .map(|storey| Warning::StrengthMayBeLost {
+            building: building.name().to_owned(),
+            storey: storey + 1,
+        })
+}
+
+/// The first storey of each building, and all links, that lost their strength.
+fn strengths_lost(system: &System, lost: &[Option<f64>]) -> Vec<Warning> {
+    let mut told: Vec<(f64, Option<usize>, Warning)> = Vec::new();
+    for (index, (element, lost)) in system.elements().iter().zip(lost).enumerate() {
+        let Some(time) = *lost else { continue };
+        let (of, stands) = match element.place {
+            ElementPlace::Storey { building, storey } => {
+                let geometric = system.buildings()[building].geometric_stiffness()[storey];
+                (Some(building), geometric == 0.0)
+            }
+            ElementPlace::Link { .. } => (None, false),
+        };
+        let place = system.place_of_element(index);
+        let warning = Warning::StrengthLost {
+            place,
+            time,
+            stands,
+        };
+        match told.iter_mut().find(|(_, b, _)| of.is_some() && *b == of) {
+            Some(earlier) if earlier.0 <= time => {}
+            Some(later) => *later = (time, of, warning),
+            None => told.push((time, of, warning)),
+        }
+    }
+    told.into_iter().map(|(.., warning)| warning).collect()
+}
+
 /// One significant digit, not above the value.
 fn rounded_down(x: f64) -> f64 {
     let unit = libm::pow(10.0, libm::log10(x).floor());
@@ -699,6 +775,12 @@ impl Warning {
                 .buildings()
                 .iter()
                 .filter_map(|b| small_yield_drift(b)),
+        );
+        warnings.extend(
+            system
+                .buildings()
+                .iter()
+                .filter_map(|b| strength_may_be_lost(b)),
         );
         warnings.extend(unusual_values::of(system));
         warnings.extend(system.buildings().iter().filter_map(|b| stiff_soil(b)));
@@ -825,10 +907,13 @@ impl Warning {
     pub(crate) fn after(
         system: &System,
         options: &RunOptions,
-        (buildings, levels): (&[BuildingOutcome], &[LevelOutcome]),
+        (buildings, levels, lost): (&[BuildingOutcome], &[LevelOutcome], &[Option<f64>]),
         largest_input: f64,
     ) -> Vec<Self> {
         let mut warnings = standing(system, options);
+        // Now it is known.
+        warnings.retain(|warning| !matches!(warning, Self::StrengthMayBeLost { .. }));
+        warnings.extend(strengths_lost(system, lost));
         warnings.extend(Self::ends_at_peak(system, options, buildings, &warnings));
         let event_driven = matches!(options.method, MethodChoice::EventDriven { .. });
         if let (true, Some(curved)) = (event_driven, system.first_curved_element()) {

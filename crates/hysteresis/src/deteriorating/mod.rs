@@ -294,6 +294,20 @@ impl PathLaw for Deteriorating {
     fn stiffness_when_new(&self) -> f64 {
         self.stiffness
     }
+    fn may_fail(&self) -> bool {
+        let Capacities {
+            strength,
+            capping,
+            unloading,
+            reloading,
+            ..
+        } = self.capacities;
+        let most = strength.max(capping).max(unloading).max(reloading);
+        most > 0.0 || self.residual_force == 0.0
+    }
+    fn has_failed(&self, history: &History) -> bool {
+        history.branch.kind == FAILED
+    }
     fn begin(&self) -> History {
         let range = self.yield_deformation();
         let hardening = self.hardening_ratio * self.stiffness;

@@ -79,6 +79,16 @@ pub(super) fn finish_storeys(
         let data = series(peaks, name, "1", long_name, &values)?;
         dimension_scales::attach(&data, storey, 0)?;
     }
+    let lost = outcome
+        .yielding
+        .iter()
+        .map(|y| y.and_then(|y| y.strength_lost));
+    if lost.clone().any(|lost| lost.is_some()) {
+        let times: Vec<f64> = lost.map(|lost| lost.unwrap_or(f64::NAN)).collect();
+        let long_name = "time from which the storey has no strength; NaN where it kept some";
+        let data = series(peaks, "strength_lost", "s", long_name, &times)?;
+        dimension_scales::attach(&data, storey, 0)?;
+    }
     Ok(())
 }
 

@@ -196,6 +196,8 @@ impl Driver<'_> {
             }
             if let EventKind::Branch(guard) = other.kind {
                 self.pass(other.level, guard);
+                let time = segment.start + tau;
+                self.contacts.elements.note_lost(self.system, time);
                 self.statistics.events += 1;
                 self.stalled += 1;
                 continue;

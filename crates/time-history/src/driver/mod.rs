@@ -582,6 +582,9 @@ impl<'a> Driver<'a> {
             implicit.then_some(step),
         );
         self.contacts
+            .elements
+            .note_lost(self.system, segment.start + tau + step);
+        self.contacts
             .commit(self.system, &self.state[..n], &self.state[n..2 * n]);
         self.balance(segment.start + tau + step)
     }

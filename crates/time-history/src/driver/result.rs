@@ -84,7 +84,11 @@ impl Driver<'_> {
             });
         }
         let warnings = {
-            let found = (&buildings[..], &levels[..]);
+            let found = (
+                &buildings[..],
+                &levels[..],
+                &self.contacts.elements.lost[..],
+            );
             Warning::after(self.system, self.options, found, self.ledger.largest_input)
         };
         let gaps = self
@@ -123,6 +127,7 @@ impl Driver<'_> {
             let (_, energy) = memory.energy_of(index, (system, layout), state, None);
             let deformation = element.relative(state);
             let law = element.law.descriptor().name;
+            let lost = memory.lost[index];
             let ductility = element.yield_deformation.map(|y| Peak {
                 value: peaks.deformation.value / y,
                 time: peaks.deformation.time,
@@ -139,6 +144,7 @@ impl Driver<'_> {
                         ductility,
                         residual_drift_ratio: if stays { plastic / height } else { 0.0 },
                         hysteretic_energy: energy,
+                        strength_lost: lost,
                     });
                 }
                 ElementPlace::Link { link, .. } => {
@@ -155,6 +161,7 @@ impl Driver<'_> {
                         ductility,
                         final_deformation: deformation,
                         energy_dissipated: energy,
+                        strength_lost: lost,
                     });
                 }
             }

@@ -111,7 +111,28 @@ fn with_file(text: &str, file: &str) -> Result<String, String> {
 
 /// The case with this factor as the scale of the record at this place.
 fn with_scale(text: &str, place: &str, scale: f64) -> Result<String, String> {
+    let (place, value) = match file_alone(text, place) {
+        Some((place, file)) => {
+            let file = toml::Value::String(file);
+            let value = format!("{{ file = {file}, scale = {} }}", written(scale));
+            (place, value)
+        }
+        None => (place, written(scale)),
+    };
     let path = Path::parse(place)?.counted();
     let entry = entry(text, &path).map_err(|(reason, _)| reason)?;
-    Ok(apply(text, &[Edit::new(&entry, written(scale))]))
+    Ok(apply(text, &[Edit::new(&entry, value)]))
+}
+
+/// The place and the name of a record that the case gives by its file alone, where its scale would have no room.
+fn file_alone<'a>(text: &str, place: &'a str) -> Option<(&'a str, String)> {
+    let motion = place.strip_suffix(".scale")?;
+    let table: toml::Table = text.parse().ok()?;
+    let mut keys = motion.split('.');
+    let first = table.get(keys.next()?)?;
+    let at = keys.try_fold(first, |value, key| match key.parse::<usize>() {
+        Ok(index) => value.get(index),
+        Err(_) => value.get(key),
+    })?;
+    Some((motion, at.as_str()?.to_owned()))
 }

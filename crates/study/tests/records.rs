@@ -393,6 +393,25 @@ fn records_bring_their_own_across_the_row() {
     );
 }
 
+/// A second record that is given by its file alone gets room for its factor.
+#[test]
+fn a_file_across_the_row_is_shown_with_its_factor() {
+    let folder = tempfile::tempdir().unwrap();
+    let intensity =
+        "[[variable]]\nintensity = \"peak_ground_acceleration\"\nvalues = [\"0.1 g\", \"0.3 g\"]\n";
+    let across = "across = \"MOTIONS/kobe_1995_jma_ns.csv\"\n";
+    let study = study_that_turns(folder.path(), across, intensity).unwrap();
+    let (found, reader) = rows(&study, folder.path(), false);
+    let found = column(&found, &reader, "peak_displacement_across");
+    for (number, values) in found.iter().enumerate() {
+        let shown = case_of_run(&study, number).unwrap();
+        assert!(shown.contains("kobe_1995_jma_ns.csv\", scale = "), "{shown}");
+        for (a, b) in values.iter().zip(&across_alone(&shown, folder.path())) {
+            assert!((a / b - 1.0).abs() < 1e-12 && *b > 1e-3, "{shown}: {a} {b}");
+        }
+    }
+}
+
 /// At an intensity a record across the row that comes with one along it keeps its proportion to that
 /// one; that of the case to the record of the case.
 #[test]

@@ -157,7 +157,11 @@ impl SweepAnswer {
         } else if let Some(closed) = self.runs_with_contact {
             told.push(self.of_contact(closed, self.runs - ended));
         }
-        told.extend(self.maxima.iter().map(|maximum| self.of_maximum(maximum)));
+        let untouched = self.runs_with_contact == Some(0);
+        let known = self.maxima.iter();
+        // Without contact there is no contact force, and no place of the greatest.
+        let known = known.filter(|m| !(untouched && m.quantity == "peak_force"));
+        told.extend(known.map(|maximum| self.of_maximum(maximum)));
         told
     }
 

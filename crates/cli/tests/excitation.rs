@@ -186,6 +186,40 @@ fn forces_that_cannot_be_have_their_line() {
     }
 }
 
+/// A record that ends with a velocity, under one building 13 ms later: from its end on both grounds are as far apart as
+/// they have ever been, `v 13 ms` but for what the record does in its last 13 ms, and the first instant counts.
+#[test]
+fn ground_that_stays_apart_is_at_its_peak_when_it_stops() {
+    let building = |name: &str, stiffness: &str, more: &str| {
+        format!(
+            "[[building]]\nname = \"{name}\"\nstoreys = 1\nmass = \"100 t\"\nstiffness = \"{stiffness}\"\nheight = \"3 m\"\ndamping = {{ modal = 0.05 }}\n{more}\n"
+        )
+    };
+    let case = |method: &str| {
+        [
+            building("a", "50 MN/m", "ground = { delay = \"13 ms\" }"),
+            building("b", "90 MN/m", ""),
+            "[[gap]]\nbetween = [\"a\", \"b\"]\nwidth = \"50 mm\"\nmodel = \"linear_elastic\"\nstiffness = \"400 MN/m\"\n".to_owned(),
+            format!("[ground_motion]\nfile = \"r.csv\"\nunit = \"m/s2\"\n[analysis]\nduration = \"3 s\"\n{method}\n"),
+        ]
+        .concat()
+    };
+    let rows = (0..=100).map(|k| {
+        let t = 0.01 * f64::from(k);
+        format!("{t:.2},{:?}\n", 3.0 * (9.0 * t).sin() + 0.7)
+    });
+    let rows: String = rows.collect();
+    for method in ["", "method = \"adaptive\""] {
+        let bench = Bench::with(&case(method));
+        bench.write("r.csv", &format!("time_s,acceleration_m/s2\n{rows}"));
+        let answer = bench.json("run case.toml --no-output");
+        let peak = &answer["gaps"][0]["levels"][0]["responses"][0];
+        assert_eq!(peak["name"], "relative_ground_displacement", "{answer}");
+        let time = peak["time"].as_f64().unwrap_or_default();
+        assert!((time - 1.013).abs() < 1e-9, "{method}: {peak}");
+    }
+}
+
 #[test]
 fn delays_are_said_and_stored() {
     let bench = example("three_frame_bridge", "\"25 s\"", "\"3 s\"");

@@ -486,6 +486,10 @@ fn ground_that_moves_differently_widens_what_rules_ask_for() {
     assert!(delayed_widths[0].1 >= demand, "{delayed_widths:?} {demand}");
     let fixed = delayed.records[0].relative_ground_displacement[1][0].unwrap();
     assert!((fixed.value - 0.5).abs() < 1.0e-14, "{fixed:?}");
+    // The pulse ends after two seconds; the ground stays where it then is, in the run too.
+    assert!((fixed.time - 2.0).abs() < 1.0e-12, "{fixed:?}");
+    let found = &gaps[1].levels[0].responses[0];
+    assert_eq!(found.peak.time, fixed.time);
     let explained = delayed.gaps[1].codes.iter().find_map(|c| {
         let required = c.records[0][0].as_ref().ok()?;
         Some(required.explanation.contains("u_g = 0.500000 m"))

@@ -12,6 +12,7 @@ use crate::outcome::{
     Outcome, Peak, StoreyPeaks, YieldingStorey,
 };
 use crate::recorder::Recorder;
+use crate::system::LevelMotion;
 use crate::warnings::Warning;
 
 /// Responses with names of a building, from the peaks of all.
@@ -76,10 +77,18 @@ impl Driver<'_> {
         let links = self.elements(&mut buildings);
         let (mut levels, impacts) = self.log.into_outcome();
         for (row, peak) in self.system.level_rows().iter().zip(&self.peaks.of_levels) {
+            let mut peak = *peak;
+            // Where the ground has stopped away from where it began, the first instant of the peak is known
+            // from the records alone.
+            if row.given.name == LevelMotion::RelativeGroundDisplacement.name()
+                && let Some(first) = self.system.relative_ground_displacement(row.level, duration)
+            {
+                peak.time = first.time;
+            }
             levels[row.level].responses.push(NamedPeak {
                 name: row.given.name.clone(),
                 unit: row.given.unit,
-                peak: *peak,
+                peak,
                 capacity: row.given.capacity,
             });
         }

@@ -224,6 +224,8 @@ struct Pushed {
 pub const LONGEST_DELAY: f64 = 86_400.0;
 /// Breakpoints closer than this part of a time step are one.
 const SAME: f64 = 1.0e-9;
+/// Part of a displacement of the ground that is its round-off.
+const SAME_DISPLACEMENT: f64 = 1.0e-10;
 
 impl Motions {
     /// # Errors
@@ -865,7 +867,13 @@ impl System {
                 .into_iter()
                 .filter(|s| *s > 0.0 && *s < segment.length);
             for s in inside.chain([segment.length]) {
-                peak.raise(displacement(s).abs(), segment.start + s);
+                let value = displacement(s).abs();
+                // Ground that has come to rest away from where it began stays at its peak but for round-off.
+                let time = match value > peak.value * (1.0 + SAME_DISPLACEMENT) {
+                    true => segment.start + s,
+                    false => peak.time,
+                };
+                peak.raise(value, time);
             }
             (x, v) = (displacement(segment.length), velocity(segment.length));
         }

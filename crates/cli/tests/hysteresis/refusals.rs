@@ -198,6 +198,10 @@ fn damaged_histories_are_refused_at_their_line() {
         &["contradicts the times"],
     );
     refused(
+        &format!("bilinear --history {path} --steps 50"),
+        &["the ways between the rows of the file are divided without it"],
+    );
+    refused(
         &format!("bilinear --history {path} --period 1s"),
         &["--period does not go"],
     );

@@ -26,7 +26,10 @@ pub fn path(
         if arguments.steps.is_some() {
             return Err(Failure::input(
                 "--steps does not go with --history",
-                Some("the rows of the file are the steps: leave it away".to_owned()),
+                Some(
+                    "leave it away: the ways between the rows of the file are divided without it"
+                        .to_owned(),
+                ),
             ));
         }
         let description = "Cycles of the history, from a turning point back to its deformation";

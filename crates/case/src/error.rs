@@ -26,6 +26,17 @@ pub struct CaseError {
     pub others: Box<[CaseError]>,
 }
 
+/// Whether the system allows this process, or all of them, no more open files: no fault of the
+/// input.
+#[must_use]
+pub fn is_short_of_files(error: &std::io::Error) -> bool {
+    // `EMFILE` and `ENFILE`, which Windows has not.
+    cfg!(unix) && matches!(error.raw_os_error(), Some(24 | 23))
+}
+
+/// What to try where [`is_short_of_files`].
+pub const MORE_FILES: &str = "allow more open files (`ulimit -n`)";
+
 impl CaseError {
     /// An error at a span of a source text.
     #[must_use]
@@ -59,6 +70,14 @@ impl CaseError {
             column: 0,
             ..Self::new(file, "", 0..0, message, help)
         }
+    }
+
+    /// Whether the file could not be read because the system allows no more open files, see
+    /// [`is_short_of_files`].
+    #[must_use]
+    pub fn is_short_of_files(&self) -> bool {
+        // Said of that alone: a field of its own would make every error larger.
+        self.line == 0 && self.help.as_deref() == Some(MORE_FILES)
     }
 
     /// `file:line:column`, or the file alone.

@@ -15,7 +15,7 @@ mod parse;
 mod types;
 mod units;
 
-pub use error::{CaseError, Errors};
+pub use error::{CaseError, Errors, MORE_FILES, is_short_of_files};
 pub use files::GivenFiles;
 pub use parse::{CaseTree, ProcessSteps, ground_motion_schema, process_steps, schema};
 pub use types::*;

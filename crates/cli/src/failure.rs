@@ -5,7 +5,7 @@ use std::path::Path;
 
 use miette::{MietteDiagnostic, Report};
 use pounding_assembly::{AssemblyError, place_of};
-use pounding_case::{Case, CaseError};
+use pounding_case::{Case, CaseError, MORE_FILES, is_short_of_files};
 use pounding_catalogue::DefinitionError;
 use pounding_files::{FileUseError, PlaceTaken};
 use pounding_gap_element::GapElementError;
@@ -158,6 +158,9 @@ impl Failure {
 
     /// The errors of a file, each with the line it stands in.
     pub fn case(error: CaseError, source: &str) -> Self {
+        if error.is_short_of_files() {
+            return Self::Computation(located(error, source));
+        }
         Self::inputs(error.each().map(|e| located(e, source)).collect())
     }
 
@@ -318,6 +321,9 @@ impl From<GroundMotionError> for Failure {
         match error {
             GroundMotionError::NotMatched { .. } => {
                 Self::Computation(plain(error.to_string(), help))
+            }
+            GroundMotionError::Io { ref source, .. } if is_short_of_files(source) => {
+                Self::computation(error.to_string(), Some(MORE_FILES.to_owned()))
             }
             error => Self::input(error.to_string(), help),
         }

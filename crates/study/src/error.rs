@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use pounding_assembly::AssemblyError;
-use pounding_case::CaseError;
+use pounding_case::{CaseError, MORE_FILES, is_short_of_files};
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_files::PlaceTaken;
 use pounding_ground_motion::GroundMotionError;
@@ -255,12 +255,12 @@ impl StudyError {
     /// input.
     #[must_use]
     pub fn is_short_of_files(&self) -> bool {
-        // `EMFILE` and `ENFILE`, which Windows has not.
-        let short = |error: &std::io::Error| matches!(error.raw_os_error(), Some(24 | 23));
-        let (Self::File { source, .. } | Self::Store { source, .. }) = self else {
-            return false;
-        };
-        cfg!(unix) && short(source)
+        match self {
+            Self::File { source, .. } | Self::Store { source, .. } => is_short_of_files(source),
+            Self::GroundMotion(GroundMotionError::Io { source, .. }) => is_short_of_files(source),
+            Self::Text { error, .. } => error.is_short_of_files(),
+            _ => false,
+        }
     }
 
     /// What to try.
@@ -270,6 +270,7 @@ impl StudyError {
             Self::Text { error, .. } => return error.help.clone(),
             Self::Several { errors } => return errors.first().and_then(Self::help),
             Self::Base(error) => return error.help(),
+            Self::GroundMotion(_) if self.is_short_of_files() => MORE_FILES,
             Self::GroundMotion(error) => return error.help(),
             Self::Records { count, of, .. } if count == of => "correct the paths or the files",
             Self::Records { .. } => {

@@ -14,7 +14,7 @@ use pounding_ground_motion::Offset;
 use pounding_ground_motion::processing::{ProcessingStep, Scale};
 use pounding_ground_motion::spectra::design::CodeSpectrum;
 
-use crate::error::CaseError;
+use crate::error::{CaseError, MORE_FILES, is_short_of_files};
 use crate::files::GivenFiles;
 
 pub use laws::{FoundationMotion, Link, Parameter, StoreyLaw};
@@ -809,14 +809,17 @@ pub fn read_regular_text(path: &Path, what: &str) -> Result<String, CaseError> {
 /// that is not), or is larger than 16 MB.
 pub fn read_text(path: &Path, what: &str) -> Result<String, CaseError> {
     let name = path.display().to_string();
-    let unread = |reason: String| {
-        let message = format!("cannot read the {what} file: {reason}");
-        CaseError::unread(&name, message, Some("check the path".to_owned()))
-    };
+    let reason = |why: &str| format!("cannot read the {what} file: {why}");
+    let unread =
+        |why: String| CaseError::unread(&name, reason(&why), Some("check the path".to_owned()));
     let mut bytes = Vec::new();
-    let file = std::fs::File::open(path).map_err(|e| unread(e.to_string()))?;
+    let failed = |e: std::io::Error| match is_short_of_files(&e) {
+        true => CaseError::unread(&name, reason(&e.to_string()), Some(MORE_FILES.to_owned())),
+        false => unread(e.to_string()),
+    };
+    let file = std::fs::File::open(path).map_err(failed)?;
     let read = file.take(LARGEST_FILE + 1).read_to_end(&mut bytes);
-    if read.map_err(|e| unread(e.to_string()))? as u64 > LARGEST_FILE {
+    if read.map_err(failed)? as u64 > LARGEST_FILE {
         return Err(unread(format!(
             "it is larger than 16 MB, which no {what} is"
         )));

@@ -75,7 +75,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let (arguments, matches) = match read {
         Ok(read) => read,
         Err(error) => {
-            let error = tip::that_works(error, &given);
+            let error = tip::that_works(error, &command, &given);
             let printed = error.print().and_then(|()| std::io::stdout().flush());
             return match (error.use_stderr(), printed) {
                 // Where nobody can read a complaint, the exit code still says it.

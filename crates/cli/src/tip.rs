@@ -4,28 +4,26 @@ use std::ffi::OsString;
 
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue};
+use clap::{Arg, Command};
 
 use crate::interruption::shell_line;
 
 /// The error with a tip that works where a value that begins with a dash stands behind its option: the
 /// parser takes it for an option, and its own tip, two dashes, is for names of files.
-pub fn that_works(mut error: clap::Error, given: &[OsString]) -> clap::Error {
+pub fn that_works(mut error: clap::Error, command: &Command, given: &[OsString]) -> clap::Error {
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else {
         return error;
     };
     // Of several letters behind one dash the parser names the first alone.
-    let begins = |given: &&[OsString]| {
-        let value = given[1].to_str();
-        value.is_some_and(|value| value.starts_with(word) && is_number(value))
-    };
-    let Some([option, value]) = given.windows(2).find(begins) else {
+    let mut pairs = given.windows(2).filter_map(|pair| {
+        let (option, value) = (pair[0].to_str()?, pair[1].to_str()?);
+        let is_named = value.starts_with(word) && !value.starts_with("--");
+        let name = taking(command, given, option)?;
+        is_named.then(|| shell_line(&[format!("{name}{value}")]))
+    });
+    let Some(joined) = pairs.next() else {
         return error;
     };
-    let (option, value) = (option.to_string_lossy(), value.to_string_lossy());
-    if !option.starts_with("--") || option.len() == 2 || option.contains('=') {
-        return error;
-    }
-    let joined = shell_line(&[format!("{option}={value}")]);
     let tip = StyledStr::from(format!(
         "a value that begins with a dash is joined to its option: {joined}"
     ));
@@ -33,8 +31,25 @@ pub fn that_works(mut error: clap::Error, given: &[OsString]) -> clap::Error {
     error
 }
 
-/// Whether a word is a number below zero, with or without a unit.
-fn is_number(word: &str) -> bool {
-    let digits = |rest: &str| rest.starts_with(|c: char| c.is_ascii_digit() || c == '.');
-    word.strip_prefix('-').is_some_and(digits)
+/// How a value is joined to an option of the command that is called, such as `--output=`; `None` if it is none that
+/// always takes one.
+fn taking(command: &Command, given: &[OsString], option: &str) -> Option<String> {
+    let mut called = command;
+    for word in given {
+        called = called.find_subcommand(word).unwrap_or(called);
+    }
+    let dashed = option.strip_prefix('-')?;
+    let is_it = |argument: &&Arg| match dashed.strip_prefix('-') {
+        Some(long) => argument.get_long() == Some(long),
+        None => argument.get_short().map(String::from).as_deref() == Some(dashed),
+    };
+    let mut arguments = called.get_arguments().chain(command.get_arguments());
+    let found = arguments.find(is_it)?;
+    let takes = found.get_action().takes_values();
+    let least = found.get_num_args().map_or(1, |n| n.min_values());
+    match found.get_long() {
+        _ if !takes || least == 0 => None,
+        Some(long) => Some(format!("--{long}=")),
+        None => Some(format!("-{dashed}")),
+    }
 }

@@ -560,6 +560,27 @@ fn values_with_a_dash_are_joined_to_their_option() {
     assert!(tip.starts_with("'--points=-2 %'"), "{said}");
     let joined = run(folder.path(), "gap case.toml --points=-2");
     assert!(!message(&joined).contains("unexpected"), "{joined:?}");
+    // A name of a file behind its option, whichever of its two forms that has: what the tip says is taken.
+    for (words, joined) in [
+        ("run case.toml -o -x.h5", "--output=-x.h5"),
+        ("run case.toml --output -x.h5", "--output=-x.h5"),
+        ("gap case.toml --records -r.csv", "--records=-r.csv"),
+    ] {
+        let said = message(&run(folder.path(), words));
+        let tip = format!("a value that begins with a dash is joined to its option: '{joined}'");
+        assert!(said.contains(&tip), "{words}: {said}");
+        let (before, _) = words.split_once(" -").unwrap();
+        let output = run(folder.path(), &format!("{before} {joined}"));
+        assert!(!message(&output).contains("unexpected"), "{output:?}");
+    }
+    // What stands behind a switch is no value of it, and a slip in a long option none of the one before.
+    let said = message(&run(folder.path(), "run case.toml --json -x"));
+    assert!(!said.contains("joined"), "{said}");
+    let said = message(&run(folder.path(), "run case.toml -o --jsn"));
+    assert!(
+        said.contains("--json") && !said.contains("joined"),
+        "{said}"
+    );
     // Names of files stand behind two dashes.
     let output = run(folder.path(), "motion info -1");
     assert!(message(&output).contains("use '-- -1'"), "{output:?}");

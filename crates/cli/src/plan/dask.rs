@@ -48,9 +48,13 @@ def run(shard):
 
 
 def numbers(text):
-    for part in filter(None, text.split(",")):
+    for part in filter(None, map(str.strip, text.split(","))):
         first, _, last = part.partition("-")
-        yield from range(int(first), int(last or first) + 1)
+        last = last or first
+        exist = first.isdecimal() and last.isdecimal() and 1 <= int(first) <= int(last) <= SHARDS
+        if not exist:
+            sys.exit(f"{{part}}: no such shards; there are 1 to {{SHARDS}}, give a list of their numbers such as {example}")
+        yield from range(int(first), int(last) + 1)
 
 
 def main():
@@ -58,10 +62,9 @@ def main():
 
     os.makedirs(os.path.join(FOLDER, RESULTS, "log"), exist_ok=True)
     address = sys.argv[1] if len(sys.argv) > 1 else ""
-    wanted = numbers(sys.argv[2] if len(sys.argv) > 2 else f"1-{{SHARDS}}")
+    wanted = list(numbers(sys.argv[2] if len(sys.argv) > 2 else f"1-{{SHARDS}}"))
     # Named by its shard and never kept: what has failed is run again when it is asked for.
     with Client(address or LocalCluster(threads_per_worker=1)) as client:
-        wanted = list(wanted)
         codes = client.gather(client.map(run, wanted, pure=False))
     failed = [shard for shard, code in zip(wanted, codes) if code != 0]
     if failed:
@@ -79,5 +82,6 @@ if __name__ == "__main__":
         at_the_end = json!(plan.at_the_end),
         results = text(&plan.folder),
         shards = plan.shards,
+        example = plan.example(),
     )
 }

@@ -26,10 +26,10 @@ pub fn script(plan: &Plan) -> String {
         None => "",
     };
     format!(
-        "#!/bin/bash\n{}{at_once}{}list=${{1-1-{}}}\nif [ -n \"$list\" ]; then\nhq submit {} \\\n  -- bash -c {}\nfi\n{}\n",
+        "#!/bin/bash\n{}{at_once}{}{}if [ -n \"$list\" ]; then\nhq submit {} \\\n  -- bash -c {}\nfi\n{}\n",
         plan.head("for HyperQueue", &again),
         plan.begin(),
-        plan.shards,
+        plan.list(),
         options.join(" \\\n  "),
         quoted(&shard),
         plan.last_lines()

@@ -326,11 +326,38 @@ impl Plan {
         )
     }
 
-    /// Prints every number of a list such as 3,7-9, or of all shards, into a variable of a shell.
+    /// Puts a list such as 3,7-9, or that of all shards, into a variable of a shell, and ends the script where it names
+    /// shards that do not exist: nothing has been submitted then.
+    fn list(&self) -> String {
+        format!(
+            r#"list=${{1-1-{shards}}}
+set -f
+for range in $(printf '%s\n' "$list" | tr , ' '); do
+  if ! [[ $range =~ ^[1-9][0-9]{{0,6}}(-[1-9][0-9]{{0,6}})?$ ]] || [ "${{range%-*}}" -gt "${{range#*-}}" ] || [ "${{range#*-}}" -gt {shards} ]; then
+    echo "$range: no such shards; there are 1 to {shards}, give a list of their numbers such as {example}" >&2
+    exit 1
+  fi
+done
+set +f
+"#,
+            shards = self.shards,
+            example = self.example()
+        )
+    }
+
+    /// A list of numbers of shards that exist.
+    fn example(&self) -> String {
+        match self.shards {
+            1 | 2 => "1".to_owned(),
+            n => format!("1,{}-{n}", n - 1),
+        }
+    }
+
+    /// As [`Plan::list`], and prints every number into a variable of its own.
     fn list_of_shards(&self) -> String {
         format!(
-            "list=${{1-1-{}}}\nshards=$(for range in $(echo \"$list\" | tr , ' '); do seq \"${{range%-*}}\" \"${{range#*-}}\"; done)\n",
-            self.shards
+            "{}shards=$(for range in $(printf '%s\\n' \"$list\" | tr , ' '); do seq \"${{range%-*}}\" \"${{range#*-}}\"; done)\n",
+            self.list()
         )
     }
 }

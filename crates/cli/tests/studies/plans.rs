@@ -215,6 +215,57 @@ fn the_script_for_slurm_regroups_shards_and_says_so() {
     );
 }
 
+/// Numbers of shards that do not exist end every script before anything is submitted or merged.
+#[cfg(unix)]
+#[test]
+fn shards_that_do_not_exist_are_refused() {
+    use std::os::unix::fs::PermissionsExt;
+    let bench = bench();
+    std::fs::create_dir(bench.path("stubs")).unwrap();
+    for (name, text) in [("sbatch", SBATCH), ("hq", HQ)] {
+        let stub = bench.path(&format!("stubs/{name}"));
+        std::fs::write(&stub, text).unwrap();
+        std::fs::set_permissions(&stub, std::fs::Permissions::from_mode(0o755)).unwrap();
+    }
+    for scheduler in ["slurm", "hyper-queue", "shell"] {
+        script(&bench, scheduler, "");
+        for list in [
+            "8",
+            "100",
+            "0",
+            "5-3",
+            "1,9",
+            "2-8",
+            "-1",
+            "1-",
+            "one",
+            "1-2-3",
+            "*",
+            "2;4",
+            "1,0-3",
+            "99999999999999999999",
+            "-n",
+        ] {
+            let output = bash(&bench, &["plan.sh", list]);
+            let told = String::from_utf8_lossy(&output.stderr).into_owned();
+            assert_eq!(output.status.code(), Some(1), "{scheduler}, {list}: {told}");
+            let range = list.rsplit(',').next().unwrap();
+            let said = format!(
+                "{range}: no such shards; there are 1 to 7, give a list of their numbers such as 1,6-7\n"
+            );
+            assert_eq!(told, said, "{scheduler}, {list}");
+            for made in ["sbatch.options", "hq.options", "my result.h5"] {
+                assert!(!bench.path(made).exists(), "{scheduler}, {list}: {made}");
+            }
+        }
+    }
+    script(&bench, "slurm", "");
+    // The merge, which lacks the others, is submitted behind them.
+    bash(&bench, &["plan.sh", "1,6-7"]);
+    let given = std::fs::read_to_string(bench.path("sbatch.options")).unwrap();
+    assert!(given.lines().any(|o| o == "--array=1,6,7"), "{given}");
+}
+
 /// Names that begin as options do, and that Slurm and shells would replace.
 #[cfg(unix)]
 #[test]
@@ -303,14 +354,23 @@ fn the_script_for_dask_runs_and_merges() {
     let stub = "class LocalCluster:\n    def __init__(self, **options): pass\nclass Client:\n    def __init__(self, address): pass\n    def __enter__(self): return self\n    def __exit__(self, *_): pass\n    def map(self, function, values, pure): return [function(v) for v in values]\n    def gather(self, values): return values\n";
     std::fs::write(bench.path("dask/distributed.py"), stub).unwrap();
     script(&bench, "dask", "--time 1h");
-    let output = Command::new(python)
-        .arg("plan.sh")
-        .current_dir(bench.folder.path())
-        .env("PYTHONPATH", bench.folder.path())
-        .env("PYTHONDONTWRITEBYTECODE", "1")
-        .output()
-        .unwrap();
-    succeeded(&output);
+    let call = |words: &[&str]| {
+        let mut command = Command::new(&python);
+        command.arg("plan.sh").args(words);
+        command.current_dir(bench.folder.path());
+        command.env("PYTHONPATH", bench.folder.path());
+        command.env("PYTHONDONTWRITEBYTECODE", "1");
+        command.output().unwrap()
+    };
+    for list in ["8", "0", "5-3", "1,9", "-1", "one"] {
+        let output = call(&["", list]);
+        let told = String::from_utf8_lossy(&output.stderr).into_owned();
+        assert_eq!(output.status.code(), Some(1), "{list}: {told}");
+        let said = "no such shards; there are 1 to 7, give a list of their numbers such as 1,6-7\n";
+        assert!(told.ends_with(said), "{list}: {told}");
+        assert!(!bench.path("my result.h5").exists(), "{list}");
+    }
+    succeeded(&call(&[]));
     same_as_whole(&bench);
 }
 

@@ -4,7 +4,7 @@
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime, UNIX_EPOCH};
 
-use pounding_files::PartFile;
+use pounding_files::{ELSEWHERE, PartFile, not_own};
 use pounding_study::{Progress, ShardName, SweepReport};
 use serde::{Deserialize, Serialize};
 
@@ -128,7 +128,7 @@ impl Heartbeat {
     /// stays until this one is at work.
     ///
     /// # Errors
-    /// A file that cannot be written.
+    /// A file that cannot be written, or somebody's in its place.
     pub fn begin(folder: &Path, shard: &ShardName) -> Result<Self, Failure> {
         let path = path(folder, shard);
         let failed = |e: std::io::Error| {
@@ -138,6 +138,12 @@ impl Heartbeat {
             };
             Failure::output(&e, &about.display().to_string())
         };
+        if let Some((path, reason)) = not_own(&path, is_own) {
+            return Err(Failure::unwritten(
+                format!("cannot write {}: {reason}", path.display()),
+                Some(ELSEWHERE.to_owned()),
+            ));
+        }
         std::fs::create_dir_all(folder.join(FOLDER)).map_err(failed)?;
         PartFile::own(&path).map_err(failed)?;
         Ok(Self {
@@ -243,6 +249,18 @@ fn read_at(path: &Path) -> Option<Beat> {
     let written = written.map(seconds);
     beat.filter(Beat::can_be)
         .map(|beat| Beat { written, ..beat })
+}
+
+/// Whether a file is what a shard of this or of another version tells of itself, be it damaged behind its beginning.
+fn is_own(text: &[u8]) -> bool {
+    let has = |keys: [&str; 3]| {
+        let value: Result<serde_json::Value, _> = serde_json::from_slice(text);
+        value.is_ok_and(|value| keys.iter().all(|key| value.get(key).is_some()))
+    };
+    let rest = text.strip_prefix(b"{\"state\":\"");
+    let word = rest.and_then(|rest| rest.split(|byte| *byte == b'"').next());
+    let states: [&[u8]; 4] = [b"running", b"done", b"interrupted", b"failed"];
+    word.is_some_and(|word| states.contains(&word)) || has(["state", "runs", "finished"])
 }
 
 /// The file in which a shard told of itself, if it is not what a shard writes.

@@ -458,6 +458,7 @@ impl From<StudyError> for Failure {
             StudyError::Base(error) => Self::assembly(error, ""),
             e @ (StudyError::Store { .. }
             | StudyError::Table { .. }
+            | StudyError::NotOwn { .. }
             | StudyError::ResultFile(
                 StudyFileError::File { what: "write", .. } | StudyFileError::Aside { .. },
             )) => Self::unwritten(e.to_string(), help),

@@ -17,6 +17,7 @@ mod part_file;
 pub use file_use::{FileUse, FileUseError, ends_in_a_file_name, same_file};
 pub use lock_file::open_lock;
 pub use part_file::{
-    AskedOfTargets, LeftOver, PartFile, PlaceTaken, ask_of_targets, free_name, left_over,
-    left_over_in, remove_left_by, remove_part_files, runs_here, tell_of_replaced, write, write_own,
+    AskedOfTargets, ELSEWHERE, LeftOver, PartFile, PlaceTaken, ask_of_targets, free_name,
+    left_over, left_over_in, not_own, remove_left_by, remove_part_files, runs_here,
+    tell_of_replaced, write, write_own,
 };

@@ -2,7 +2,7 @@
 
 use std::ffi::OsString;
 use std::fs::{File, OpenOptions};
-use std::io::{Error, ErrorKind, Result, Write};
+use std::io::{Error, ErrorKind, Read, Result, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
@@ -230,6 +230,38 @@ impl Drop for PartFile {
             all.retain(|p| *p != self.path);
         }
     }
+}
+
+/// What to do about [`not_own`].
+pub const ELSEWHERE: &str =
+    "move it away, or give the shards a folder of their own with another --into";
+
+/// What stands in the way of a file that the program keeps in a folder which a user has named, and why: a link in the
+/// place of the file's folder, which would have it written elsewhere, or a file that does not begin as one of the
+/// program. An empty one holds nothing, and of a link in its own place [`PartFile::own`] tells.
+#[must_use]
+pub fn not_own(path: &Path, is_own: impl Fn(&[u8]) -> bool) -> Option<(PathBuf, &'static str)> {
+    /// Bytes that are looked at.
+    const BEGINNING: u64 = 1 << 20;
+    let folder = folder_of(path);
+    if folder.is_symlink() {
+        return Some((
+            folder.to_owned(),
+            "it is a link, which is not followed there",
+        ));
+    }
+    if !path.symlink_metadata().is_ok_and(|found| found.is_file()) {
+        return None;
+    }
+    let mut bytes = Vec::new();
+    let read =
+        crate::input::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut bytes));
+    let reason = match read {
+        Ok(_) if bytes.is_empty() || is_own(&bytes) => return None,
+        Ok(_) => "a file stands there that is not of this program",
+        Err(_) => "a file stands there that cannot be read",
+    };
+    Some((path.to_owned(), reason))
 }
 
 /// Gives a new file the permissions of the one that it replaces, where both belong to the same user and group: to others
@@ -578,6 +610,26 @@ mod tests {
             .collect();
         names.sort();
         names
+    }
+
+    /// A file that begins otherwise is in the way, and so is a link in the place of its folder; an empty one is not.
+    #[test]
+    fn what_is_not_of_the_program_is_told() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("status/a.json");
+        let told = |path: &Path| not_own(path, |text| text.starts_with(b"own")).map(|(at, _)| at);
+        assert_eq!(told(&path), None);
+        std::fs::create_dir(folder.path().join("status")).unwrap();
+        for (text, is_told) in [("", false), ("own, more", false), ("mine", true)] {
+            std::fs::write(&path, text).unwrap();
+            assert_eq!(told(&path), is_told.then(|| path.clone()), "{text}");
+        }
+        #[cfg(unix)]
+        {
+            let link = folder.path().join("link");
+            std::os::unix::fs::symlink("status", &link).unwrap();
+            assert_eq!(told(&link.join("b.json")), Some(link));
+        }
     }
 
     /// A process that was killed and that its parent has not asked after runs no more.

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use pounding_assembly::AssemblyError;
 use pounding_case::{CaseError, MORE_FILES, is_short_of_files};
 use pounding_catalogue::wording::{agreeing, counted};
-use pounding_files::PlaceTaken;
+use pounding_files::{ELSEWHERE, PlaceTaken};
 use pounding_ground_motion::GroundMotionError;
 use pounding_results::study::StudyFileError;
 
@@ -59,6 +59,14 @@ pub enum StudyError {
         path: PathBuf,
         /// What the system said.
         source: std::io::Error,
+    },
+    /// Somebody's file or link in the place of what the shards of a study keep beside their results.
+    #[error("cannot write {path}: {reason}")]
+    NotOwn {
+        /// The file or the link.
+        path: PathBuf,
+        /// What it is.
+        reason: &'static str,
     },
     /// The table of runs cannot be written.
     #[error("cannot write {path}, the table of the runs: {source}")]
@@ -282,6 +290,7 @@ impl StudyError {
             Self::File { .. } => {
                 "check that the folder exists, may be written to and has room, or name another file with -o"
             }
+            Self::NotOwn { .. } => ELSEWHERE,
             Self::Table { source, stored, .. } => match (PlaceTaken::of(source), stored) {
                 (Some(taken), _) => return Some(taken.help()),
                 (None, false) => {

@@ -140,3 +140,104 @@ fn what_is_said_of_a_record_does_not_depend_on_the_order_of_shards() {
     bench.text("merge all -o merged.h5");
     assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
 }
+
+/// A list and a status file that are somebody's stay, and so does what links in the places of their folders lead to:
+/// before any work, with place and remedy.
+#[cfg(unix)]
+#[test]
+fn what_is_somebodys_in_a_folder_of_shards_stays() {
+    use std::os::unix::fs::symlink;
+    let bench = bench();
+    std::fs::rename(bench.path("study.toml"), bench.path("s.toml")).unwrap();
+    let shard = "sweep s.toml --shard 1/3 --into all";
+    let status = "all/status/s.shard-1-of-3.json";
+    let list = "all/records/list.json";
+    std::fs::create_dir(bench.path("mine")).unwrap();
+    for (place, text) in [
+        (list, "{\"mine\":1}"),
+        (list, "{\"study\":\"mine\"}"),
+        (status, "notes"),
+        (status, "{\"state\":\"Bavaria\"}"),
+    ] {
+        let at = bench.path(place);
+        for is_linked in [false, true] {
+            std::fs::create_dir_all(at.parent().unwrap()).unwrap();
+            if is_linked {
+                std::fs::remove_dir(at.parent().unwrap()).unwrap();
+                symlink("../mine", at.parent().unwrap()).unwrap();
+            }
+            std::fs::write(&at, text).unwrap();
+            let told = bench.complaint(shard, 4);
+            let named = match is_linked {
+                false => {
+                    format!("cannot write {place}: a file stands there that is not of this program")
+                }
+                true => format!(
+                    "cannot write {}: it is a link, which is not followed there",
+                    place.rsplit_once('/').unwrap().0
+                ),
+            };
+            assert!(told.contains(&named), "{named}: {told}");
+            assert!(
+                told.contains("help: move it away, or give the shards"),
+                "{told}"
+            );
+            assert_eq!(std::fs::read_to_string(&at).unwrap(), text, "{place}");
+            assert_eq!(std::fs::read_dir(at.parent().unwrap()).unwrap().count(), 1);
+            assert!(!bench.path("all/s.shard-1-of-3.h5").exists(), "{place}");
+            std::fs::remove_file(&at).unwrap();
+            std::fs::remove_dir_all(bench.path("all")).unwrap();
+        }
+    }
+}
+
+/// Files that a former version, another study or a damage has left are replaced, and so are empty ones.
+#[test]
+fn former_lists_and_status_files_are_replaced() {
+    let bench = bench();
+    std::fs::rename(bench.path("study.toml"), bench.path("s.toml")).unwrap();
+    let list = format!("{{\"study\":\"{}\",\"records\":[]}}", "0".repeat(64));
+    for (list, status) in [
+        ("", ""),
+        (&*list, "{\"state\":\"done\",\"runs\":1}"),
+        (&list[..80], "{\"state\":\"running\",\"ru"),
+        (&list, "{\"runs\":1, \"finished\":1, \"state\":\"done\"}"),
+    ] {
+        for (place, text) in [("records/list", list), ("status/s.shard-1-of-3", status)] {
+            let at = bench.path(&format!("all/{place}.json"));
+            std::fs::create_dir_all(at.parent().unwrap()).unwrap();
+            std::fs::write(at, text).unwrap();
+        }
+        bench.text("sweep s.toml --shard 1/3 --into all");
+        let told = bench.bytes("all/status/s.shard-1-of-3.json");
+        assert!(
+            told.starts_with(b"{\"state\":\"done\",\"runs\":4,"),
+            "{status}"
+        );
+        let known = String::from_utf8(bench.bytes("all/records/list.json")).unwrap();
+        assert!(known.contains("b.csv"), "{known}");
+        std::fs::remove_dir_all(bench.path("all")).unwrap();
+    }
+}
+
+/// What a changed digit makes of a list is not believed: the records are read again, and the list is as it was.
+#[test]
+fn a_damaged_list_is_not_believed() {
+    let bench = bench();
+    bench.text("sweep study.toml -o whole.h5");
+    bench.text("sweep study.toml --shard 1/3 --into all");
+    let list = String::from_utf8(bench.bytes("all/records/list.json")).unwrap();
+    let (before, after) = list.split_once("\"peak_time\":").unwrap();
+    // A peak at 2e9 s, beyond the end of every run.
+    let (_, after) = after.split_once(',').unwrap();
+    let late = 2.0e9_f64.to_bits();
+    let changed = format!("{before}\"peak_time\":{late},{after}");
+    std::fs::write(bench.path("all/records/list.json"), changed).unwrap();
+    for shard in [2, 3] {
+        let told = bench.text(&format!("sweep study.toml --shard {shard}/3 --into all"));
+        assert!(!told.contains("peak of"), "{told}");
+    }
+    assert_eq!(bench.bytes("all/records/list.json"), list.as_bytes());
+    bench.text("merge all -o merged.h5");
+    assert!(bench.bytes("merged.h5") == bench.bytes("whole.h5"));
+}

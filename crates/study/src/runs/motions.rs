@@ -61,7 +61,9 @@ impl Motions {
         keep_failures: bool,
         folder: Option<&Path>,
     ) -> Result<Self, StudyError> {
-        let mut shared = folder.map(|folder| SharedRecords::open(folder, study));
+        let mut shared = folder
+            .map(|folder| SharedRecords::open(folder, study))
+            .transpose()?;
         let known = |source: &RecordSource| shared.as_ref().and_then(|s| s.known(source));
         let all = study.records.iter().map(|source| match known(source) {
             Some(known) => Ok(known),

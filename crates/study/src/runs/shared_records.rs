@@ -17,6 +17,7 @@ use crate::case_text::canonical;
 use crate::error::StudyError;
 use crate::study_file::{RecordKind, RecordSource, Study};
 use pounding_files::checksum::hexadecimal;
+use pounding_files::not_own;
 
 /// The folder of the copies in that of the shards.
 pub const FOLDER: &str = "records";
@@ -36,6 +37,29 @@ struct List {
     /// Hash of study and case, which say how records are read and measured, and of the build.
     study: String,
     records: Vec<Known>,
+    /// Of both, see [`List::sum`]. A list without one is of another build, and so never of this study.
+    #[serde(default)]
+    checksum: String,
+}
+
+impl List {
+    /// The checksum that belongs to what stands in the list.
+    fn sum(&self) -> Result<String, serde_json::Error> {
+        let text = serde_json::to_vec(&(&self.study, &self.records))?;
+        Ok(hexadecimal(&Sha256::digest(text)))
+    }
+
+    /// Whether it is as it was written: a record that is believed is not read again.
+    fn is_whole(&self) -> bool {
+        self.sum().is_ok_and(|sum| sum == self.checksum)
+    }
+}
+
+/// Whether a file is a list of this or of another version, be it damaged behind its beginning.
+fn is_own(text: &[u8]) -> bool {
+    let rest = text.strip_prefix(b"{\"study\":\"");
+    let hash = rest.and_then(|rest| rest.split(|byte| *byte == b'"').next());
+    hash.is_some_and(|hash| hash.len() == 64 && hash.iter().all(u8::is_ascii_hexdigit))
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -66,10 +90,18 @@ struct Stamp {
 }
 
 impl SharedRecords {
-    /// Opens the list in a folder of shards; an empty one if there is none, or one of another
-    /// study.
-    pub(super) fn open(folder: &Path, study: &Study) -> Self {
+    /// Opens the list in a folder of shards; an empty one if there is none, or one that is damaged or of
+    /// another study.
+    ///
+    /// # Errors
+    /// Somebody's file in the place of the list, or a link in that of its folder, where records will be copied.
+    pub(super) fn open(folder: &Path, study: &Study) -> Result<Self, StudyError> {
         let folder = folder.join(FOLDER);
+        let copies = study.records.iter().any(|source| file(source).is_some());
+        let in_the_way = not_own(&folder.join(LIST), is_own).filter(|_| copies);
+        if let Some((path, reason)) = in_the_way {
+            return Err(StudyError::NotOwn { path, reason });
+        }
         let mut hash = Sha256::new();
         hash.update(crate::BUILD);
         for text in [&study.source, &study.base.source] {
@@ -81,14 +113,15 @@ impl SharedRecords {
         let study = hexadecimal(&hash.finalize());
         let list = pounding_files::input::read(&folder.join(LIST)).ok();
         let list = list.and_then(|text| serde_json::from_slice::<List>(&text).ok());
-        let list = list.filter(|list| list.study == study);
-        Self {
+        let list = list.filter(|list| list.study == study && list.is_whole());
+        Ok(Self {
             folder,
             list: list.unwrap_or(List {
                 study,
                 records: Vec::new(),
+                checksum: String::new(),
             }),
-        }
+        })
     }
 
     /// What is known of a record whose file is as it was, or gone.
@@ -164,7 +197,9 @@ impl SharedRecords {
             return Ok(());
         }
         let path = self.folder.join(LIST);
-        let text = serde_json::to_string(&self.list).map_err(std::io::Error::from);
+        let sum = self.list.sum().map(|sum| self.list.checksum = sum);
+        let text = sum.and_then(|()| serde_json::to_string(&self.list));
+        let text = text.map_err(std::io::Error::from);
         let written = text.and_then(|text| pounding_files::write_own(&path, text.as_bytes()));
         written.map_err(failed(&path))
     }

@@ -427,10 +427,17 @@ fn decimals_of_other_writers() {
     let mut few = values[..150].to_vec();
     few[70].pop();
     reads(&few);
-    // One decimal more is no loss.
+    // A zero more is no change; another digit more may have come in anywhere.
+    let mut more = values.clone();
+    more[70] += "0";
+    reads(&more);
     let mut more = values.clone();
     more[70] += "4";
-    reads(&more);
+    for format in FORMATS {
+        let said = read(format, &more).unwrap_err();
+        let told = "has 4 decimals, but the other values have 3";
+        assert!(said.contains(told), "{format}: {said}");
+    }
     // In a column of fixed width the larger values have fewer.
     let of_width = |text: &String| text[..text.len().min(5)].to_owned();
     reads(&values.iter().map(of_width).collect::<Vec<_>>());

@@ -51,6 +51,7 @@ mod stated_durations;
 mod stated_in_words;
 mod stated_keys;
 mod station_xml;
+mod surplus_decimals;
 mod thousands;
 mod time_columns;
 mod time_steps_and_scales;

@@ -32,6 +32,14 @@ const OF_NO_MOTION: f64 = 1.0e6;
 /// not follow its neighbours where a writer leaves out zeros at the end.
 const FAR: f64 = 2.0;
 
+/// One in so many values is a whole number where all values are printed with one decimal; more are of a writer of whole
+/// numbers.
+const OF_WHOLES: usize = 4;
+/// Significant digits of a number in double precision that is printed in full, and decimals more than those of the other
+/// values that it then has: `0.30000000000000004` is round-off, no damage.
+const OF_ROUND_OFF: usize = 15;
+const FEW_DECIMALS: usize = 3;
+
 /// Magnitude below which `G` formats of Fortran print exponents, and below which `%g` does.
 const BELOW_G: f64 = 0.1;
 const BELOW_PERCENT_G: f64 = 1.0e-4;
@@ -300,6 +308,55 @@ fn lacks_decimals<'t>(
     };
     let mut odd = tally.kinds().filter(|kind| fewer(kind.key));
     Some((odd.find_map(lost)?, usual))
+}
+
+/// Whether the mantissa of a field ends in so many zeros.
+fn ends_in_zeros(field: &[u8], number: usize) -> bool {
+    let digits = Parts::of(field).mantissa.iter().rev();
+    digits.take_while(|b| **b == b'0').count() >= number
+}
+
+/// The first value with more decimals than nearly all others, of so many that all are printed with as many, and the
+/// decimals of the others: a digit came in, or the point moved.
+fn has_surplus_decimals(
+    tally: &Tally<Option<usize>>,
+    have_exponents: bool,
+) -> Option<(&Place, usize)> {
+    let most = tally.usual()?;
+    let usual = most.key.filter(|usual| *usual > 0)?;
+    let surplus = |decimals: Option<usize>| decimals.map_or(0, |n| n.saturating_sub(usual));
+    let odd = tally.number(|decimals| surplus(decimals) > 0);
+    let others = tally.count - most.count - odd;
+    let few = |number| are_few(number, tally.count);
+    if tally.count <= MANY_DECIMALS || !few(odd) || !few(others) {
+        return None;
+    }
+    // As where decimals are lacking: values of which a tenth would have lost a zero at the end have all.
+    if !keeps_zeros(most) && most.of_two_digits < MANY_DECIMALS {
+        return None;
+    }
+    // Writers of the fewest digits print whole numbers with one zero.
+    if usual == 1 && OF_WHOLES * most.end_in_zero > most.count {
+        return None;
+    }
+    // Where digits or characters are as many in all, a value with a digit less before the point has one more behind
+    // it. A mantissa has one digit before it, or none, but in engineering notation.
+    let is_scientific = have_exponents && most.most_digits <= usual + 1;
+    let is_other = |at: &&Place| {
+        let is_of_digits = at.digits <= most.shortest.digits && !is_scientific;
+        let is_of_width =
+            most.widths.0 == most.widths.1 && at.width() <= most.widths.1 && !is_scientific;
+        let surplus = surplus(Parts::of(at.field()).decimals);
+        let is_round_off = at.digits >= OF_ROUND_OFF && surplus > FEW_DECIMALS;
+        // A zero that follows the last digit changes nothing; behind a point that moved it is one of the others' digits.
+        let is_of_size = at.value.abs() <= FAR * most.largest.value.abs();
+        let has_more = !have_exponents || at.digits > most.most_digits;
+        let is_same = ends_in_zeros(at.field(), surplus) && is_of_size && has_more;
+        !is_of_digits && !is_of_width && !is_round_off && !is_same
+    };
+    let odd = tally.kinds().filter(|kind| surplus(kind.key) > 0);
+    let mut values = odd.flat_map(|kind| [&kind.first, &kind.largest]);
+    Some((values.find(is_other)?, usual))
 }
 
 impl Forms {
@@ -644,6 +701,22 @@ impl Forms {
                     at.shown()
                 );
                 let remedy = match at.field().iter().any(u8::is_ascii_alphabetic) {
+                    true => REMEDY.to_owned(),
+                    false => or_as_others(at, usual),
+                };
+                return refused(at, message, &remedy);
+            }
+            if let Some((at, usual)) = has_surplus_decimals(tally, have_exponents) {
+                let decimals = Parts::of(at.field()).decimals.unwrap_or(0);
+                let has = match decimals {
+                    1 => "1 decimal".to_owned(),
+                    _ => format!("{decimals} decimals"),
+                };
+                let message = format!(
+                    "\"{}\" has {has}, but the other values have {usual}: a digit came in, or the point moved",
+                    at.shown()
+                );
+                let remedy = match have_exponents {
                     true => REMEDY.to_owned(),
                     false => or_as_others(at, usual),
                 };

@@ -20,6 +20,7 @@ pub(super) struct Place {
     pub ends_in_zero: bool,
     field: [u8; KEPT],
     length: usize,
+    whole_width: usize,
 }
 
 impl Place {
@@ -42,11 +43,17 @@ impl Place {
             ends_in_zero,
             field,
             length,
+            whole_width: bytes.len(),
         }
     }
 
     pub(super) fn field(&self) -> &[u8] {
         &self.field[..self.length]
+    }
+
+    /// Characters of the whole field.
+    pub(super) fn width(&self) -> usize {
+        self.whole_width
     }
 
     pub(super) fn shown(&self) -> String {
@@ -67,6 +74,8 @@ pub(super) struct Kind<K> {
     /// Values with two significant digits and more, and values whose mantissa ends in a zero.
     pub of_two_digits: usize,
     pub end_in_zero: usize,
+    /// Characters of the shortest and the longest field.
+    pub widths: (usize, usize),
 }
 
 impl<K> Kind<K> {
@@ -80,6 +89,7 @@ impl<K> Kind<K> {
             most_digits: 0,
             of_two_digits: 0,
             end_in_zero: 0,
+            widths: (place.width(), place.width()),
         }
     }
 
@@ -94,6 +104,10 @@ impl<K> Kind<K> {
         self.most_digits = self.most_digits.max(place.digits);
         self.of_two_digits += usize::from(place.digits >= 2);
         self.end_in_zero += usize::from(place.ends_in_zero);
+        self.widths = (
+            self.widths.0.min(place.width()),
+            self.widths.1.max(place.width()),
+        );
     }
 }
 

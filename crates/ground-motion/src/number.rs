@@ -288,14 +288,15 @@ pub(crate) fn step_or_rate(text: &str, bare: Bare) -> Result<Option<f64>, String
     // `100HZ`: the number ends where the word begins. An `e` alone is of the number.
     let glued = first.len()
         - first
-            .trim_start_matches(|c: char| !c.is_ascii_alphabetic() || "ed".contains(c))
+            .trim_start_matches(|c: char| !c.is_alphabetic() || "ed".contains(c))
             .len();
     let (number, word) = first.split_at(glued);
     let word = match word {
         "" => behind.trim_start_matches([' ', '\t']),
         word => word,
     };
-    let ends = |c: char| !(c.is_ascii_alphabetic() || c == '/');
+    // A letter need not be an ASCII one: `20000 \u{b5}s`.
+    let ends = |c: char| !(c.is_alphabetic() || c == '/');
     let (word, after) = word.split_at(word.find(ends).unwrap_or(word.len()));
     let Ok(value) = parse(number.as_bytes()) else {
         return Ok(None);

@@ -10,6 +10,8 @@ use crate::unit::AccelerationUnit;
 
 /// Ratio of mean to peak from which a mean that is kept is named.
 const OFFSET_TO_NAME: f64 = 0.01;
+/// Digits of a time step in a message: a mean of differences has round-off behind them.
+const STEP_DIGITS: usize = 9;
 
 /// Chooses the acceleration that the options name and makes it ready.
 pub(crate) fn excitation(
@@ -221,8 +223,9 @@ fn ready(
             let longest = continuous(file, &times)?;
             let step = resampling_step(file, &times, options)?;
             series.origin.warnings.push(format!(
-                "{} samples at uneven times, resampled to {step} s by linear interpolation; the longest step between them is {longest}",
-                times.len()
+                "{} samples at uneven times, resampled to {} s by linear interpolation; the longest step between them is {longest}",
+                times.len(),
+                rounded(step, STEP_DIGITS)
             ));
             series.origin.time_step = format!("{step} s (given by the user)");
             (resample(file, &times, &series.samples, step)?, step)

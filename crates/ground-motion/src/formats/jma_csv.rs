@@ -4,7 +4,7 @@ use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
-use crate::formats::rows::second_record;
+use crate::formats::rows::{not_of_format, second_record};
 use crate::number::Bare;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
@@ -19,6 +19,9 @@ pub(super) static FORMAT: Format = Format {
     matches,
     read,
 };
+
+/// Keys of which one at least stands before the names of the columns.
+const KEYS: [&str; 4] = ["site", "sampling", "unit", "initial time"];
 
 const UNITS: &str = "give the record of the accelerations, whose unit is gal(cm/s/s); if the unit alone is wrong, correct the line";
 
@@ -38,7 +41,7 @@ fn has_names(line: Line<'_>, text: &str) -> bool {
 
 fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
-    let (mut step, mut unit) = (None, DraftUnit::Unstated);
+    let (mut step, mut unit, mut is_keyed) = (None, DraftUnit::Unstated, false);
     let (mut site, mut start) = (String::new(), String::new());
     let (header, names) = loop {
         let line = source.expect(&mut lines, "the line NS,EW,UD")?;
@@ -46,12 +49,22 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         let text = text.trim_end_matches([',', ' ']);
         let Some((key, value)) = text.split_once('=') else {
             if has_names(line, text) {
+                if !is_keyed {
+                    let keys = "\"SITE CODE= \", \"SAMPLING RATE= \" or \"UNIT = \"";
+                    return Err(not_of_format(
+                        source,
+                        line.number,
+                        &FORMAT,
+                        (keys, "columns"),
+                    ));
+                }
                 let names = text.split(',').map(|n| n.trim().to_owned());
                 break (line.number, names.collect::<Vec<_>>());
             }
             continue;
         };
         let (key, value) = (key.trim().to_ascii_lowercase(), value.trim());
+        is_keyed |= KEYS.iter().any(|known| key.starts_with(known));
         if key.starts_with("sampling") {
             let stated = source.step_or_rate(line, value, Bare::Rate)?;
             step = stated.filter(|s| s.is_finite() && *s > 0.0);

@@ -234,6 +234,7 @@ impl Header {
         }
         match name.as_str() {
             n if n.starts_with("sampling freq") => {
+                in_hertz(source, line, &value)?;
                 self.frequency = first.map(|n| n.0).filter(|f| *f > 0.0);
             }
             n if n.starts_with("duration") => {
@@ -263,6 +264,27 @@ fn in_gal(source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> 
             text.find('(').unwrap_or(0),
             format!(
                 "\"{}\" where the format has gal",
+                number::shown(unit.as_bytes())
+            ),
+            REMEDY,
+        )),
+        None => Ok(()),
+    }
+}
+
+/// Refuses another unit than Hz behind a sampling frequency or in the brackets of its key: `100Hz`, `100`.
+fn in_hertz(source: &Source<'_>, line: Line<'_>, value: &str) -> Result<(), GroundMotionError> {
+    let number = |c: char| c.is_ascii_digit() || c.is_ascii_whitespace() || "+-.".contains(c);
+    let behind = value.trim_start_matches(number).trim();
+    let text = line.text();
+    let of_key = in_brackets(&text).unwrap_or_default().trim();
+    let is_hertz = |unit: &&str| unit.is_empty() || unit.eq_ignore_ascii_case("hz");
+    match [behind, of_key].into_iter().find(|unit| !is_hertz(unit)) {
+        Some(unit) => Err(source.error(
+            line.number,
+            text.find(unit).unwrap_or(NAME),
+            format!(
+                "\"{}\" where the format has a sampling frequency in Hz",
                 number::shown(unit.as_bytes())
             ),
             REMEDY,

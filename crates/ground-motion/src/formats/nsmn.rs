@@ -5,6 +5,7 @@ use crate::accelerogram::Processing;
 use crate::draft::{Draft, DraftPeak, DraftUnit, Printed, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
+use crate::formats::rows::not_of_format;
 use crate::number::{self, Bare};
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
@@ -160,10 +161,23 @@ fn with_point(value: &str) -> String {
     value.replace(',', ".")
 }
 
+/// Whether a key is one of which some stand in every header of the format.
+fn is_known(key: &str) -> bool {
+    let upper = key.trim().to_ascii_uppercase();
+    ["PLACE", "STATION ID", "RECORD TIME", "NUMBER OF DATA"].contains(&upper.as_str())
+        || upper.starts_with("SAMPLING INTERVAL")
+        || upper.contains("PGA")
+}
+
 impl Header {
     /// Reads up to the line that names the columns.
     fn read<'a>(source: &Source<'a>, lines: &mut Lines<'a>) -> Result<Self, GroundMotionError> {
         let mut header = Self::default();
+        let mut is_keyed = false;
+        let foreign = |line: usize| {
+            let keys = "\"STATION ID : \", \"NUMBER OF DATA : \" or \"SAMPLING INTERVAL (sec) : \"";
+            not_of_format(source, line, &FORMAT, (keys, "components"))
+        };
         while header.names.is_empty() {
             if lines.number() >= HEADER_LINES {
                 return Err(source.error(
@@ -175,10 +189,17 @@ impl Header {
             }
             let line = source.expect(lines, "the names of the components")?;
             match line.text().split_once(':') {
-                Some((key, value)) => header.take(source, line, key, value.trim())?,
-                None if line.is_blank() || line.bytes.iter().any(u8::is_ascii_alphabetic) => {
-                    header.names = names(line)
+                Some((key, value)) => {
+                    is_keyed |= is_known(key);
+                    header.take(source, line, key, value.trim())?;
                 }
+                None if line.is_blank() || line.bytes.iter().any(u8::is_ascii_alphabetic) => {
+                    header.names = names(line);
+                    if !(is_keyed || header.names.is_empty()) {
+                        return Err(foreign(line.number));
+                    }
+                }
+                None if !is_keyed => return Err(foreign(line.number)),
                 None => {
                     return Err(source.error(
                         line.number,
@@ -283,6 +304,10 @@ impl Header {
 /// Names of columns: words of letters that say a direction, such as `N-S`, `E-W` and `U-D`.
 fn names(line: Line<'_>) -> Vec<String> {
     let direction = |word: &str| {
+        // `.123E-02` is a number.
+        if word.contains(|c: char| c.is_ascii_digit()) {
+            return false;
+        }
         let plain: String = word.chars().filter(|c| c.is_ascii_alphabetic()).collect();
         let plain = plain.to_ascii_uppercase();
         ["NS", "EW", "UD", "N", "E", "U", "Z", "V", "SN", "WE", "DU"].contains(&plain.as_str())

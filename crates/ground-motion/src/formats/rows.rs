@@ -1,6 +1,7 @@
 //! What stands among the rows of values of a file, and is none.
 
 use crate::error::GroundMotionError;
+use crate::formats::Format;
 use crate::source::Source;
 use crate::text::Line;
 
@@ -56,5 +57,23 @@ pub(super) fn second_record(source: &Source<'_>, line: Line<'_>) -> GroundMotion
         0,
         "a second record begins here: files of this format hold one",
         "put each record into a file of its own",
+    )
+}
+
+/// The error of a file that is not of the format that the user gives: its header has none of these keys before `what`.
+pub(super) fn not_of_format(
+    source: &Source<'_>,
+    line: usize,
+    format: &Format,
+    (keys, what): (&str, &str),
+) -> GroundMotionError {
+    source.error(
+        line,
+        0,
+        format!(
+            "the file does not look like {}: no line such as {keys} stands before the names of the {what}",
+            format.name
+        ),
+        "leave the format out, so that it is found, or give the one of the file: `format` in [ground_motion] of a case, `--format` with `pounding motion`",
     )
 }

@@ -132,7 +132,8 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         });
     }
     acceleration(source, &words)?;
-    let count = usize::try_from(words.integer(79)).unwrap_or(0);
+    let stated = words.integer(79);
+    let count = usize::try_from(stated).unwrap_or(0);
     let uneven = words.integer(105) == 0;
     let data = source.bytes.len() - HEADER;
     let width: usize = if uneven { 8 } else { 4 };
@@ -159,7 +160,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
                 .bytes
                 .len()
                 .min(HEADER.saturating_add(width.saturating_mul(count))),
-            format!("the header says {count} samples, the file holds {present}"),
+            format!("the header says {stated} samples, the file holds {present}"),
         ));
     }
     // The shortest decimal that is this single-precision number: 0.005, not
@@ -198,6 +199,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     draft.warnings.extend(other_mean(&words, &draft.samples));
     draft.warnings.extend(other_ends(&words, &draft.samples));
     draft.warnings.extend(factor(&words));
+    draft.warnings.extend(no_direction(&words));
     fill(&words, &mut draft);
     // Counts are as the instrument gave them.
     if source.options.sensitivity.is_some() {
@@ -333,6 +335,25 @@ fn factor(words: &Words<'_>) -> Option<String> {
     Some(format!(
         "the header has a factor of {} (SCALE), which is not applied: it may be the sensitivity of the instrument, counts for each unit",
         bound(scale)
+    ))
+}
+
+/// What to say of angles of the component in the header that are none: no direction is known of it by them.
+fn no_direction(words: &Words<'_>) -> Option<String> {
+    const LEVEL: f64 = 90.0;
+    let angles = [("CMPAZ", AZIMUTH), ("CMPINC", INCIDENCE)];
+    let of = |word: usize, usual: f64| words.float(word).unwrap_or(usual);
+    if Orientation::of(of(AZIMUTH, 0.0), of(INCIDENCE, LEVEL) - LEVEL).is_some() {
+        return None;
+    }
+    let stated = angles.iter().filter_map(|(name, word)| {
+        let degrees = words.float(*word)?;
+        Some(format!("{name} of {} degrees", bound(degrees)))
+    });
+    let stated: Vec<String> = stated.collect();
+    Some(format!(
+        "the header says a {}, which is no direction and is not used",
+        stated.join(" and a ")
     ))
 }
 

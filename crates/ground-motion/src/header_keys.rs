@@ -11,8 +11,8 @@ mod words;
 use words::{
     AMPLIFICATIONS, AND_SECONDS, ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS,
     BEFORE_NUMBERS, BEFORE_VALUES, CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES,
-    GRAVITIES, HEADINGS, HERTZ, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS,
-    QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
+    GRAVITIES, HEADINGS, HERTZ, LARGEST, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES,
+    PEAKS, QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
 };
 
 /// What stands under a key.
@@ -123,6 +123,11 @@ impl<'t> Entry<'t> {
         ["time", "at time"].contains(&self.words().as_str())
     }
 
+    /// Whether the key says that its value is a largest one, but not of what: `peak`, `max`.
+    pub(crate) fn is_of_peak(&self) -> bool {
+        LARGEST.contains(&self.words().trim_end_matches('.'))
+    }
+
     /// Whether a number stands under the key.
     pub(crate) fn has_number(&self) -> bool {
         self.value
@@ -170,6 +175,26 @@ pub(crate) fn lone_rate(lower: &str) -> Option<(f64, bool)> {
         && inside.is_none_or(is_rate_unit)
         && !(is_rate && unit.is_empty());
     (is_own && is_bare && is_rate_unit(unit) && found >= LEAST_RATE).then_some((found, is_rate))
+}
+
+/// The rate (Hz) that a text in lower case is, `# 100 hz`, `(100 sps)`, with nothing else.
+pub(crate) fn bare_rate(lower: &str) -> Option<f64> {
+    let bare = lower.trim_matches(|c: char| "#%!*/()[]. \t\"".contains(c));
+    let digits = bare.find(|c: char| !(c.is_ascii_digit() || c == '.'))?;
+    let (number, unit) = bare.split_at(digits);
+    let rate = number::parse(number.as_bytes()).ok()?;
+    let unit = unit.trim();
+    (!unit.is_empty() && is_rate_unit(unit) && rate >= LEAST_RATE).then_some(rate)
+}
+
+/// Whether a line in lower case is a peak alone, with a unit of acceleration: `peak: 0.5 g`.
+pub(crate) fn is_lone_peak(entries: &[Entry<'_>], lower: &str) -> bool {
+    let [entry] = entries else {
+        return false;
+    };
+    let unit = entry.number().map_or("", |(.., unit)| unit);
+    let first = lower.trim_start_matches(|c: char| !c.is_alphanumeric());
+    entry.is_of_peak() && first.starts_with(entry.key) && is_of_acceleration(unit)
 }
 
 /// What follows the words of a rate of sampling in a line in lower case, `200, cutoff 80 hz`.
@@ -426,6 +451,9 @@ pub(crate) fn unit_in_words(lower: &str) -> Option<&str> {
     let inside = |ends: (char, char)| bare.strip_prefix(ends.0)?.strip_suffix(ends.1);
     let before = inside(('(', ')')).or_else(|| inside(('[', ']')));
     let before = before.unwrap_or(bare);
+    if let Some(unit) = unit_of_acceleration(before) {
+        return Some(unit);
+    }
     let mut rest = before;
     while let Some(behind) = first_word_of(rest, &BEFORE_VALUES) {
         rest = behind;
@@ -439,6 +467,20 @@ pub(crate) fn unit_in_words(lower: &str) -> Option<&str> {
         rest = behind;
     }
     rest = first_word_of(rest, &["in", "en", "em"])?;
+    unit_alone(rest, of_units.is_some())
+}
+
+/// The unit that a sentence on it names, `the unit of acceleration is cm/s2`.
+fn unit_of_acceleration(bare: &str) -> Option<&str> {
+    let bare = first_word_of(bare, &["the"]).unwrap_or(bare);
+    let of = first_word_of(first_word_of(bare, &["unit", "units"])?, &["of"])?;
+    let of = first_word_of(of, &["the"]).unwrap_or(of);
+    let is = first_word_of(of, &["acceleration", "accelerations"])?;
+    unit_alone(first_word_of(is, &["is", "are"])?, true)
+}
+
+/// The unit that a text is, if nothing but a remark in brackets, or the unit of the times, follows it.
+fn unit_alone(rest: &str, of_units: bool) -> Option<&str> {
     let of = UNITS_OF.iter().find_map(|words| rest.strip_prefix(words));
     let unit = of.unwrap_or(rest).trim();
     // A remark in brackets ends the line.
@@ -446,7 +488,7 @@ pub(crate) fn unit_in_words(lower: &str) -> Option<&str> {
     let times = AND_SECONDS.iter().find_map(|of| name.strip_suffix(of));
     let (unit, name) = times.map_or((unit, name), |name| (name, name));
     // `units are in cm and seconds` is a system of units.
-    if (of_units.is_some() || times.is_some()) && !is_of_acceleration(name.trim()) {
+    if (of_units || times.is_some()) && !is_of_acceleration(name.trim()) {
         return None;
     }
     let is_alone = !name.contains([',', ';', ':', '=', '|', '\t'])

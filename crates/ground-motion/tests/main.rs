@@ -58,4 +58,5 @@ mod time_steps_and_scales;
 mod touching_numbers;
 mod two_units;
 mod undeclared_headers;
+mod words_of_headers;
 mod writers;

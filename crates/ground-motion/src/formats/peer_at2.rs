@@ -13,8 +13,8 @@ use crate::formats::Format;
 use crate::formats::rows::{DecimalCommas, second_record};
 use crate::fortran::Layout;
 use crate::header_keys::{
-    Meaning, decimation, factors, gravity, is_of_another, is_rate_unit, keyed, lone_rate, meaning,
-    unit_in_words, unit_words,
+    Entry, Meaning, bare_rate, decimation, factors, gravity, is_of_another, is_rate_unit, keyed,
+    lone_rate, meaning, unit_in_words, unit_words,
 };
 use crate::number::{self, Bare};
 use crate::quantity::{Multiple, Quantity, SeriesUnit, named_with_unit, speaks_of_spectrum};
@@ -228,16 +228,81 @@ fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
             line: i + 1,
             step: 1.0 / rate,
         });
-        rates.into_iter().chain(lone)
+        // `NPTS= 400, DT= .01 SEC, RATE 200 HZ`, `(200 SPS)`.
+        let is_of_counts = i + 1 == header.line;
+        let of_part = |part: &str| {
+            let lone = lone_rate(part).filter(|(_, is_rate)| *is_rate);
+            let keyed = || {
+                let [entry] = *keyed(part).as_slice() else {
+                    return None;
+                };
+                let (rate, _, unit) = entry.number()?;
+                let is_rate = meaning(&entry) == Some(Meaning::Rate);
+                (is_rate && rate > 0.0 && is_rate_unit(unit)).then_some(rate)
+            };
+            let of_samples = || bare_rate(part).filter(|_| !part.contains("hz"));
+            lone.map(|(rate, _)| rate)
+                .or_else(keyed)
+                .or_else(of_samples)
+        };
+        let mut in_parts: Vec<StatedStep> = Vec::new();
+        if is_of_counts {
+            in_parts.extend(parts(&lower).filter_map(of_part).map(|rate| StatedStep {
+                line: i + 1,
+                step: 1.0 / rate,
+            }));
+        }
+        rates.into_iter().chain(lone).chain(in_parts)
     };
     header.text.iter().enumerate().flat_map(of_line)
 }
 
-/// States durations, factors and decimations of the header to a draft.
+/// What stands between separators and in brackets of the line of the counts, in lower case.
+fn parts(lower: &str) -> impl Iterator<Item = &str> {
+    let parts = lower.split([',', ';', '|', '(', ')', '[', ']']);
+    parts.map(str::trim).filter(|part| !part.is_empty())
+}
+
+/// The largest accelerations that a line in lower case states: `PEAK= 0.5 G`, `PEAK ACCELERATION= 0.5`. Those under
+/// `PGA=` are read with their unit.
+fn peaks(line: usize, lower: &str, of_counts: bool) -> Vec<DraftPeak> {
+    let of_entry = |entry: &Entry<'_>| {
+        let is_peak = meaning(entry) == Some(Meaning::Peak) || of_counts && entry.is_of_peak();
+        let (value, digits, unit) = entry.number().filter(|_| is_peak && entry.key != "pga")?;
+        let stated = SeriesUnit::parse(unit);
+        // A number behind another word is of something else.
+        let is_bare = unit.is_empty() && of_counts;
+        (is_bare || stated.is_some()).then(|| DraftPeak {
+            value: (value, number::resolution(digits.as_bytes())),
+            time: None,
+            unit: stated,
+            shift: 0.0,
+            line: Some(line),
+            of_sign: false,
+        })
+    };
+    keyed(lower).iter().filter_map(of_entry).collect()
+}
+
+/// States peaks, durations, factors and decimations of the header to a draft.
 fn keys(draft: &mut Draft, source: &Source<'_>, header: &Header) {
+    let of_other =
+        matches!(draft.unit, DraftUnit::Stated(unit) if unit.quantity != Quantity::Acceleration);
     for (i, line) in header.text.iter().enumerate() {
         let lower = line.to_ascii_lowercase();
-        for entry in keyed(&lower) {
+        // The title of a file that this program wrote is a name.
+        let is_name = i == 1 && header.is_own();
+        let of_counts = i + 1 == header.line;
+        if !is_name && !of_other {
+            draft.other_peaks.extend(peaks(i + 1, &lower, of_counts));
+        }
+        let mut entries = keyed(&lower);
+        if of_counts {
+            // `NPTS= 400, DT= .01 SEC, DURATION 4 SEC`.
+            let bare = parts(&lower).filter(|part| !part.contains([':', '=']));
+            entries.extend(bare.flat_map(keyed));
+        }
+        for entry in entries {
             let Some((value, _, unit)) = entry.number() else {
                 continue;
             };
@@ -249,13 +314,14 @@ fn keys(draft: &mut Draft, source: &Source<'_>, header: &Header) {
                 });
             }
         }
-        // The title of a file that this program wrote is a name.
-        if i == 1 && header.is_own() {
+        if is_name {
             continue;
         }
         let used = header.steps.first().map(|stated| stated.step);
         let used = source.options.time_step.or(used);
-        if let (Some((rate, false)), Some(used)) = (lone_rate(&lower), used) {
+        let hertz = parts(&lower).find_map(|part| bare_rate(part).filter(|_| part.contains("hz")));
+        let bare = hertz.filter(|_| of_counts).map(|rate| (rate, false));
+        if let (Some((rate, false)), Some(used)) = (lone_rate(&lower).or(bare), used) {
             let told = frequency_not_used(i + 1, 1.0 / rate, used);
             draft.warnings.extend(told);
         }
@@ -395,6 +461,11 @@ const NO_DIRECTION: [&str; 13] = [
 fn component(header: &Header) -> String {
     // The line of the count has commas of its own.
     let second = header.text.get(1).filter(|_| header.line != 2);
+    // A comma may end the line, but for a component without a name that this program wrote.
+    let second = second.map(|line| match header.is_own() {
+        true => line.as_str(),
+        false => line.trim_end_matches([',', ';', ' ', '\t']),
+    });
     let Some((_, field)) = second.and_then(|line| line.rsplit_once(',')) else {
         return String::new();
     };
@@ -810,6 +881,20 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
             let multiple = || Multiple::parse(stated)?.unit;
             Some((i + 1, SeriesUnit::parse(stated).or_else(multiple)?))
         });
+        // `NPTS= 400, DT= .01 SEC, CM/S2` and `UNIT CM/S2`.
+        let of_counts = lower
+            .get(header.line - 1)
+            .into_iter()
+            .flat_map(|line| parts(line));
+        let in_parts = of_counts.filter_map(|part| {
+            let word = ["units", "unit"]
+                .iter()
+                .find_map(|word| part.strip_prefix(word));
+            let unit = SeriesUnit::parse(word.unwrap_or(part).trim_start_matches(" of "))?;
+            let accelerates = unit.quantity == Quantity::Acceleration;
+            accelerates.then_some((header.line, unit))
+        });
+        let keys = keys.chain(in_parts);
         if let Some((line, other)) = keys.into_iter().find(|(_, other)| other != unit) {
             return Err(source.error(
                 line,

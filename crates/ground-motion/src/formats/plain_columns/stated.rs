@@ -241,7 +241,8 @@ impl Stated {
                 let time = (found, number::resolution(digits.as_bytes()));
                 peak.value.time.get_or_insert(time);
             }
-            let Some(meaning) = meaning(entry) else {
+            let lone_peak = || header_keys::is_lone_peak(&entries, lower).then_some(Meaning::Peak);
+            let Some(meaning) = meaning(entry).or_else(lone_peak) else {
                 continue;
             };
             if meaning == Meaning::Quantity {
@@ -349,6 +350,11 @@ impl Stated {
                 }
                 _ => {}
             }
+        }
+        // `# 100 Hz` may be of a filter, too.
+        if let Some(rate) = header_keys::bare_rate(lower) {
+            let value = 1.0 / rate;
+            self.frequency = Some(At { line, value });
         }
         let is_rate = |step: &At<Step>| step.line == line && step.value.is_rate;
         if self.steps.last().is_some_and(is_rate)
@@ -462,9 +468,10 @@ impl Stated {
                 )),
                 (None, None) => {
                     source.warn(&format!(
-                        "line {}: the header says {} samples/s, but the values are {found} s apart, which is used",
+                        "line {}: the header says {} samples/s, but the values are {} s apart, which is used",
                         first.line,
-                        bound(1.0 / first.value.seconds)
+                        bound(1.0 / first.value.seconds),
+                        bound(found)
                     ));
                     Ok(Some(found))
                 }
@@ -702,6 +709,10 @@ fn unit_of(lower: &str) -> Unit {
     let by_name = named_with_unit(lower).filter(|found| {
         let rest = found.rest.trim_matches([' ', '\t', '.', ',', ';']);
         let rest = rest.strip_prefix("and ").unwrap_or(rest);
+        // `acceleration (g) vs time`.
+        if ["vs time", "vs. time", "versus time"].contains(&rest) {
+            return true;
+        }
         // `(cm/s/s) (+ is upward)`.
         let sign = rest.strip_suffix(')').and_then(|r| r.strip_prefix("(+"));
         if sign.is_some_and(|sign| !sign.contains(['(', '*', '/'])) {

@@ -405,7 +405,10 @@ fn a_file_across_the_row_is_shown_with_its_factor() {
     let found = column(&found, &reader, "peak_displacement_across");
     for (number, values) in found.iter().enumerate() {
         let shown = case_of_run(&study, number).unwrap();
-        assert!(shown.contains("kobe_1995_jma_ns.csv\", scale = "), "{shown}");
+        assert!(
+            shown.contains("kobe_1995_jma_ns.csv\", scale = "),
+            "{shown}"
+        );
         for (a, b) in values.iter().zip(&across_alone(&shown, folder.path())) {
             assert!((a / b - 1.0).abs() < 1e-12 && *b > 1e-3, "{shown}: {a} {b}");
         }

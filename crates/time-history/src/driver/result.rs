@@ -81,7 +81,9 @@ impl Driver<'_> {
             // Where the ground has stopped away from where it began, the first instant of the peak is known
             // from the records alone.
             if row.given.name == LevelMotion::RelativeGroundDisplacement.name()
-                && let Some(first) = self.system.relative_ground_displacement(row.level, duration)
+                && let Some(first) = self
+                    .system
+                    .relative_ground_displacement(row.level, duration)
             {
                 peak.time = first.time;
             }

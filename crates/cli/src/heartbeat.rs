@@ -257,10 +257,13 @@ fn is_own(text: &[u8]) -> bool {
         let value: Result<serde_json::Value, _> = serde_json::from_slice(text);
         value.is_ok_and(|value| keys.iter().all(|key| value.get(key).is_some()))
     };
-    let rest = text.strip_prefix(b"{\"state\":\"");
+    const BEGINNING: &[u8] = b"{\"state\":\"";
+    let rest = text.strip_prefix(BEGINNING);
     let word = rest.and_then(|rest| rest.split(|byte| *byte == b'"').next());
     let states: [&[u8]; 4] = [b"running", b"done", b"interrupted", b"failed"];
-    word.is_some_and(|word| states.contains(&word)) || has(["state", "runs", "finished"])
+    let is_cut = BEGINNING.starts_with(text)
+        || word.is_some_and(|word| states.iter().any(|state| state.starts_with(word)));
+    is_cut || has(["state", "runs", "finished"])
 }
 
 /// The file in which a shard told of itself, if it is not what a shard writes.

@@ -14,14 +14,15 @@ pub fn that_works(mut error: clap::Error, command: &Command, given: &[OsString])
     let Some(ContextValue::String(word)) = error.get(ContextKind::InvalidArg) else {
         return error;
     };
-    // Of several letters behind one dash the parser names the first alone.
-    let mut pairs = given.windows(2).filter_map(|pair| {
-        let (option, value) = (pair[0].to_str()?, pair[1].to_str()?);
-        let is_named = value.starts_with(word) && !value.starts_with("--");
+    // Of several letters behind one dash the parser names the first alone; it meets the first such word.
+    let named = |word_given: &OsString| word_given.to_str().is_some_and(|w| w.starts_with(word));
+    let joined = given.iter().position(named).and_then(|met| {
+        let option = given[met.checked_sub(1)?].to_str()?;
+        let value = given[met].to_str().filter(|v| !v.starts_with("--"))?;
         let name = taking(command, given, option)?;
-        is_named.then(|| shell_line(&[format!("{name}{value}")]))
+        Some(shell_line(&[format!("{name}{value}")]))
     });
-    let Some(joined) = pairs.next() else {
+    let Some(joined) = joined else {
         return error;
     };
     let tip = StyledStr::from(format!(

@@ -94,7 +94,7 @@ fn a_run_tells_when_a_storey_lost_all_its_strength() {
             folder,
             &["run", "case.toml", "--json", "-o", "r.h5"],
         ));
-        let text = "left storey 1: it has lost all its strength at t = 5.1";
+        let text = "left, storey 1: it has lost all its strength at t = 5.1";
         assert!(warned(&answer, text), "{:#}", answer["warnings"]);
         assert!(!warned(&answer, MAY));
         assert!(answer["buildings"][1]["yielding"][0].is_null());
@@ -134,6 +134,22 @@ fn a_run_tells_when_a_storey_lost_all_its_strength() {
     assert!((adaptive - time).abs() < 1e-6, "{adaptive} {time}");
     let newmark = lost("method = \"newmark\"\nstep = \"0.2 ms\"");
     assert!((newmark - time).abs() < 5e-3, "{newmark} {time}");
+}
+
+/// What an initial displacement leads beyond all strength never had any.
+#[test]
+fn strength_may_be_lost_before_the_start() {
+    let folder = tempfile::tempdir().unwrap();
+    let folder = folder.path();
+    for method in ["", "method = \"newmark\"\nstep = \"2 ms\""] {
+        case(folder, "initial_displacement = \"-300 mm\"", method);
+        let answer = answer(&pounding(
+            folder,
+            &["run", "case.toml", "--json", "--no-output"],
+        ));
+        let lost = &answer["buildings"][0]["yielding"][0]["strength_lost"];
+        assert_eq!(lost.as_f64(), Some(0.0), "{method}");
+    }
 }
 
 /// Where nothing can tell afterwards, it is said before; with gravity the building falls, and is counted.

@@ -576,6 +576,9 @@ fn values_with_a_dash_are_joined_to_their_option() {
     // What stands behind a switch is no value of it, and a slip in a long option none of the one before.
     let said = message(&run(folder.path(), "run case.toml --json -x"));
     assert!(!said.contains("joined"), "{said}");
+    // Nor is a word of its own a value, though one behind an option begins as it does.
+    let said = message(&run(folder.path(), "run case.toml -z -o -zz.h5"));
+    assert!(said.contains("'-z'") && !said.contains("joined"), "{said}");
     let said = message(&run(folder.path(), "run case.toml -o --jsn"));
     assert!(
         said.contains("--json") && !said.contains("joined"),

@@ -238,7 +238,7 @@ pub const ELSEWHERE: &str =
 
 /// What stands in the way of a file that the program keeps in a folder which a user has named, and why: a link in the
 /// place of the file's folder, which would have it written elsewhere, or a file that does not begin as one of the
-/// program. An empty one holds nothing, and of a link in its own place [`PartFile::own`] tells.
+/// program. An empty one, or one of zeros, holds nothing, and of a link in its own place [`PartFile::own`] tells.
 #[must_use]
 pub fn not_own(path: &Path, is_own: impl Fn(&[u8]) -> bool) -> Option<(PathBuf, &'static str)> {
     /// Bytes that are looked at.
@@ -256,12 +256,16 @@ pub fn not_own(path: &Path, is_own: impl Fn(&[u8]) -> bool) -> Option<(PathBuf, 
     let mut bytes = Vec::new();
     let read =
         crate::input::open(path).and_then(|file| file.take(BEGINNING).read_to_end(&mut bytes));
-    let reason = match read {
-        Ok(_) if bytes.is_empty() || is_own(&bytes) => return None,
-        Ok(_) => "a file stands there that is not of this program",
-        Err(_) => "a file stands there that cannot be read",
-    };
-    Some((path.to_owned(), reason))
+    // What a loss of power leaves is zeros.
+    let blank = |byte: &u8| *byte == 0 || byte.is_ascii_whitespace();
+    // Of a file that cannot be read, as of another user who shares the folder, nothing is known.
+    let foreign = read.is_ok() && !bytes.iter().all(blank) && !is_own(&bytes);
+    foreign.then(|| {
+        (
+            path.to_owned(),
+            "a file stands there that is not of this program",
+        )
+    })
 }
 
 /// Gives a new file the permissions of the one that it replaces, where both belong to the same user and group: to others
@@ -620,7 +624,13 @@ mod tests {
         let told = |path: &Path| not_own(path, |text| text.starts_with(b"own")).map(|(at, _)| at);
         assert_eq!(told(&path), None);
         std::fs::create_dir(folder.path().join("status")).unwrap();
-        for (text, is_told) in [("", false), ("own, more", false), ("mine", true)] {
+        for (text, is_told) in [
+            ("", false),
+            ("\0\0\0 \n", false),
+            ("own, more", false),
+            ("mine", true),
+            ("\0mine", true),
+        ] {
             std::fs::write(&path, text).unwrap();
             assert_eq!(told(&path), is_told.then(|| path.clone()), "{text}");
         }

@@ -717,14 +717,15 @@ fn strengths_lost(system: &System, lost: &[Option<f64>]) -> Vec<Warning> {
     let mut told: Vec<(f64, Option<usize>, Warning)> = Vec::new();
     for (index, (element, lost)) in system.elements().iter().zip(lost).enumerate() {
         let Some(time) = *lost else { continue };
-        let (of, stands) = match element.place {
+        let (place, of, stands) = match element.place {
             ElementPlace::Storey { building, storey } => {
-                let geometric = system.buildings()[building].geometric_stiffness()[storey];
-                (Some(building), geometric == 0.0)
+                let own = &system.buildings()[building];
+                let place = format!("{}, storey {}", own.name(), storey + 1);
+                let stands = own.geometric_stiffness()[storey] == 0.0;
+                (place, Some(building), stands)
             }
-            ElementPlace::Link { .. } => (None, false),
+            ElementPlace::Link { .. } => (system.place_of_element(index), None, false),
         };
-        let place = system.place_of_element(index);
         let warning = Warning::StrengthLost {
             place,
             time,

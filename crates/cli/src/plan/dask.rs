@@ -49,8 +49,8 @@ def run(shard):
 
 def numbers(text):
     for part in filter(None, map(str.strip, text.split(","))):
-        first, _, last = part.partition("-")
-        last = last or first
+        first, dash, last = map(str.strip, part.partition("-"))
+        last = last if dash else first
         exist = first.isdecimal() and last.isdecimal() and 1 <= int(first) <= int(last) <= SHARDS
         if not exist:
             sys.exit(f"{{part}}: no such shards; there are 1 to {{SHARDS}}, give a list of their numbers such as {example}")

@@ -333,7 +333,10 @@ impl Plan {
             r#"list=${{1-1-{shards}}}
 set -f
 for range in $(printf '%s\n' "$list" | tr , ' '); do
-  if ! [[ $range =~ ^[1-9][0-9]{{0,6}}(-[1-9][0-9]{{0,6}})?$ ]] || [ "${{range%-*}}" -gt "${{range#*-}}" ] || [ "${{range#*-}}" -gt {shards} ]; then
+  first=${{range%%-*}}
+  last=${{range#*-}}
+  case $first$last in *[!0-9]*) last=0 ;; esac
+  if ! {{ [ "$first" -ge 1 ] && [ "$first" -le "$last" ] && [ "$last" -le {shards} ]; }} 2>/dev/null; then
     echo "$range: no such shards; there are 1 to {shards}, give a list of their numbers such as {example}" >&2
     exit 1
   fi

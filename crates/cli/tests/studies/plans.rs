@@ -264,6 +264,10 @@ fn shards_that_do_not_exist_are_refused() {
     bash(&bench, &["plan.sh", "1,6-7"]);
     let given = std::fs::read_to_string(bench.path("sbatch.options")).unwrap();
     assert!(given.lines().any(|o| o == "--array=1,6,7"), "{given}");
+    std::fs::remove_file(bench.path("sbatch.options")).unwrap();
+    bash(&bench, &["plan.sh", "05-06"]);
+    let given = std::fs::read_to_string(bench.path("sbatch.options")).unwrap();
+    assert!(given.lines().any(|o| o == "--array=5,6"), "{given}");
 }
 
 /// Names that begin as options do, and that Slurm and shells would replace.

@@ -199,6 +199,10 @@ fn former_lists_and_status_files_are_replaced() {
     let list = format!("{{\"study\":\"{}\",\"records\":[]}}", "0".repeat(64));
     for (list, status) in [
         ("", ""),
+        ("\0\0\0\0", "\0\n"),
+        ("{\"stu", "{\"st"),
+        (&list[..20], "{\"state\":\"don"),
+        (&list.replace(':', ": "), "{\"state\":\"running\""),
         (&*list, "{\"state\":\"done\",\"runs\":1}"),
         (&list[..80], "{\"state\":\"running\",\"ru"),
         (&list, "{\"runs\":1, \"finished\":1, \"state\":\"done\"}"),

@@ -115,8 +115,9 @@ impl SweepAnswer {
             let quantity = layout.quantities.iter().find(|q| q.name == *name)?;
             let (column, most) = over(&drawn_columns(result, name))?;
             // Where velocities jump there is no force: zero is that of levels that nothing hits.
-            let jumps = *name == "peak_force" && rigid_impacts;
-            if !most.value.is_finite() || (jumps && most.value == 0.0) {
+            // Without contact there is none either, and no place of the greatest.
+            let none = *name == "peak_force" && (rigid_impacts || closed == 0);
+            if !most.value.is_finite() || (none && most.value == 0.0) {
                 return None;
             }
             Some(Maximum {
@@ -157,11 +158,7 @@ impl SweepAnswer {
         } else if let Some(closed) = self.runs_with_contact {
             told.push(self.of_contact(closed, self.runs - ended));
         }
-        let untouched = self.runs_with_contact == Some(0);
-        let known = self.maxima.iter();
-        // Without contact there is no contact force, and no place of the greatest.
-        let known = known.filter(|m| !(untouched && m.quantity == "peak_force"));
-        told.extend(known.map(|maximum| self.of_maximum(maximum)));
+        told.extend(self.maxima.iter().map(|maximum| self.of_maximum(maximum)));
         told
     }
 

@@ -57,9 +57,17 @@ impl List {
 
 /// Whether a file is a list of this or of another version, be it damaged behind its beginning.
 fn is_own(text: &[u8]) -> bool {
-    let rest = text.strip_prefix(b"{\"study\":\"");
-    let hash = rest.and_then(|rest| rest.split(|byte| *byte == b'"').next());
-    hash.is_some_and(|hash| hash.len() == 64 && hash.iter().all(u8::is_ascii_hexdigit))
+    const BEGINNING: &[u8] = b"{\"study\":\"";
+    const HASH: usize = 64;
+    let rest = text.strip_prefix(BEGINNING);
+    let hash = rest.map(|rest| &rest[..rest.len().min(HASH)]);
+    let is_hash = |hash: &[u8]| hash.iter().all(u8::is_ascii_hexdigit);
+    let laid_out = || {
+        let value: Result<serde_json::Value, _> = serde_json::from_slice(text);
+        let study = value.ok()?;
+        Some(is_hash(study["study"].as_str()?.as_bytes()) && study["records"].is_array())
+    };
+    BEGINNING.starts_with(text) || hash.is_some_and(is_hash) || laid_out() == Some(true)
 }
 
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]

@@ -216,6 +216,7 @@ impl<'a> Driver<'a> {
         state[..2 * layout.dofs].copy_from_slice(system.initial_state());
         let mut contacts = Contacts::all_open(system);
         contacts.elements.begin(system, layout, &mut state);
+        contacts.elements.note_lost(system, 0.0);
         // What the buildings bring along counts as put in.
         let brought = ledger::energy(system, layout, &contacts, &state, None);
         state[layout.input()] = brought.kinetic + brought.strain + brought.hysteretic;

@@ -11,8 +11,8 @@ mod words;
 use words::{
     AMPLIFICATIONS, AND_SECONDS, ARE_GIVEN, BEFORE_DECIMATIONS, BEFORE_DIVISORS, BEFORE_FACTORS,
     BEFORE_NUMBERS, BEFORE_VALUES, CHANGED, CHANGES, COUNTS, DURATIONS, FACTORS, FREQUENCIES,
-    GRAVITIES, HEADINGS, HERTZ, LARGEST, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES,
-    PEAKS, QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
+    GRAVITIES, HEADINGS, HERTZ, LAST_UNITS, NUMBERS_OF, OF_ALL, OF_ANOTHER, OF_VALUES, PEAKS,
+    QUANTITIES, RATES, STEPS, STEPS_BY_UNIT, UNITS, UNITS_OF, VALUES_THEMSELVES,
 };
 
 /// What stands under a key.
@@ -123,9 +123,9 @@ impl<'t> Entry<'t> {
         ["time", "at time"].contains(&self.words().as_str())
     }
 
-    /// Whether the key says that its value is a largest one, but not of what: `peak`, `max`.
+    /// Whether the key says that its value is a largest one, but not of what.
     pub(crate) fn is_of_peak(&self) -> bool {
-        LARGEST.contains(&self.words().trim_end_matches('.'))
+        self.words() == "peak"
     }
 
     /// Whether a number stands under the key.
@@ -177,24 +177,14 @@ pub(crate) fn lone_rate(lower: &str) -> Option<(f64, bool)> {
     (is_own && is_bare && is_rate_unit(unit) && found >= LEAST_RATE).then_some((found, is_rate))
 }
 
-/// The rate (Hz) that a text in lower case is, `# 100 hz`, `(100 sps)`, with nothing else.
+/// The rate (Hz) that a text in lower case is, `100 sps`, with nothing else.
 pub(crate) fn bare_rate(lower: &str) -> Option<f64> {
-    let bare = lower.trim_matches(|c: char| "#%!*/()[]. \t\"".contains(c));
+    let bare = lower.trim();
     let digits = bare.find(|c: char| !(c.is_ascii_digit() || c == '.'))?;
     let (number, unit) = bare.split_at(digits);
     let rate = number::parse(number.as_bytes()).ok()?;
     let unit = unit.trim();
     (!unit.is_empty() && is_rate_unit(unit) && rate >= LEAST_RATE).then_some(rate)
-}
-
-/// Whether a line in lower case is a peak alone, with a unit of acceleration: `peak: 0.5 g`.
-pub(crate) fn is_lone_peak(entries: &[Entry<'_>], lower: &str) -> bool {
-    let [entry] = entries else {
-        return false;
-    };
-    let unit = entry.number().map_or("", |(.., unit)| unit);
-    let first = lower.trim_start_matches(|c: char| !c.is_alphanumeric());
-    entry.is_of_peak() && first.starts_with(entry.key) && is_of_acceleration(unit)
 }
 
 /// What follows the words of a rate of sampling in a line in lower case, `200, cutoff 80 hz`.

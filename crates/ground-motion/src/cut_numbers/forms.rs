@@ -35,9 +35,8 @@ const FAR: f64 = 2.0;
 /// One in so many values is a whole number where all values are printed with one decimal; more are of a writer of whole
 /// numbers.
 const OF_WHOLES: usize = 4;
-/// Significant digits of a number in double precision that is printed in full, and decimals more than those of the other
-/// values that it then has: `0.30000000000000004` is round-off, no damage.
-const OF_ROUND_OFF: usize = 15;
+/// Decimals more than those of the other values that a damage gives; a number that is printed in full has more of them,
+/// `0.30000000000000004`, `0.012340001`: round-off.
 const FEW_DECIMALS: usize = 3;
 
 /// Magnitude below which `G` formats of Fortran print exponents, and below which `%g` does.
@@ -347,7 +346,7 @@ fn has_surplus_decimals(
         let is_of_width =
             most.widths.0 == most.widths.1 && at.width() <= most.widths.1 && !is_scientific;
         let surplus = surplus(Parts::of(at.field()).decimals);
-        let is_round_off = at.digits >= OF_ROUND_OFF && surplus > FEW_DECIMALS;
+        let is_round_off = surplus > FEW_DECIMALS;
         // A zero that follows the last digit changes nothing; behind a point that moved it is one of the others' digits.
         let is_of_size = at.value.abs() <= FAR * most.largest.value.abs();
         let has_more = !have_exponents || at.digits > most.most_digits;

@@ -272,14 +272,17 @@ fn in_gal(source: &Source<'_>, line: Line<'_>) -> Result<(), GroundMotionError> 
     }
 }
 
-/// Refuses another unit than Hz behind a sampling frequency or in the brackets of its key: `100Hz`, `100`.
+/// Refuses a time, or a multiple of Hz, behind a sampling frequency or in the brackets of its key.
 fn in_hertz(source: &Source<'_>, line: Line<'_>, value: &str) -> Result<(), GroundMotionError> {
+    const OTHERS: [&str; 9] = [
+        "s", "ms", "us", "sec", "secs", "msec", "second", "seconds", "khz",
+    ];
     let number = |c: char| c.is_ascii_digit() || c.is_ascii_whitespace() || "+-.".contains(c);
     let behind = value.trim_start_matches(number).trim();
     let text = line.text();
     let of_key = in_brackets(&text).unwrap_or_default().trim();
-    let is_hertz = |unit: &&str| unit.is_empty() || unit.eq_ignore_ascii_case("hz");
-    match [behind, of_key].into_iter().find(|unit| !is_hertz(unit)) {
+    let is_other = |unit: &&str| OTHERS.iter().any(|other| unit.eq_ignore_ascii_case(other));
+    match [behind, of_key].into_iter().find(is_other) {
         Some(unit) => Err(source.error(
             line.number,
             text.find(unit).unwrap_or(NAME),

@@ -229,7 +229,7 @@ fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
             step: 1.0 / rate,
         });
         // `NPTS= 400, DT= .01 SEC, RATE 200 HZ`, `(200 SPS)`.
-        let is_of_counts = i + 1 == header.line;
+        let is_of_counts = i + 1 == header.line && !is_of_stage(&lower);
         let of_part = |part: &str| {
             let lone = lone_rate(part).filter(|(_, is_rate)| *is_rate);
             let keyed = || {
@@ -257,25 +257,33 @@ fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
     header.text.iter().enumerate().flat_map(of_line)
 }
 
+/// Whether a line in lower case speaks of another stage, of which its parts do not tell: `resampled from (200 sps)`.
+fn is_of_stage(lower: &str) -> bool {
+    let words = [
+        "from", "orig", "resampl", "decim", "convert", "raw", "uncor", "target", "before", "scal",
+    ];
+    is_of_another(lower) || words.iter().any(|word| lower.contains(word))
+}
+
 /// What stands between separators and in brackets of the line of the counts, in lower case.
 fn parts(lower: &str) -> impl Iterator<Item = &str> {
     let parts = lower.split([',', ';', '|', '(', ')', '[', ']']);
     parts.map(str::trim).filter(|part| !part.is_empty())
 }
 
-/// The largest accelerations that a line in lower case states: `PEAK= 0.5 G`, `PEAK ACCELERATION= 0.5`. Those under
-/// `PGA=` are read with their unit.
-fn peaks(line: usize, lower: &str, of_counts: bool) -> Vec<DraftPeak> {
+/// The largest accelerations that the line of the counts states in lower case, with their unit: `PEAK= 0.5 G`, `PEAK
+/// ACCELERATION= 0.5 G`. Those under `PGA=` are read elsewhere.
+fn peaks(line: usize, lower: &str) -> Vec<DraftPeak> {
     let of_entry = |entry: &Entry<'_>| {
-        let is_peak = meaning(entry) == Some(Meaning::Peak) || of_counts && entry.is_of_peak();
+        let is_peak = meaning(entry) == Some(Meaning::Peak) || entry.is_of_peak();
         let (value, digits, unit) = entry.number().filter(|_| is_peak && entry.key != "pga")?;
+        // A number behind another word, or one of a velocity, is of something else.
         let stated = SeriesUnit::parse(unit);
-        // A number behind another word is of something else.
-        let is_bare = unit.is_empty() && of_counts;
-        (is_bare || stated.is_some()).then(|| DraftPeak {
+        let stated = stated.filter(|unit| unit.quantity == Quantity::Acceleration)?;
+        Some(DraftPeak {
             value: (value, number::resolution(digits.as_bytes())),
             time: None,
-            unit: stated,
+            unit: Some(stated),
             shift: 0.0,
             line: Some(line),
             of_sign: false,
@@ -292,17 +300,10 @@ fn keys(draft: &mut Draft, source: &Source<'_>, header: &Header) {
         let lower = line.to_ascii_lowercase();
         // The title of a file that this program wrote is a name.
         let is_name = i == 1 && header.is_own();
-        let of_counts = i + 1 == header.line;
-        if !is_name && !of_other {
-            draft.other_peaks.extend(peaks(i + 1, &lower, of_counts));
+        if i + 1 == header.line && !of_other && !is_of_stage(&lower) {
+            draft.other_peaks.extend(peaks(i + 1, &lower));
         }
-        let mut entries = keyed(&lower);
-        if of_counts {
-            // `NPTS= 400, DT= .01 SEC, DURATION 4 SEC`.
-            let bare = parts(&lower).filter(|part| !part.contains([':', '=']));
-            entries.extend(bare.flat_map(keyed));
-        }
-        for entry in entries {
+        for entry in keyed(&lower) {
             let Some((value, _, unit)) = entry.number() else {
                 continue;
             };
@@ -319,9 +320,7 @@ fn keys(draft: &mut Draft, source: &Source<'_>, header: &Header) {
         }
         let used = header.steps.first().map(|stated| stated.step);
         let used = source.options.time_step.or(used);
-        let hertz = parts(&lower).find_map(|part| bare_rate(part).filter(|_| part.contains("hz")));
-        let bare = hertz.filter(|_| of_counts).map(|rate| (rate, false));
-        if let (Some((rate, false)), Some(used)) = (lone_rate(&lower).or(bare), used) {
+        if let (Some((rate, false)), Some(used)) = (lone_rate(&lower), used) {
             let told = frequency_not_used(i + 1, 1.0 / rate, used);
             draft.warnings.extend(told);
         }
@@ -884,6 +883,7 @@ fn unit(source: &Source<'_>, header: &Header) -> Result<DraftUnit, GroundMotionE
         // `NPTS= 400, DT= .01 SEC, CM/S2` and `UNIT CM/S2`.
         let of_counts = lower
             .get(header.line - 1)
+            .filter(|line| !is_of_stage(line))
             .into_iter()
             .flat_map(|line| parts(line));
         let in_parts = of_counts.filter_map(|part| {

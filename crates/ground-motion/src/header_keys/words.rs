@@ -272,8 +272,6 @@ pub(super) const PEAKS: [&str; 59] = [
     "acc maxima",
     "acel maxima del terreno",
 ];
-/// Keys of a largest value, of which their unit says of what.
-pub(super) const LARGEST: [&str; 3] = ["peak", "max", "maximum"];
 /// Keys of what the values are.
 pub(super) const QUANTITIES: [&str; 7] = [
     "type",

@@ -296,12 +296,17 @@ fn begins_a_title(lower: &str, is_short: bool) -> Option<Quantity> {
     let at = lower.find(named)? + named.len();
     let rest = lower[at..].trim_start();
     let next = words().nth(first + 1).unwrap_or_default();
+    let remark = rest.starts_with(['(', '[']) && OF_STAGE.contains(&next);
     let goes_on = is_short
         && (is_component(next)
             || OF_GROUND.iter().any(|of| rest.starts_with(of))
-            || rest.starts_with(['(', '[', ',']));
-    // `Velocity record: 3 cm/s` and `velocity, 200 m/s` are of something else.
-    let is_number = rest.contains([':', '=']) || next.starts_with(|c: char| c.is_ascii_digit());
+            || remark
+            || rest.starts_with(','));
+    // `Velocity record: 3 cm/s` and `velocity, 200 m/s` are of something else; a year is part of a name.
+    let is_year = |w: &str| w.len() == 4 && (w.starts_with("19") || w.starts_with("20"));
+    let mut behind = words().skip(first + 1);
+    let numbers = behind.any(|w| w.starts_with(|c: char| c.is_ascii_digit()) && !is_year(w));
+    let is_number = rest.contains([':', '=']) || numbers;
     let found = rest.is_empty() || OF_RECORD.contains(&next) || goes_on;
     (found && !is_number).then_some(quantity)
 }
@@ -356,10 +361,34 @@ const OF_RECORD: [&str; 16] = [
     "series",
     "component",
 ];
-/// Words that go on with the place where it was measured.
-const OF_GROUND: [&str; 3] = ["of ground", "of the ground", "at "];
+/// Words that go on with what was measured.
+const OF_GROUND: [&str; 2] = ["of ground", "of the ground"];
+/// What a remark in brackets begins with that tells how the values came about.
+const OF_STAGE: [&str; 5] = [
+    "integrated",
+    "corrected",
+    "uncorrected",
+    "filtered",
+    "processed",
+];
 /// Words of titles that speak of a velocity or a displacement of something else, or that it is not that of the values.
-const OF_NO_SERIES: [&str; 23] = [
+const OF_NO_SERIES: [&str; 39] = [
+    "other",
+    "another",
+    "none",
+    "given",
+    "available",
+    "file",
+    "files",
+    "column",
+    "columns",
+    "processing",
+    "request",
+    "separate",
+    "separately",
+    "is",
+    "are",
+    "be",
     "no",
     "not",
     "without",

@@ -241,8 +241,7 @@ impl Stated {
                 let time = (found, number::resolution(digits.as_bytes()));
                 peak.value.time.get_or_insert(time);
             }
-            let lone_peak = || header_keys::is_lone_peak(&entries, lower).then_some(Meaning::Peak);
-            let Some(meaning) = meaning(entry).or_else(lone_peak) else {
+            let Some(meaning) = meaning(entry) else {
                 continue;
             };
             if meaning == Meaning::Quantity {
@@ -350,11 +349,6 @@ impl Stated {
                 }
                 _ => {}
             }
-        }
-        // `# 100 Hz` may be of a filter, too.
-        if let Some(rate) = header_keys::bare_rate(lower) {
-            let value = 1.0 / rate;
-            self.frequency = Some(At { line, value });
         }
         let is_rate = |step: &At<Step>| step.line == line && step.value.is_rate;
         if self.steps.last().is_some_and(is_rate)

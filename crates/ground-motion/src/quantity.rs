@@ -169,6 +169,9 @@ pub(crate) fn named_with_unit(lower: &str) -> Option<NamedWithUnit<'_>> {
     })
 }
 
+/// Characters of a unit at most, with blanks and brackets.
+const LONGEST: usize = 200;
+
 /// What may stand between the name of a quantity and its unit.
 const BETWEEN: [char; 6] = [' ', '\t', '.', ',', ':', '='];
 
@@ -247,6 +250,10 @@ impl SeriesUnit {
 
     /// The unit written as agencies write it, e.g. `cm/sec/sec`, `gal`, `CM/S^2`.
     pub(crate) fn parse(text: &str) -> Option<Self> {
+        // No unit is longer: lines of brackets alone, each of which may begin one, are left quickly.
+        if text.len() > LONGEST {
+            return None;
+        }
         let plain: String = text
             .to_ascii_lowercase()
             .replace("sec", "s")

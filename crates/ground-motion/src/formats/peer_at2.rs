@@ -261,6 +261,7 @@ fn rates(header: &Header) -> impl Iterator<Item = StatedStep> {
 fn is_of_stage(lower: &str) -> bool {
     let words = [
         "from", "orig", "resampl", "decim", "convert", "raw", "uncor", "target", "before", "scal",
+        "digiti", "instrum", "interpol", "sensor", "compon", "input", "source", "archive",
     ];
     is_of_another(lower) || words.iter().any(|word| lower.contains(word))
 }

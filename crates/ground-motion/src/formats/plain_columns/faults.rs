@@ -245,10 +245,7 @@ fn of_values(cells: &Cells) -> Option<Fault> {
             // Names of columns are looked at one by one.
             let times = |name: &String| matches!(role(name), Some(Role::Time(_)));
             let title = cells.separator.is_none() || cells.names.len() < 3;
-            let ends = ends_a_title(&lower).filter(|_| title);
-            let begins = || begins_a_title(&lower, title);
-            ends.or_else(begins)
-                .filter(|_| !cells.names.iter().any(times) && !columns)
+            ends_a_title(&lower).filter(|_| title && !cells.names.iter().any(times))
         });
     let other = found.filter(|quantity| *quantity != Quantity::Acceleration)?;
     Some(Fault::NoAcceleration(other, cells.text.clone()))
@@ -266,6 +263,26 @@ fn ends_a_title(lower: &str) -> Option<Quantity> {
     let ends = ["velocity", "velocities", "displacement", "displacements"].contains(&last);
     let of_else = words().any(|w| of_something_else(w) || NO_TITLE.contains(&w));
     (ends && !of_else).then_some(named)
+}
+
+/// The velocity or displacement of which a title before the rows speaks first, with its line, where none of them speaks of
+/// an acceleration: more than a hint it is not, as titles speak of much.
+pub(super) fn titled(lines: &[Cells]) -> Option<(usize, &str, Quantity)> {
+    let lower = |cells: &Cells| cells.text.to_ascii_lowercase();
+    let of_acceleration = |cells: &Cells| {
+        let role = |name: &String| matches!(role(name), Some(Role::Acceleration(..)));
+        cells.names.len() > 1 && cells.names.iter().any(role)
+            || ACCELERATIONS.iter().any(|acc| lower(cells).contains(acc))
+    };
+    if lines.iter().any(of_acceleration) {
+        return None;
+    }
+    lines.iter().find_map(|cells| {
+        let times = |name: &String| matches!(role(name), Some(Role::Time(_)));
+        let title = cells.separator.is_none() || cells.names.len() < 3;
+        let found = begins_a_title(&lower(cells), title)?;
+        (!cells.names.iter().any(times)).then(|| (cells.line, cells.text.trim(), found))
+    })
 }
 
 /// The quantity of a title in lower case whose first words name it, and which goes on in words of a record: `velocity

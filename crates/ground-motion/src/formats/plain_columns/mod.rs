@@ -330,6 +330,12 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     };
     let mut series = series;
     is_no_spectrum(source, &series)?;
+    if let Some((line, title, quantity)) = faults::titled(&header::name_lines(before(source))) {
+        pointed.warn(&format!(
+            "line {line}: the title \"{}\" speaks of a {quantity}, but the values are taken for accelerations: give the accelerations of the same record if they are none",
+            title.chars().take(60).collect::<String>()
+        ));
+    }
     let is_one = series.len() == 1;
     for one in &mut series {
         said.keys.report(&mut one.origin);

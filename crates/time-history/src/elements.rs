@@ -150,8 +150,9 @@ pub(crate) struct Elements {
     pub turned: Vec<bool>,
     /// How often each element changed its branch at this very instant.
     pub changes: Vec<usize>,
-    /// Since when (s) each element has been without strength for ever.
+    /// Since when (s) each element has been without strength for ever, and whether any may lose it.
     pub lost: Vec<Option<f64>>,
+    may_lose: bool,
 }
 
 /// Round-off of a coefficient over the largest of the motions that it is made from.
@@ -174,6 +175,7 @@ impl Elements {
             turned: vec![false; system.elements().len()],
             changes: vec![0; system.elements().len()],
             lost: vec![None; system.elements().len()],
+            may_lose: (system.elements().iter()).any(|e| e.law.may_lose_all_strength()),
         }
     }
 
@@ -232,6 +234,9 @@ impl Elements {
 
     /// Notes which elements have lost all their strength by this time (s).
     pub(crate) fn note_lost(&mut self, system: &System, time: f64) {
+        if !self.may_lose {
+            return;
+        }
         let elements = system.elements().iter().zip(&self.histories);
         for ((element, history), lost) in elements.zip(&mut self.lost) {
             if lost.is_none() && element.law.has_lost_all_strength(history) {

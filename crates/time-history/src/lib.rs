@@ -20,6 +20,7 @@ mod events;
 mod impacts;
 mod isolated_run;
 mod ledger;
+mod lost_strength;
 mod methods;
 mod options;
 mod outcome;

@@ -12,8 +12,8 @@ use pounding_shear_building::{
     Damping, DampingMatrix, Modes, OVERTURNING_RATIO, ShearBuilding, UPLIFT_BEGINS,
 };
 
-use crate::elements::ElementPlace;
 use crate::estimate::{StepEstimate, StepLimit, short, step_taken};
+use crate::lost_strength;
 use crate::options::{MethodChoice, RunOptions};
 use crate::outcome::{BuildingOutcome, LevelOutcome, Peak};
 use crate::soft_contact::{deep_penetrations, soft_contacts, stiffness_text};
@@ -698,48 +698,6 @@ fn small_yield_drift(building: &ShearBuilding) -> Option<Warning> {
     })
 }
 
-/// The warning of a building by its lowest storey that may lose all its strength and yet stand.
-fn strength_may_be_lost(building: &ShearBuilding) -> Option<Warning> {
-    let laws = building.laws().iter().zip(building.geometric_stiffness());
-    let mut may = laws.map(|(law, geometric)| {
-        let law = law.as_ref();
-        *geometric == 0.0 && law.is_some_and(|law| law.law.may_lose_all_strength())
-    });
-    may.position(|may| may)
-        .map(|storey| Warning::StrengthMayBeLost {
-            building: building.name().to_owned(),
-            storey: storey + 1,
-        })
-}
-
-/// The first storey of each building, and all links, that lost their strength.
-fn strengths_lost(system: &System, lost: &[Option<f64>]) -> Vec<Warning> {
-    let mut told: Vec<(f64, Option<usize>, Warning)> = Vec::new();
-    for (index, (element, lost)) in system.elements().iter().zip(lost).enumerate() {
-        let Some(time) = *lost else { continue };
-        let (place, of, stands) = match element.place {
-            ElementPlace::Storey { building, storey } => {
-                let own = &system.buildings()[building];
-                let place = format!("{}, storey {}", own.name(), storey + 1);
-                let stands = own.geometric_stiffness()[storey] == 0.0;
-                (place, Some(building), stands)
-            }
-            ElementPlace::Link { .. } => (system.place_of_element(index), None, false),
-        };
-        let warning = Warning::StrengthLost {
-            place,
-            time,
-            stands,
-        };
-        match told.iter_mut().find(|(_, b, _)| of.is_some() && *b == of) {
-            Some(earlier) if earlier.0 <= time => {}
-            Some(later) => *later = (time, of, warning),
-            None => told.push((time, of, warning)),
-        }
-    }
-    told.into_iter().map(|(.., warning)| warning).collect()
-}
-
 /// One significant digit, not above the value.
 fn rounded_down(x: f64) -> f64 {
     let unit = libm::pow(10.0, libm::log10(x).floor());
@@ -777,12 +735,7 @@ impl Warning {
                 .iter()
                 .filter_map(|b| small_yield_drift(b)),
         );
-        warnings.extend(
-            system
-                .buildings()
-                .iter()
-                .filter_map(|b| strength_may_be_lost(b)),
-        );
+        warnings.extend(lost_strength::before(system));
         warnings.extend(unusual_values::of(system));
         warnings.extend(system.buildings().iter().filter_map(|b| stiff_soil(b)));
         let fixed = system.buildings().iter().map(|b| b.without_foundation());
@@ -914,7 +867,7 @@ impl Warning {
         let mut warnings = standing(system, options);
         // Now it is known.
         warnings.retain(|warning| !matches!(warning, Self::StrengthMayBeLost { .. }));
-        warnings.extend(strengths_lost(system, lost));
+        warnings.extend(lost_strength::after(system, lost));
         warnings.extend(Self::ends_at_peak(system, options, buildings, &warnings));
         let event_driven = matches!(options.method, MethodChoice::EventDriven { .. });
         if let (true, Some(curved)) = (event_driven, system.first_curved_element()) {

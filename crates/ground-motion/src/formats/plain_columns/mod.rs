@@ -25,6 +25,7 @@ mod names;
 mod stated;
 mod survey;
 mod thousands;
+mod titles;
 mod two_units;
 
 use columns::{Columns, columns};
@@ -330,7 +331,7 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     };
     let mut series = series;
     is_no_spectrum(source, &series)?;
-    if let Some((line, title, quantity)) = faults::titled(&header::name_lines(before(source))) {
+    if let Some((line, title, quantity)) = titles::titled(&header::name_lines(before(source))) {
         pointed.warn(&format!(
             "line {line}: the title \"{}\" speaks of a {quantity}, but the values are taken for accelerations: give the accelerations of the same record if they are none",
             title.chars().take(60).collect::<String>()

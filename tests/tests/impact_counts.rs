@@ -274,3 +274,37 @@ fn floors_that_set_out_together_are_stepped_on() {
     let steps = outcome.statistics.steps;
     assert!(steps < 50_000, "{steps}");
 }
+
+/// Floors that touch, and approach by less than counts as motion, meet at rest: over such a speed, that of parting would be
+/// a restitution of any number up to 1e9 and more.
+#[test]
+fn floors_that_meet_at_rest_have_no_restitution() {
+    let mut met = 0;
+    for seed in 0..SYSTEMS {
+        let (system, what) = system(seed);
+        let storeys = system.degrees_of_freedom();
+        let mut velocity = vec![0.0; storeys];
+        velocity[..system.buildings()[0].storeys()].fill(3e-10);
+        let crept = system.with_initial_state(&vec![0.0; storeys], &velocity);
+        let outcome = go(&crept.unwrap(), REFERENCE).unwrap();
+        for impact in &outcome.impacts {
+            let ratio = impact.separation_velocity / impact.approach_velocity;
+            if impact.approach_velocity > 1e-9 {
+                let found = impact.achieved_restitution;
+                assert!(
+                    found == ratio || (found.is_nan() && ratio.is_nan()),
+                    "{what}"
+                );
+            } else {
+                met += usize::from(impact.approach_velocity > 1e-10 && ratio > 1e3);
+                assert!(impact.achieved_restitution.is_nan(), "{what}: {impact:?}");
+            }
+        }
+        for (l, level) in outcome.gaps[0].levels.iter().enumerate() {
+            let mut of_level = outcome.impacts.iter().filter(|i| i.level == l);
+            let any = of_level.any(|i| i.achieved_restitution.is_finite());
+            assert_eq!(level.achieved_restitution.is_some(), any, "{what}");
+        }
+    }
+    assert!(met > 0, "{met}");
+}

@@ -361,13 +361,15 @@ impl ImpactLog {
         outcome.approach_velocity_max = outcome.approach_velocity_max.max(impact.approach_velocity);
         let separation = impact.separation_velocity;
         if separation.is_finite() {
-            if impact.approach_velocity > 0.0 {
+            // Over a speed that is round-off, the ratio is nothing but noise.
+            let meets = impact.approach_velocity > TOUCH_VELOCITY;
+            if meets {
                 impact.achieved_restitution = separation / impact.approach_velocity;
             }
             let squares = &mut track.squares;
             squares.0 += impact.approach_velocity * impact.approach_velocity;
             squares.1 += separation * separation;
-            if squares.0 > 0.0 {
+            if meets || outcome.achieved_restitution.is_some() {
                 outcome.achieved_restitution = Some((squares.1 / squares.0).sqrt());
             }
         }

@@ -222,7 +222,7 @@ pub struct Impact {
     pub separation_velocity: f64,
     /// Separation over approach velocity (-). The storeys act during the contact,
     /// so it differs from the restitution of a free collision; NaN if still
-    /// closed or if the gap closed at zero speed.
+    /// closed, or if the floors met at rest, no faster than 1e-9 m/s.
     pub achieved_restitution: f64,
     /// Maximum force (N) with its time; NaN for a velocity jump, which has none.
     pub peak_force: Peak,
@@ -290,7 +290,7 @@ pub struct LevelOutcome {
     /// Impulse over all impacts (N s).
     pub impulse: f64,
     /// Restitution over all impacts: `sqrt(sum v_out^2 / sum v_in^2)` (-), `None`
-    /// without a finished impact. The square root of the part of the relative
+    /// without a finished impact, or if the floors met at rest in all of them. The square root of the part of the relative
     /// kinetic energy that the floors kept through contact.
     pub achieved_restitution: Option<f64>,
     /// Number of times that the floors stuck together; for a rigid law, of lasting

@@ -30,7 +30,7 @@ fn refused(force: &str, csv: &str) -> (String, String, String) {
             let place = text[e.span.clone()].to_owned();
             (e.message.clone(), e.help.clone().unwrap_or_default(), place)
         }
-        other => panic!("{force}: {other:?}"),
+        other => panic!("{force} {csv:?}: {:?}", other.err()),
     }
 }
 
@@ -48,8 +48,8 @@ fn forces_that_cannot_be_read_are_refused_at_their_place() {
         (
             file,
             "0,1\n1\n",
-            "row 2 of its numbers has 1 column",
-            "`time_step`",
+            "line 2 has 1 column where the first row has 2",
+            "as many numbers in every row",
         ),
         (
             file,
@@ -177,6 +177,84 @@ fn forces_that_cannot_be_read_are_refused_at_their_place() {
         (file, "0 s,5000 N\n1,0\n", "\"0 s\" is no number", ""),
         (file, "0,5\n", "points at a single time", "`stays = true`"),
         (
+            file,
+            "time (s),force (kN)\n0,0\n0.02,1,200\n0.1,0\n",
+            "line 3 has 3 columns where the names above are 2",
+            "no comma stands in a number",
+        ),
+        (
+            file,
+            "\"time (s)\",\"force (kN)\"\n\"1\",0,0\n\"2\",0.02,1200\n",
+            "line 2 has 3 columns where the names above are 2",
+            "as many numbers",
+        ),
+        (
+            file,
+            "time (s),force (kN)\r\n0,0,0,0\r\n1,0,900,5\r\n",
+            "line 2 has 4 columns",
+            "as many numbers",
+        ),
+        (
+            file,
+            "0,1\n20,900,5\n",
+            "line 2 has 3 columns where the first row has 2",
+            "no comma",
+        ),
+        (
+            file,
+            "time (s);force (kN)\n0,0\n0.5,10\n1,0\n",
+            "line 2, column 1: \"0,0\" is no number",
+            "write decimal points",
+        ),
+        (
+            file,
+            "time (s);force (kN)\n0;0\n0,5;10\n",
+            "line 3, column 1: \"0,5\" is no number",
+            "write decimal points",
+        ),
+        (
+            file,
+            "time (ms)\n0,0\n0.5,10\n",
+            "line 2 has 2 columns where the names above are 1",
+            "",
+        ),
+        (
+            file,
+            "time, s, force, kN\n0,0\n0.5,10\n",
+            "line 2 has 2 columns where the names above are 4",
+            "",
+        ),
+        (
+            file,
+            "time (s),force x 1000 (N)\n0,0\n0.5,10\n",
+            "has a factor, \"1000\"",
+            "`scale`",
+        ),
+        (
+            file,
+            "time (s),F*1e3 (N)\n0,0\n0.5,10\n",
+            "has a factor, \"1e3\"",
+            "`scale`",
+        ),
+        (
+            file,
+            "time (s),F 10^3 (N)\n0,0\n0.5,10\n",
+            "has a factor, \"10^3\"",
+            "`scale`",
+        ),
+        (
+            file,
+            "time (s),force (kN)\r\n0,0\r\n\r\n0.5,10\r\n1,zzz\r\n",
+            "line 5, column 2: \"zzz\" is no number",
+            "",
+        ),
+        (
+            file,
+            "t\0i\0m\0e\0,\0F\0\n\0",
+            "the text is UTF-16",
+            "save it as UTF-8",
+        ),
+        (
             "file = \"f.csv\"\ncolumn = 4",
             "0,1\n",
             "has 2 columns, and the force is in column 4",
@@ -198,6 +276,24 @@ fn forces_that_cannot_be_read_are_refused_at_their_place() {
 }
 
 /// Units stand in the names of the columns, or in the case, or are those of the SI.
+/// Columns between commas, semicolons or tabs, with any ends of lines and beside columns that no force is in.
+#[test]
+fn files_are_read_however_their_lines_are_written() {
+    for csv in [
+        "time (s),force (kN)\n0,0\n0.5,10\n1,0\n",
+        "time (s);force (kN)\n0;0\n0.5;10\n1;0\n",
+        "# made by hand, by me; twice\n\ntime (s)\tforce (kN)\n0\t0\n0.5\t10\n1\t0\n",
+        "time (s),force (kN)\r\n0,0\r\n\r\n0.5,10\r\n1,0\r\n",
+        "time (s),force (kN)\r0,0\r0.5,10\r1,0\r",
+        "\u{feff}time (s),force (kN)\n0,0\n0.5,10\n1,0\n",
+        "time (s),Fx (kN),F2 (kN)\n0,0,5\n0.5,10,6\n1,0,7\n",
+    ] {
+        let assembly = assembled("file = \"f.csv\"", csv).unwrap();
+        let points = assembly.system.forces()[0].history.points().to_vec();
+        assert_eq!(points, [(0.0, 0.0), (0.5, 1e4), (1.0, 0.0)], "{csv}");
+    }
+}
+
 #[test]
 fn units_of_columns_are_those_of_their_names() {
     for (unit, csv) in [

@@ -122,9 +122,9 @@ fn read(
     let layout = NumberFile {
         what: "force history",
         rows: if time_step.is_some() {
-            "one line per time step with numbers between commas"
+            "one line per time step with numbers between commas, semicolons or tabs"
         } else {
-            "one line per point with numbers between commas, the time (s) first; forces at equal steps take `time_step`"
+            "one line per point with numbers between commas, semicolons or tabs, the time (s) first; forces at equal steps take `time_step`"
         },
         header: true,
         most: (MOST_LINES, "the most points of a force"),
@@ -205,6 +205,14 @@ fn unit_of_name(name: &str, dimension: Dimension) -> Result<Option<f64>, Refused
         let message = format!("\"{unit}\" in the column \"{name}\" is no unit of {dimension}");
         Err((message, help()))
     };
+    if let Some(factor) = factor_in(name) {
+        let message =
+            format!("the column \"{name}\" has a factor, \"{factor}\", which is not applied");
+        let help =
+            "multiply the numbers by it, or give it as `scale`, and leave it out of the name"
+                .to_owned();
+        return Err((message, help));
+    }
     let (unit, marked) = match (unit_in(name), name.rsplit_once('/')) {
         // What stands behind a stroke, `F/kN`, can be nothing else.
         (None, Some((_, unit))) => (unit.trim(), true),
@@ -236,6 +244,25 @@ fn unit_of_name(name: &str, dimension: Dimension) -> Result<Option<f64>, Refused
         Some(word) => no_unit(word),
         None => Ok(None),
     }
+}
+
+/// A factor in the name of a column, `x 1000`, `*1e3`, `x10^3` or `10^3`.
+fn factor_in(name: &str) -> Option<&str> {
+    let power = |from: usize| {
+        let text = &name[from..];
+        let end = text.find(|c: char| !c.is_ascii_alphanumeric() && !"^.+-".contains(c));
+        &text[..end.unwrap_or(text.len())]
+    };
+    for (at, sign) in name.match_indices(['x', 'X', '×', '*', '·']) {
+        // The letter of a word, as in `Fx 2`, is no sign.
+        let of_word = sign.eq_ignore_ascii_case("x") && name[..at].ends_with(char::is_alphanumeric);
+        let behind = name[at + sign.len()..].trim_start();
+        if !of_word && behind.starts_with(|c: char| c.is_ascii_digit()) {
+            return Some(power(name.len() - behind.len()));
+        }
+    }
+    let tens = name.match_indices("10^").map(|(at, _)| at);
+    tens.map(power).next()
 }
 
 /// The words of a name of a column.

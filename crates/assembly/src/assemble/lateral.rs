@@ -63,7 +63,7 @@ fn rows(
     };
     let layout = NumberFile {
         what: "matrix",
-        rows: "one row per floor with numbers between commas, and no header",
+        rows: "one row per floor with numbers between commas, semicolons or tabs, and no header",
         header: false,
         most: (MAXIMUM_STOREYS, "the most floors of a building"),
     };

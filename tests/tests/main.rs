@@ -25,6 +25,7 @@ mod separation_rules;
 mod simultaneous_rigid_impacts;
 mod sine_case;
 mod stiff_contacts;
+mod stiff_storeys;
 mod structures;
 mod towers;
 mod traps;

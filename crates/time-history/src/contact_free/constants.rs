@@ -69,9 +69,12 @@ pub(crate) struct Fine {
 /// less than 1e-8 of the amplitude of the fastest mode.
 const FINE: f64 = 0.7;
 
-/// Maximum product of the fastest rate and the step. Constants of a step and its peaks are worked out part by part, whatever
+/// Maximum product of the greatest circular frequency and the step. Constants of a step and its peaks are worked out part by part, whatever
 /// the duration leaves of it; other steps end where the run does.
 const COARSEST: f64 = 1.0e4;
+/// The same of the fastest decay of modes that are damped beyond critical: other steps are no faster there, and lose digits
+/// of the small differences between floors that stiff storeys join.
+const FASTEST_DECAY: f64 = 1.0e8;
 
 impl ContactFree {
     /// For these buildings and this step (s); `None` if the damping of a building
@@ -82,7 +85,9 @@ impl ContactFree {
             return None;
         }
         let fastest = fastest_rate(system.buildings());
-        if fastest * step > COARSEST {
+        let frequencies = system.buildings().iter().map(|b| &b.modes().circular_frequency);
+        let swings = frequencies.flatten().copied().fold(0.0, f64::max);
+        if swings * step > COARSEST || fastest * step > FASTEST_DECAY {
             return None;
         }
         let mut this = Self::with_step(system, step);

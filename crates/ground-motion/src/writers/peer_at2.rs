@@ -82,8 +82,15 @@ fn without_keys(title: &str) -> String {
     })
 }
 
-/// Fortran's `1PE15.7`.
+/// Least magnitude whose exponent has two digits: with three, a negative number fills its field and touches the one before.
+const SMALLEST: f64 = 1.0e-99;
+
+/// Fortran's `1PE15.7`; what is too small for it is zero, as where it underflows.
 fn exponential(value: f64) -> String {
+    let value = match value != 0.0 && value.abs() < SMALLEST {
+        true => 0.0,
+        false => value,
+    };
     let text = format!("{value:.7e}");
     let (digits, exponent) = text.split_once('e').unwrap_or((&text, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);

@@ -114,7 +114,7 @@ fn unusual_values_are_warned_of() {
     }
     let ends = "importance = [0.5, 2]\nresponse_modification = [1, 12]\ndisplacement_amplification = [1, 12]\n\
         design_ground_acceleration = \"2 g\"\nspectral_acceleration_1s = \"0.1 g\"\nseismic_coefficient = 1\n\
-        isolation_damping_coefficient = [0.8, 2]\nisolation_period = \"10 s\"\nplan_length = 40\nplan_eccentricity = 20\n\
+        isolation_damping_coefficient = [0.8, 2]\nisolation_period = \"10 s\"\nplan_length = [40, 1000]\nplan_eccentricity = 20\n\
         yield_amplification = [1, 2]\nplan_width = [1, 1000]";
     assert_eq!(warnings(ends), [""; 0]);
 }
@@ -296,4 +296,30 @@ fn rules_country_and_date() {
         let all: String = all.collect();
         assert!(all.contains(says), "{says}: {all}");
     }
+}
+
+/// At its place, also where the other side is that of a single building.
+#[test]
+fn plans_that_are_wider_than_long_are_refused() {
+    for (keys, says) in [
+        (
+            "plan_length = \"20 m\"\nplan_width = \"50 m\"\n",
+            "`plan_width`, 50 m for building 1, is greater than `plan_length`, 20 m",
+        ),
+        (
+            "plan_length = 20\nplan_width = [10, 21]\n",
+            "`plan_width`, 21 m for building 2, is greater",
+        ),
+    ] {
+        let text = format!("{CASE}{keys}");
+        let error = Case::parse(&text, Path::new("case.toml")).unwrap_err();
+        assert!(error.message.contains(says), "{error:?}");
+        assert!(
+            text[error.span.clone()].starts_with(['"', '[']),
+            "{error:?}"
+        );
+        assert!(error.help.unwrap().contains("the longer side"));
+    }
+    let square = format!("{CASE}plan_length = 20\nplan_width = 20\n");
+    assert!(Case::parse(&square, Path::new("case.toml")).is_ok());
 }

@@ -59,6 +59,9 @@ pub fn overridden(separation: Separation, asked: &Asked<'_>) -> Result<Separatio
         given.rules = rules.map_err(|e| Failure::case(e, &text))?;
     }
     let separation = separation.overridden_by(given);
+    if let Some((message, help)) = separation.wide_plan() {
+        return Err(Failure::input(message, Some(help.to_owned())));
+    }
     match wrong_rules(&separation) {
         None => Ok(separation),
         Some((error, source)) => Err(Failure::case(error, &source)),

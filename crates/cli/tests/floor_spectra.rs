@@ -371,6 +371,16 @@ fn files_and_errors() {
         ),
         (&["--floor", "light:1", "light:1"], "stands twice", "once"),
         (
+            &["--at", "1,5 s"],
+            "--at: \"1\" has no unit beside \"5 s\"",
+            "decimal points",
+        ),
+        (
+            &["--damping", "0,5 %"],
+            "--damping: \"0\" has no unit beside \"5 %\"",
+            "decimal points",
+        ),
+        (
             &["--damping", "5"],
             "5 is not between 0 and 1",
             "such as 0.05",

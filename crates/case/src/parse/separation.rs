@@ -110,7 +110,8 @@ impl SeparationTable {
                 reader.refuse::<()>(name.span.clone(), message, "remove one of them");
             }
         }
-        Separation {
+        let width_at = self.plan_width.span();
+        let separation = Separation {
             response_modification: numbers(self.response_modification),
             displacement_amplification: numbers(self.displacement_amplification),
             importance: numbers(self.importance),
@@ -138,7 +139,11 @@ impl SeparationTable {
                 .rule
                 .value()
                 .map_or_else(Vec::new, |rules| read_all(reader, rules)),
+        };
+        if let (Some(span), Some((message, help))) = (width_at, separation.wide_plan()) {
+            reader.refuse::<()>(span, message, help);
         }
+        separation
     }
 }
 

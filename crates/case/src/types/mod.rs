@@ -726,6 +726,20 @@ impl Separation {
         usual::warnings(self)
     }
 
+    /// What is wrong with plans that are wider than long, and what to do.
+    #[must_use]
+    pub fn wide_plan(&self) -> Option<(String, &'static str)> {
+        let (lengths, widths) = (self.plan_length.as_ref()?, self.plan_width.as_ref()?);
+        let mut both = widths.iter().zip(lengths).enumerate();
+        let (place, (width, length)) = both.find(|(_, (width, length))| width > length)?;
+        let building = place + 1;
+        let message = format!(
+            "`plan_width`, {width} m for building {building}, is greater than `plan_length`, {length} m"
+        );
+        let help = "`plan_length` is the longer side of the plan and `plan_width` the shorter one: exchange them, or correct the values and their units";
+        Some((message, help))
+    }
+
     /// The same with what `other` gives in the place of what this one has; a code in the place of
     /// a country, and a country in that of a code. Rules are those of both.
     #[must_use]

@@ -31,7 +31,10 @@ pub use impact::ImpactArguments;
 pub use motion::*;
 pub use needed::all_is_there;
 pub use paths::{InputPath, OutputFolder, OutputPath, PathKind, file_use};
-pub use quantities::{ascending, frequency, is_bare, list, optional, positive, time_limit, value};
+pub use quantities::{
+    ascending, frequency, is_bare, list, once, optional, positive, time_limit, value,
+    with_units_alike,
+};
 pub use study::*;
 pub use verification::*;
 

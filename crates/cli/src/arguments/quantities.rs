@@ -102,15 +102,49 @@ pub fn of_dimension(text: &str, wanted: Dimension) -> Result<f64, String> {
     }
 }
 
+/// Refuses values of a list some of which have a unit and some none: a comma in a number divides it into two, and a unit
+/// behind the last value is no unit of the others.
+pub fn with_units_alike<'a>(
+    option: &str,
+    parts: impl Iterator<Item = &'a str> + Clone,
+) -> Result<(), Failure> {
+    let bare = parts.clone().find(|part| is_bare(part));
+    let united = parts.into_iter().find(|part| !is_bare(part));
+    let (Some(bare), Some(united)) = (bare, united) else {
+        return Ok(());
+    };
+    let (bare, united) = (bare.trim(), united.trim());
+    Err(Failure::input(
+        format!("--{option}: \"{bare}\" has no unit beside \"{united}\""),
+        Some(
+            "write decimal points, as commas divide values, and give each value its unit"
+                .to_owned(),
+        ),
+    ))
+}
+
+/// Refuses a number that stands twice in a list.
+pub fn once(option: &str, numbers: &[f64], unit: &str) -> Result<(), Failure> {
+    let twice = |(place, number): &(usize, &f64)| numbers[..*place].contains(number);
+    match numbers.iter().enumerate().find(twice) {
+        None => Ok(()),
+        Some((_, number)) => Err(Failure::input(
+            format!("--{option}: {number}{unit} stands twice"),
+            Some("give it once; commas divide values, and numbers have decimal points".to_owned()),
+        )),
+    }
+}
+
 /// SI values divided by commas; frequencies in Hz.
 pub fn list(text: &str, name: &str, dimension: Dimension) -> Result<Vec<f64>, Failure> {
     let of_dimension = |part: &str| match dimension == Dimension::FREQUENCY {
         true => frequency(part, name),
         false => value(part, name, dimension),
     };
-    text.split(',')
-        .map(|part| of_dimension(part.trim()))
-        .collect()
+    let values = text.split(',').map(|part| of_dimension(part.trim()));
+    let values = values.collect::<Result<Vec<f64>, Failure>>()?;
+    with_units_alike(name, text.split(','))?;
+    Ok(values)
 }
 
 /// Refuses two options of which the first is not below the second.
@@ -137,6 +171,17 @@ mod tests {
     #![allow(clippy::unwrap_used)]
 
     use super::*;
+
+    /// A decimal comma divides a number into two.
+    #[test]
+    fn lists_have_units_alike() {
+        let times = |text: &str| list(text, "at", Dimension::TIME);
+        assert_eq!(times("0.1 s, 500 ms").unwrap(), [0.1, 0.5]);
+        assert_eq!(times("0.1, 0.5").unwrap(), [0.1, 0.5]);
+        for text in ["0,1 s", "1,5 s", "0,1 s, 0,5 s", "0.2, 0.5 s", "1 s, 2"] {
+            assert!(times(text).is_err(), "{text}");
+        }
+    }
 
     #[test]
     fn units_are_taken_and_checked() {

@@ -158,6 +158,15 @@ fn mistakes() {
             "did you mean \"eurocode_8_2004\"?",
         ),
         (vec!["--set", "soil_zone=\"IV\""], "zones are I, II and III"),
+        (vec!["--set", "soil_zone=\"IV\""], "--set:1:11"),
+        (
+            vec!["--set", "structural_system=[\"frame\", \"timber\"]"],
+            "--set:1:29",
+        ),
+        (
+            vec!["--set", "plan_length=20", "--set", "plan_width=\"50 m\""],
+            "`plan_width`, 50 m for building 1, is greater than `plan_length`, 20 m",
+        ),
         (vec!["--set", "soil_zone=II"], "texts in quotes"),
         (vec!["--set", "importence=1"], "did you mean `importance`?"),
         (vec!["--probability", "1"], "less than 1"),
@@ -172,4 +181,26 @@ fn mistakes() {
         assert_eq!(output.status.code(), Some(2), "{arguments:?}: {said}");
         assert!(plain.contains(says), "{arguments:?}: {said}");
     }
+}
+
+/// Options that cannot go together are found before anything is computed or written.
+#[test]
+fn nothing_is_written_for_options_that_cannot_go_together() {
+    let folder = tempfile::tempdir().unwrap();
+    let codes = folder.path().join("codes.csv");
+    let sweep = folder.path().join("sweep.csv");
+    let output = gap(
+        "gap_check",
+        &[
+            "--points",
+            "0",
+            "--codes-csv",
+            codes.to_str().unwrap(),
+            "--csv",
+            sweep.to_str().unwrap(),
+        ],
+    );
+    assert_eq!(output.status.code(), Some(2));
+    assert!(text(&output.stderr).contains("without a sweep"));
+    assert!(!codes.exists() && !sweep.exists());
 }

@@ -217,6 +217,8 @@ fn values_of_zero_and_below_are_refused_with_a_remedy() {
     for (arguments, remedy) in [
         ("bilinear --cycles 0mm", "--cycles \"10 mm,20 mm\""),
         ("bilinear --cycles 10mm,-20mm", "--cycles \"10 mm,20 mm\""),
+        ("bilinear --cycles 12,5mm", "write decimal points"),
+        ("bilinear --dissipation 0,1mm,10mm", "write decimal points"),
         (
             "bilinear --dissipation 0mm,1mm",
             "--dissipation \"0.1 mm,10 mm\"",

@@ -56,6 +56,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
         "the table, also that frames with shear walls stand beside the box of walls, as recalled",
     ),
     remarks: &[
+        "The storeys are those of the lower building.",
         "Of two kinds of structure the wider width is taken.",
         "The table's kinds are box system or frames with shear walls, moment-resistant frames of reinforced concrete, and of steel; walls without frame are counted as the first.",
     ],

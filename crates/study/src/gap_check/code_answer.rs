@@ -109,6 +109,16 @@ impl LevelAnswer {
         least.filter(|least| !self.reaches(least.width))
     }
 
+    /// A width that is asked for (m) as it is judged: the provided one, where that falls short of it by less than two
+    /// computations of one number differ.
+    #[must_use]
+    pub fn as_judged(&self, required: f64) -> f64 {
+        match self.reaches(required) {
+            true => required.min(self.provided),
+            false => required,
+        }
+    }
+
     fn reaches(&self, required: f64) -> bool {
         self.provided >= required * (1.0 - SAME)
     }

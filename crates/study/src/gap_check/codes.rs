@@ -331,20 +331,51 @@ impl<'a> Inputs<'a> {
 }
 
 fn system_of(case: &Case, name: &Located<String>) -> Result<StructuralSystem, CheckError> {
-    StructuralSystem::from_name(&name.value).ok_or_else(|| {
-        let known: Vec<_> = StructuralSystem::ALL.iter().map(|s| s.name()).collect();
-        let message = format!("unknown structural system \"{}\"", name.value);
-        let help = format!("known ones are {}", known.join(", "));
-        unknown(case, name, message, Some(help))
-    })
+    let found = known_system(&name.value);
+    found.map_err(|(message, help)| unknown(case, name, message, Some(help)))
 }
 
 fn zone_of(case: &Case, name: &Located<String>) -> Result<SoilZone, CheckError> {
-    SoilZone::from_name(&name.value).ok_or_else(|| {
-        let message = format!("unknown soil zone \"{}\"", name.value);
-        let help = "zones are I, II and III".to_owned();
-        unknown(case, name, message, Some(help))
+    let found = known_zone(&name.value);
+    found.map_err(|(message, help)| unknown(case, name, message, Some(help)))
+}
+
+/// A structural system by its name, else what is wrong and what the names are.
+fn known_system(name: &str) -> Result<StructuralSystem, (String, String)> {
+    StructuralSystem::from_name(name).ok_or_else(|| {
+        let known: Vec<_> = StructuralSystem::ALL.iter().map(|s| s.name()).collect();
+        let message = format!("unknown structural system \"{name}\"");
+        (message, format!("known ones are {}", known.join(", ")))
     })
+}
+
+/// The same of a zone.
+fn known_zone(name: &str) -> Result<SoilZone, (String, String)> {
+    SoilZone::from_name(name).ok_or_else(|| {
+        let message = format!("unknown soil zone \"{name}\"");
+        (message, "zones are I, II and III".to_owned())
+    })
+}
+
+/// The first unknown structural system or soil zone of words that stand in a text of their own, under a name, as those of
+/// an argument do.
+#[must_use]
+pub fn unknown_names(separation: &Separation, (file, text): (&str, &str)) -> Option<CaseError> {
+    let systems = separation.structural_system.iter().flatten();
+    let systems = systems.map(|name| (name, known_system(&name.value).err()));
+    let zones = separation.soil_zone.iter();
+    let zones = zones.map(|name| (name, known_zone(&name.value).err()));
+    let wrong = systems
+        .chain(zones)
+        .find_map(|(name, wrong)| Some((name, wrong?)));
+    let (name, (message, help)) = wrong?;
+    Some(CaseError::new(
+        file,
+        text,
+        name.span.clone(),
+        message,
+        Some(help),
+    ))
 }
 
 /// What the user asks for, found: rules of their own, provisions, and what gives the verdict.

@@ -21,7 +21,9 @@ mod sweep;
 mod systems;
 
 pub use code_answer::{CodeAnswer, LevelAnswer, OwnershipAnswer};
-pub use codes::{CodeGap, CombinationGap, LevelCombination, unknown_words, wrong_rules};
+pub use codes::{
+    CodeGap, CombinationGap, LevelCombination, unknown_names, unknown_words, wrong_rules,
+};
 pub use collapse::{CollapsedRecord, collapsed_building};
 pub(crate) use collapse::{stand_or_collapse, without_collapsed};
 pub use demand::{

@@ -16,7 +16,7 @@ use pounding_study::floor_spectra::{
 };
 use pounding_time_history::System;
 
-use crate::arguments::{FloorSpectrumArguments, ascending, list, value};
+use crate::arguments::{FloorSpectrumArguments, ascending, list, once, value};
 use crate::failure::Failure;
 use crate::faults::{assembled, of_check, read_case, recorded};
 use crate::files::{have_a_place, reads_too};
@@ -186,18 +186,6 @@ impl<'a> Asked<'a> {
 /// An error of the library under the option that it comes from.
 fn named(option: &str, error: &FloorSpectraError) -> Failure {
     Failure::input(format!("--{option}: {error}"), error.help())
-}
-
-/// Refuses a number that stands twice in a list.
-fn once(option: &str, numbers: &[f64], unit: &str) -> Result<(), Failure> {
-    let twice = |(place, number): &(usize, &f64)| numbers[..*place].contains(number);
-    match numbers.iter().enumerate().find(twice) {
-        None => Ok(()),
-        Some((_, number)) => Err(Failure::input(
-            format!("--{option}: {number}{unit} stands twice"),
-            Some("give it once".to_owned()),
-        )),
-    }
 }
 
 /// The floors of these names, `BUILDING:STOREY`; without any the roof of every building.

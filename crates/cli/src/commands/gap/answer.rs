@@ -2,7 +2,6 @@
 
 use pounding_catalogue::numbers::{missing, rounded_up, rounded_up_beside, six_digits};
 use pounding_catalogue::wording::{agreeing, counted};
-use pounding_separation::Requirement;
 use pounding_study::gap_check::{
     CodeAnswer, GapCheck, GapReport, LevelAnswer, LevelDemand, OwnershipAnswer, SuiteSpectrum,
 };
@@ -399,7 +398,7 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
             gap.levels[level].place.label(),
             shown(displacement[0]),
             shown(displacement[1]),
-            widths(&width.requirement, *provided),
+            widths(governing),
             in_millimetres(*provided),
             reached.to_owned(),
             width.provision.name().to_owned(),
@@ -461,9 +460,13 @@ fn explained(case: &OwnershipAnswer) -> String {
     text
 }
 
-/// The width (mm), or that of each reading of a disputed rule, beside the width that is provided (m).
-fn widths(requirement: &Requirement, provided: f64) -> String {
-    let shown = |width: f64| rounded_up_beside(width * 1e3, provided * 1e3, 1);
+/// The width (mm), or that of each reading of a disputed rule, beside the width that is provided.
+fn widths(answer: &LevelAnswer) -> String {
+    let requirement = &answer.width.requirement;
+    let shown = |width: f64| {
+        let judged = answer.as_judged(width);
+        rounded_up_beside(judged * 1e3, answer.provided * 1e3, 1)
+    };
     let readings = requirement.readings.iter();
     let readings: Vec<_> = readings.map(|r| shown(r.width)).collect();
     match readings.is_empty() {

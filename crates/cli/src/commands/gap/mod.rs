@@ -16,7 +16,9 @@ use pounding_report::page::Picture;
 use pounding_report::pictures::gap::{amplifications, no_amplification, spectra};
 use pounding_report::{Answered, AnsweredCommand};
 use pounding_study::Deal;
-use pounding_study::gap_check::{GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt};
+use pounding_study::gap_check::{
+    GapCheck, GapCheckOptions, SweepOptions, gap_check_dealt, unknown_names,
+};
 
 use crate::arguments::{GapArguments, OutputPath, is_bare, optional};
 use crate::asked_separation::{Asked, overridden};
@@ -121,7 +123,10 @@ fn separation(case: &Case, arguments: &GapArguments) -> Result<Separation, Failu
             continue;
         }
         match Separation::parse(text, case.buildings.len()) {
-            Ok(one) => set.push(one),
+            Ok(one) => match unknown_names(&one, ("--set", text)) {
+                Some(error) => failures.push(Failure::case(error, text)),
+                None => set.push(one),
+            },
             Err(error) => failures.push(Failure::case(error, text)),
         }
     }
@@ -224,6 +229,11 @@ fn options(arguments: &GapArguments) -> Result<GapCheckOptions, Failure> {
         let message = format!("without a sweep there is nothing that {name} could say");
         return Err(Failure::input(message, Some(help)));
     }
+    if (arguments.csv.is_some() || arguments.plot.is_some()) && arguments.points == 0 {
+        let help = "leave --points 0 away".to_owned();
+        let message = "without a sweep there is nothing to write or draw";
+        return Err(Failure::input(message, Some(help)));
+    }
     let sweep = (arguments.points > 0).then(|| SweepOptions {
         gap: arguments.gap.clone(),
         from,
@@ -244,11 +254,6 @@ fn write_files(arguments: &GapArguments, check: &GapCheck) -> Result<(), Failure
         path.as_deref().map_or(Ok(()), write)
     };
     write(&arguments.codes_csv, &|| files::codes(check))?;
-    if (arguments.csv.is_some() || arguments.plot.is_some()) && check.sweep.is_none() {
-        let help = "leave --points 0 away".to_owned();
-        let message = "without a sweep there is nothing to write or draw";
-        return Err(Failure::input(message, Some(help)));
-    }
     write(&arguments.csv, &|| files::sweep(check))?;
     if let Some(path) = arguments.spectra.as_deref() {
         plot::write_drawn(path, spectra(check), &arguments.figure)?;

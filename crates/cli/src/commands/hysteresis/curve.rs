@@ -8,7 +8,7 @@ use pounding_hysteresis::laboratory::{
 use serde::Serialize;
 
 use super::motion::period;
-use crate::arguments::{HysteresisArguments, positive};
+use crate::arguments::{HysteresisArguments, positive, with_units_alike};
 use crate::failure::Failure;
 use crate::tables::new_table;
 
@@ -52,6 +52,10 @@ pub fn curve(
     if arguments.dissipation.is_empty() {
         return Ok(None);
     }
+    with_units_alike(
+        "dissipation",
+        arguments.dissipation.iter().map(String::as_str),
+    )?;
     let ends = arguments
         .dissipation
         .iter()

@@ -5,7 +5,7 @@ use pounding_catalogue::numbers::significant;
 use pounding_hysteresis::LawDescriptor;
 use pounding_hysteresis::laboratory::{HistoryRow, LaboratoryError, LoadPath, Pace};
 
-use crate::arguments::{HysteresisArguments, positive};
+use crate::arguments::{HysteresisArguments, positive, with_units_alike};
 use crate::columns::{Column, Source};
 use crate::failure::Failure;
 
@@ -44,6 +44,7 @@ pub fn path(
         .iter()
         .map(|text| positive(text.trim(), ("cycles", "10 mm,20 mm"), Dimension::LENGTH))
         .collect::<Result<Vec<f64>, Failure>>()?;
+    with_units_alike("cycles", arguments.cycles.iter().map(String::as_str))?;
     let pace = match speed(arguments)? {
         Some(speed) => Pace::Steady(speed),
         None => Pace::Harmonic(period(arguments)?),

@@ -18,7 +18,7 @@ use super::code::warn_of_parameters;
 use super::reading;
 use super::spectrum_of_code::{self, OfCode};
 use super::spectrum_tables as tables;
-use crate::arguments::{SpectrumArguments, ascending, frequency, list, value};
+use crate::arguments::{SpectrumArguments, ascending, frequency, list, once, value};
 use crate::failure::Failure;
 use crate::output::{pretty, print};
 use crate::plot;
@@ -91,7 +91,13 @@ pub(super) fn places(
         false => value(text, name, dimension),
     };
     if let Some(text) = &arguments.at {
-        return list(text, "at", dimension);
+        let places = list(text, "at", dimension)?;
+        let unit = match dimension == Dimension::FREQUENCY {
+            true => " Hz",
+            false => " s",
+        };
+        once("at", &places, unit)?;
+        return Ok(places);
     }
     let end = |text: &Option<String>, name, default| match text {
         Some(text) => place(text, name),
@@ -142,6 +148,7 @@ fn evaluation(arguments: &SpectrumArguments) -> Evaluation {
 fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure> {
     let periods = places(arguments, PERIODS, Dimension::TIME)?;
     let dampings = list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    once("damping", &dampings, "")?;
     let record = reading::acceleration(file, &arguments.read)?;
     let spectra = response_spectra(&record, &periods, &dampings, evaluation(arguments))
         .map_err(|e| named(e, arguments))?;
@@ -188,6 +195,7 @@ fn responses(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failu
 fn rotated(arguments: &SpectrumArguments, file: &Path) -> Result<String, Failure> {
     let periods = places(arguments, PERIODS, Dimension::TIME)?;
     let dampings = list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    once("damping", &dampings, "")?;
     if arguments.second_file.is_none() && arguments.second_component.is_none() {
         return Err(Failure::input(
             "--rotated needs two components",

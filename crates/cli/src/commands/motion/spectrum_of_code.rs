@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::code::{code_spectrum, warn_of_parameters};
 use super::spectrum;
-use crate::arguments::{SpectrumArguments, list};
+use crate::arguments::{SpectrumArguments, list, once};
 use crate::failure::Failure;
 use crate::output::{pretty, print};
 use crate::plot;
@@ -102,6 +102,7 @@ pub fn alone(arguments: &SpectrumArguments) -> Result<(), Failure> {
         ));
     }
     let dampings = list(&arguments.damping, "damping", Dimension::NUMBER)?;
+    once("damping", &dampings, "")?;
     let (shown, written) = periods(arguments, &dampings)?;
     let spectra = beside(arguments, &shown, &dampings)?;
     // Whatever the damping.

@@ -217,8 +217,6 @@ fn values_of_zero_and_below_are_refused_with_a_remedy() {
     for (arguments, remedy) in [
         ("bilinear --cycles 0mm", "--cycles \"10 mm,20 mm\""),
         ("bilinear --cycles 10mm,-20mm", "--cycles \"10 mm,20 mm\""),
-        ("bilinear --cycles 12,5mm", "write decimal points"),
-        ("bilinear --dissipation 0,1mm,10mm", "write decimal points"),
         (
             "bilinear --dissipation 0mm,1mm",
             "--dissipation \"0.1 mm,10 mm\"",
@@ -408,6 +406,17 @@ fn a_device_is_not_read() {
         refused(
             &format!("iwan_six_parameter --{option} /dev/zero"),
             &["cannot read /dev/zero", "no regular file"],
+        );
+    }
+}
+
+/// A decimal comma divides a number into two, of which the second has the unit.
+#[test]
+fn lists_with_units_in_part_are_refused() {
+    for arguments in ["--cycles 12,5mm", "--dissipation 0,1mm,10mm"] {
+        refused(
+            &format!("bilinear {arguments}"),
+            &["has no unit beside", "write decimal points"],
         );
     }
 }

@@ -730,3 +730,35 @@ fn rayleigh_damping_is_shown() {
     assert!(help.contains("rayleigh = { alpha = "), "{help}");
     assert!(help.contains("{ ratio = 0.05, modes = [1, 2] }"), "{help}");
 }
+
+/// Names of buildings that are too long together: said where the gap, or link, stands between them, and cured by its name.
+#[test]
+fn gaps_and_links_without_a_name_have_that_of_both_buildings() {
+    let link = "[[link]]\nbetween = [\"a\", \"b\"]\nlevels = [[1, 1]]\nmodel = \"linear_elastic\"\nstiffness = 1e6\nname = \"l\"\n";
+    let case = CASE.replace("[ground_motion]", &format!("{link}[ground_motion]"));
+    let named = |left: usize, right: usize, text: &str| {
+        let (a, b) = ("a".repeat(left), "b".repeat(right));
+        let text = text.replace("\"a\"", &format!("{a:?}"));
+        let text = text.replace("\"b\"", &format!("{b:?}"));
+        Case::parse(&text, Path::new("case.toml"))
+    };
+    assert!(named(99, 100, &case).is_ok());
+    for (what, text) in [
+        ("gap", case.clone()),
+        (
+            "link",
+            case.replace("name = \"l\"\n", "")
+                .replace("[[gap]]", "[[gap]]\nname = \"g\""),
+        ),
+    ] {
+        let error = named(100, 100, &text).unwrap_err();
+        let said = format!("the {what} has no name of its own");
+        assert!(error.message.contains(&said), "{error:?}");
+        assert!(error.message.contains("201 characters"), "{error:?}");
+        let remedy = format!("give the {what} a `name`");
+        assert!(error.help.unwrap().contains(&remedy));
+        assert!(error.others.is_empty());
+    }
+    let both = case.replace("[[gap]]", "[[gap]]\nname = \"g\"");
+    assert!(named(100, 100, &both).is_ok());
+}

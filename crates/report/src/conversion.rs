@@ -144,6 +144,9 @@ fn remove_known(fonts: &Database, characters: &mut BTreeSet<char>) {
     }
 }
 
+/// Dots of a PNG per metre: how large it is on a page.
+const DOTS_PER_METRE: u32 = (DOTS_PER_INCH / 0.0254 + 0.5) as u32;
+
 fn png(tree: &usvg::Tree) -> Result<Vec<u8>, ReportError> {
     let scale = DOTS_PER_INCH / POINTS_PER_INCH;
     let size = tree.size();
@@ -153,7 +156,24 @@ fn png(tree: &usvg::Tree) -> Result<Vec<u8>, ReportError> {
         .ok_or_else(|| refused(format!("{width} by {height} pixels are too many")))?;
     let transform = tiny_skia::Transform::from_scale(scale, scale);
     resvg::render(tree, transform, &mut image.as_mut());
-    image.encode_png().map_err(refused)
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, width, height);
+    encoder.set_color(png::ColorType::Rgba);
+    encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_pixel_dims(Some(png::PixelDimensions {
+        xppu: DOTS_PER_METRE,
+        yppu: DOTS_PER_METRE,
+        unit: png::Unit::Meter,
+    }));
+    let mut writer = encoder.write_header().map_err(refused)?;
+    let colour = |pixel: &tiny_skia::PremultipliedColorU8| {
+        let colour = pixel.demultiply();
+        [colour.red(), colour.green(), colour.blue(), colour.alpha()]
+    };
+    let pixels: Vec<u8> = image.pixels().iter().flat_map(colour).collect();
+    writer.write_image_data(&pixels).map_err(refused)?;
+    writer.finish().map_err(refused)?;
+    Ok(bytes)
 }
 
 fn pdf(tree: &usvg::Tree) -> Result<Vec<u8>, ReportError> {
@@ -192,6 +212,9 @@ mod tests {
         assert!(svg.contains("width=\"190mm\""));
         let png = PictureFormat::Png.of(&svg).unwrap().bytes;
         assert_eq!(&png[1..4], b"PNG");
+        // 300 dots per inch, behind the header of 33 bytes.
+        assert_eq!(&png[37..41], b"pHYs");
+        assert_eq!(png[41..50], [0, 0, 0x2e, 0x23, 0, 0, 0x2e, 0x23, 1]);
         let width = u32::from_be_bytes([png[16], png[17], png[18], png[19]]);
         assert_eq!(width, 2245);
         let pdf = PictureFormat::Pdf.of(&svg).unwrap().bytes;

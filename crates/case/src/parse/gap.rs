@@ -9,7 +9,7 @@ use serde::Deserialize;
 use super::column::ColumnTables;
 use super::levels::{Between, Faces, Levels};
 use super::parameters::{Values, arrange, not_whole, parameters};
-use super::{Row, name, spread};
+use super::{Row, joined_name, name, spread};
 use crate::document::{
     Entry, Field, Force, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader,
     Signed,
@@ -147,7 +147,8 @@ impl GapTable {
             floor_to_floor: false,
             columns: [None, None],
         });
-        let name = name.unwrap_or_else(|| placed.names.join("-"));
+        let joined = || joined_name(reader, &placed.names, place.as_ref(), "gap");
+        let name = name.unwrap_or_else(joined);
         ask(reader, &name, &stated, &placed, row);
         let gap = Gap {
             name,

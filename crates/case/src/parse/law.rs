@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::levels::{Between, Faced, Faces, Levels, sides, useless_tolerance};
 use super::parameters::{Values, arrange, not_whole, parameters};
-use super::{Row, name};
+use super::{Row, joined_name, name};
 use crate::document::{
     Count, Entry, Field, FreeKeys, Length, OneOrEach, Optional, Positive, Reader,
 };
@@ -213,8 +213,9 @@ impl LinkTable {
             }
             None => ([Side::Wall; 2], Default::default(), vec![(None, None)]),
         };
+        let joined = || joined_name(reader, &names, place.as_ref(), "link");
         let link = Link {
-            name: name.unwrap_or_else(|| names.join("-")),
+            name: name.unwrap_or_else(joined),
             between,
             parameters,
             levels,

@@ -278,6 +278,31 @@ fn name(reader: &Reader<'_>, given: Optional<String>, what: &str) -> Option<Stri
     Some(check_name(reader, given.located()?, what)?.value)
 }
 
+/// The name of a gap or link that states none: those of what it lies between, which stand here.
+fn joined_name(
+    reader: &Reader<'_>,
+    names: &[String; 2],
+    place: Option<&Range<usize>>,
+    what: &str,
+) -> String {
+    let joined = names.join("-");
+    if let Some(place) = place
+        && names.iter().all(|name| is_name(name))
+        && !is_name(&joined)
+    {
+        let length = joined.chars().count();
+        let message = format!(
+            "the {what} has no name of its own, and that of both buildings together has {length} characters, which cannot name it"
+        );
+        reader.refuse::<()>(
+            place.clone(),
+            message,
+            format!("give the {what} a `name`; {NAMES}"),
+        );
+    }
+    joined
+}
+
 /// Characters that are shown of what cannot be a name.
 const SHOWN_OF_A_NAME: usize = 80;
 

@@ -31,13 +31,16 @@ const MEASURES: [(&str, &str); 21] = [
         "acceleration spectrum intensity (m/s)",
         "acceleration_spectrum_intensity",
     ),
-    ("characteristic intensity (SI)", "characteristic_intensity"),
+    (
+        "characteristic intensity (m^1.5/s^2.5)",
+        "characteristic_intensity",
+    ),
     (
         "specific energy density (m\u{b2}/s)",
         "specific_energy_density",
     ),
     (
-        "root mean square acceleration (m/s\u{b2})",
+        "root mean square acceleration over 5 to 95 % (m/s\u{b2})",
         "root_mean_square_acceleration",
     ),
     ("PGV / PGA (s)", "velocity_to_acceleration"),

@@ -1,6 +1,6 @@
 //! Cases as commands read them: all that is wrong in one is reported together.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};
 use pounding_case::{Analysis, Case};
@@ -11,7 +11,7 @@ use pounding_study::gap_check::{CaseUnderRecord, CheckError, under_records};
 
 use crate::arguments::InputPath;
 use crate::failure::Failure;
-use crate::files::{reads_too, record_files};
+use crate::files::{metadata_beside, reads_too, record_files};
 
 /// Reads and validates a case file. With `own_record`, errors of one kind do not hide that
 /// its record is missing.
@@ -55,6 +55,7 @@ pub fn recorded(
     reads_too(files, case.files())?;
     let records = under_records(case, &given).map_err(|e| of_records(e, case, given.is_empty()))?;
     reads_too(files, records.iter().map(|r| ("record", r.file.clone())))?;
+    reads_too(files, metadata_beside(given.iter().map(PathBuf::as_path)))?;
     Ok(records)
 }
 

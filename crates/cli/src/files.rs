@@ -10,6 +10,7 @@ use pounding_files::{
     AskedOfTargets, FileUse, LeftOver, PartFile, ask_of_targets, left_over, left_over_in,
     tell_of_replaced,
 };
+use pounding_ground_motion::responses_beside;
 use pounding_report::Answered;
 use pounding_results::{Kind, Label};
 use pounding_study::gap_check::{self, CheckError, SkippedFile};
@@ -57,6 +58,14 @@ pub fn record_files(given: &[InputPath]) -> Result<Vec<PathBuf>, CheckError> {
         ));
     }
     Ok(found.files)
+}
+
+/// The metadata of stations that lie beside records, which are read where none is named.
+pub fn metadata_beside<'r>(
+    records: impl IntoIterator<Item = &'r Path>,
+) -> Vec<(&'static str, PathBuf)> {
+    let beside = records.into_iter().flat_map(responses_beside);
+    beside.map(|path| ("station's metadata", path)).collect()
 }
 
 /// Adds files that a case or a study names to those of the arguments, and holds all against

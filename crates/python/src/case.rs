@@ -18,7 +18,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 use crate::errors::Problem;
-use crate::motion::Motion;
+use crate::motion::{Motion, ReadFrom};
 use crate::values::text_of;
 
 /// Name in messages of a case that was made of a dict.
@@ -38,8 +38,8 @@ pub struct PyCase {
     pub motion: Option<Arc<Accelerogram>>,
     /// Its name.
     pub motion_name: String,
-    /// The file that this motion was read from.
-    motion_file: Option<PathBuf>,
+    /// The files that this motion was read from.
+    motion_files: ReadFrom,
     /// The text of the case, which says so of such a motion.
     pub text: Arc<str>,
     /// The file as it was given, by which results call what the case reads.
@@ -55,7 +55,7 @@ impl PyCase {
                 case: Arc::new(case),
                 motion: None,
                 motion_name: String::new(),
-                motion_file: None,
+                motion_files: ReadFrom::default(),
                 text: source.into(),
                 given: None,
                 made,
@@ -125,7 +125,7 @@ impl PyCase {
             text: format!("{}\n{}", self.case.source.trim_end(), told(motion, name)).into(),
             motion: Some(Arc::new(record)),
             motion_name: name.to_owned(),
-            motion_file: motion.file.clone(),
+            motion_files: motion.read_from.clone(),
             ..self
         }
     }
@@ -138,11 +138,13 @@ impl PyCase {
     /// Refuses to write where something is read.
     pub fn writes(&self, role: &str, path: &Path) -> Result<(), Problem> {
         let mut files = FileUse::new();
-        for (role, file) in self.case.files() {
+        for (role, file) in self
+            .case
+            .files()
+            .into_iter()
+            .chain(self.motion_files.files())
+        {
             files.reads(role, file);
-        }
-        if let Some(file) = &self.motion_file {
-            files.reads("record", file.clone());
         }
         if !self.made {
             files.reads("case", self.case.file.clone());
@@ -235,7 +237,7 @@ impl PyCase {
 /// The comment at the end of a case on the motion in memory that it is under.
 fn told(motion: &Motion, name: &str) -> String {
     let record = &motion.record;
-    let from = motion.file.as_ref();
+    let from = motion.read_from.record.as_ref();
     let from = from.map_or(String::new(), |file| format!(", read from {file:?}"));
     format!(
         "\n# In the place of the record of [ground_motion] stands the motion {name:?} in memory{from}:\n\

@@ -10,6 +10,7 @@ use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum_while};
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, Format, GroundMotionError, Offset, Quantity, ReadOptions, read,
+    responses_beside,
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
@@ -32,15 +33,40 @@ const SENSITIVITY: Dimension = Dimension {
 #[derive(Debug)]
 pub struct Motion {
     pub record: Arc<Accelerogram>,
-    /// The file that it was read from.
-    pub file: Option<PathBuf>,
+    /// The files that it was read from.
+    pub read_from: ReadFrom,
+}
+
+/// The files that a motion was read from; none of one that was made of numbers.
+#[derive(Debug, Clone, Default)]
+pub struct ReadFrom {
+    /// That of the record.
+    pub record: Option<PathBuf>,
+    /// The metadata of its station, where they were named.
+    response: Option<PathBuf>,
+}
+
+impl ReadFrom {
+    /// All of them with what each is; as for the records of cases also the metadata that may lie beside it.
+    pub fn files(&self) -> Vec<(&'static str, PathBuf)> {
+        let metadata = match (&self.response, &self.record) {
+            (Some(named), _) => vec![named.clone()],
+            (None, Some(record)) => responses_beside(record),
+            (None, None) => Vec::new(),
+        };
+        let record = self.record.iter().map(|file| ("record", file.clone()));
+        let metadata = metadata.into_iter();
+        record
+            .chain(metadata.map(|file| ("station's metadata", file)))
+            .collect()
+    }
 }
 
 impl Motion {
-    fn of(record: Accelerogram, file: Option<PathBuf>) -> Self {
+    fn of(record: Accelerogram, read_from: ReadFrom) -> Self {
         Self {
             record: Arc::new(record),
-            file,
+            read_from,
         }
     }
 }
@@ -76,7 +102,8 @@ impl Motion {
         unit: &str,
     ) -> PyResult<Self> {
         let time_step = quantity(time_step, "time_step", Dimension::TIME)?;
-        Ok(Self::of(of_samples(&acceleration, time_step, unit)?, None))
+        let record = of_samples(&acceleration, time_step, unit)?;
+        Ok(Self::of(record, ReadFrom::default()))
     }
 
     /// A record of a file, with what its headers do not say.
@@ -140,7 +167,11 @@ impl Motion {
             offset: offset.map(of_mean).transpose()?.unwrap_or_default(),
         };
         let record = py.detach(|| read(&path, &options)).map_err(refused)?;
-        Ok(Self::of(record, Some(here(path))))
+        let read_from = ReadFrom {
+            record: Some(here(path)),
+            response: options.response.map(here),
+        };
+        Ok(Self::of(record, read_from))
     }
 
     /// A motion as it was in another process: samples (m/s2) and what [`Self::history_json`] told.
@@ -150,11 +181,16 @@ impl Motion {
         time_step: f64,
         history: &str,
         file: Option<PathBuf>,
+        response: Option<PathBuf>,
     ) -> PyResult<Self> {
         let history = serde_json::from_str(history)
             .map_err(|e| PyValueError::new_err(format!("a motion is damaged: {e}")))?;
         let record = of_samples(&acceleration, time_step, "m/s2")?;
-        Ok(Self::of(record.with_history(history), file))
+        let read_from = ReadFrom {
+            record: file,
+            response,
+        };
+        Ok(Self::of(record.with_history(history), read_from))
     }
 
     /// What it tells of itself besides its samples, as JSON.
@@ -189,7 +225,13 @@ impl Motion {
     /// The file that it was read from.
     #[getter]
     fn file(&self) -> Option<PathBuf> {
-        self.file.clone()
+        self.read_from.record.clone()
+    }
+
+    /// The metadata of its station, where they were named.
+    #[getter]
+    fn response(&self) -> Option<PathBuf> {
+        self.read_from.response.clone()
     }
 
     /// What was read and done, line by line.
@@ -219,14 +261,14 @@ impl Motion {
     fn scaled_by(&self, factor: &Bound<'_, PyAny>) -> PyResult<Self> {
         let factor = quantity(factor, "factor", Dimension::NUMBER)?;
         let record = self.record.scaled_by(factor).map_err(refused)?;
-        Ok(Self::of(record, self.file.clone()))
+        Ok(Self::of(record, self.read_from.clone()))
     }
 
     /// Scaled to a peak ground acceleration (m/s2).
     fn scaled_to_peak(&self, peak: &Bound<'_, PyAny>) -> PyResult<Self> {
         let peak = quantity(peak, "peak", Dimension::ACCELERATION)?;
         let record = self.record.scaled_to_peak(peak).map_err(refused)?;
-        Ok(Self::of(record, self.file.clone()))
+        Ok(Self::of(record, self.read_from.clone()))
     }
 
     /// The response spectrum at these periods (s): arrays by name.

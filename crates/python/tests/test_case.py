@@ -171,6 +171,47 @@ def test_no_output_replaces_an_input(tmp_path: Path) -> None:
         result.to_hdf5(tmp_path / "no" / "folder.h5")
 
 
+def test_no_output_replaces_the_metadata_of_a_motion(tmp_path: Path, pair_dict: dict) -> None:
+    count, rate = 500, 50.0
+    obspy = pytest.importorskip("obspy")
+    inventory = pytest.importorskip("obspy.core.inventory")
+    header = {"network": "XX", "station": "ABC", "location": "00", "channel": "HNE", "sampling_rate": rate}
+    counts = (1e5 * np.sin(0.1 * np.arange(count))).astype(np.int32)
+    record, metadata = tmp_path / "a.mseed", tmp_path / "resp.xml"
+    obspy.Trace(counts, header).write(str(record), "MSEED")
+    response = inventory.Response.from_paz(
+        zeros=[], poles=[], stage_gain=2e5, input_units="M/S**2", output_units="COUNTS"
+    )
+    channel = inventory.Channel("HNE", "00", 35.0, -117.0, 0.0, 0.0, 0.0, 0.0, sample_rate=rate, response=response)
+    station = inventory.Station("ABC", 35.0, -117.0, 0.0, channels=[channel])
+    stations = inventory.Inventory([inventory.Network("XX", [station])], source="test")
+    stations.write(str(metadata), "STATIONXML")
+    before = metadata.read_bytes()
+    named = pounding.read_motion(record, response=metadata)
+    beside = pounding.read_motion(record)
+    own = pounding.Case.from_file(PAIR)
+    of_dict = pounding.Case.from_dict(pair_dict)
+    cases = [
+        own.with_motion(named),
+        own.with_motion(beside),
+        own.with_motion(named.scaled_by(0.5)),
+        own.with_motion(named.scaled_to_peak("0.3 g")),
+        own.with_motion(pickle.loads(pickle.dumps(named))),
+        pickle.loads(pickle.dumps(own.with_motion(named))),
+        of_dict.with_motion(named),
+        pounding.Case(
+            pair_dict["building"], pair_dict["gap"], ground_motion=named, analysis=pair_dict["analysis"]
+        ),
+    ]
+    for result in pounding.run_many(cases, histories=True):
+        for write in (result.to_hdf5, result.report):
+            with pytest.raises(pounding.CaseError, match="would take the place of .*station's metadata"):
+                write(metadata)
+            with pytest.raises(pounding.CaseError, match="would take the place of .*record"):
+                write(record)
+    assert metadata.read_bytes() == before
+
+
 values = st.recursive(
     st.none()
     | st.booleans()

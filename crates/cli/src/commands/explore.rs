@@ -1,6 +1,6 @@
 //! `pounding explore`: the page that computes.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use pounding_case::Case;
 use pounding_explorer_page::{ExplorerPageError, Inputs, page};
@@ -12,7 +12,9 @@ use crate::arguments::ExploreArguments;
 use crate::asked_separation::{Asked, overridden};
 use crate::failure::Failure;
 use crate::faults::{assembled, read_case};
-use crate::files::{have_a_place, name_left_over, page_is_spared, reads_too, record_files};
+use crate::files::{
+    have_a_place, metadata_beside, name_left_over, page_is_spared, reads_too, record_files,
+};
 use crate::output::print;
 use crate::plot;
 
@@ -33,6 +35,10 @@ pub fn explore(arguments: &ExploreArguments, mut files: FileUse) -> Result<(), F
     let records = record_files(&arguments.records);
     let records = records.map_err(|e| Failure::input(e.to_string(), e.help()))?;
     reads_too(&mut files, records.iter().map(|r| ("record", r.clone())))?;
+    reads_too(
+        &mut files,
+        metadata_beside(records.iter().map(PathBuf::as_path)),
+    )?;
     // What cannot be run has no page, and rules that cannot be read neither.
     assembled(&case)?;
     let asked = Asked {

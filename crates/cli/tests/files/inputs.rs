@@ -18,12 +18,16 @@ const fn call(words: &'static str, reads: &'static [&'static str]) -> Call {
 }
 
 /// A command that writes has to be here, and every input of it in one of its calls.
-const CALLS: [Call; 48] = [
+const CALLS: [Call; 50] = [
     call("run case.toml", CASE),
     call("floor-spectrum case.toml --at 0.5s", CASE),
     call(
         "floor-spectrum case.toml --at 0.5s --records second.csv",
         &["case.toml", "second.csv", "target.csv", "step.csv"],
+    ),
+    call(
+        "compare case.toml --models anagnostopoulos_2004 --records counts.mseed",
+        &["case.toml", "counts.mseed", "station.xml"],
     ),
     call("explore case.toml", CASE),
     call(
@@ -70,6 +74,11 @@ const CALLS: [Call; 48] = [
             "target.csv",
             "step.csv",
         ],
+    ),
+    // Found beside the record, without being named.
+    call(
+        "gap case.toml --points 3 --records counts.mseed",
+        &["case.toml", "counts.mseed", "station.xml"],
     ),
     call("gap case.toml --points 3", CASE),
     call(

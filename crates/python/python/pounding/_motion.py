@@ -178,7 +178,8 @@ class Motion:
     def __reduce__(self) -> tuple[Any, ...]:
         """Motions travel to other processes as their samples, with where they come from."""
         native = self._native
-        state = (native.acceleration, native.time_step, native.history_json(), native.file)
+        files = native.file, native.response
+        state = (native.acceleration, native.time_step, native.history_json(), *files)
         return _restored, (state, self.name)
 
     def __len__(self) -> int:

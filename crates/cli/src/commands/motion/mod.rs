@@ -19,11 +19,10 @@ mod writing;
 use std::path::PathBuf;
 
 use pounding_files::FileUse;
-use pounding_ground_motion::responses_beside;
 
 use crate::arguments::{InputPath, MotionCommand, ReadArguments};
 use crate::failure::Failure;
-use crate::files::reads_too;
+use crate::files::{metadata_beside, reads_too};
 
 /// Carries a command on motions out.
 pub fn motion(command: &MotionCommand, mut files: FileUse) -> Result<(), Failure> {
@@ -51,8 +50,5 @@ fn metadata(command: &MotionCommand) -> Vec<(&'static str, PathBuf)> {
     if read.response.is_some() {
         return Vec::new();
     }
-    let beside = records
-        .into_iter()
-        .flat_map(|record| responses_beside(record));
-    beside.map(|path| ("station's metadata", path)).collect()
+    metadata_beside(records.into_iter().map(|record| &**record))
 }

@@ -13,7 +13,7 @@ use pounding_files::{
 use pounding_ground_motion::responses_beside;
 use pounding_report::Answered;
 use pounding_results::{Kind, Label};
-use pounding_study::gap_check::{self, CheckError, SkippedFile};
+use pounding_study::gap_check::{self, CheckError};
 use pounding_study::{RECORDS_FOLDER, ShardName, is_shard_of_check, written_by_hand};
 
 use crate::arguments::InputPath;
@@ -51,11 +51,8 @@ fn name_unfinished(LeftOver { path, process }: &LeftOver) {
 pub fn record_files(given: &[InputPath]) -> Result<Vec<PathBuf>, CheckError> {
     let given: Vec<PathBuf> = given.iter().map(|p| p.to_path_buf()).collect();
     let found = gap_check::record_files(&given)?;
-    for SkippedFile { path, what } in &found.skipped {
-        note(&format!(
-            "{} is {what}, not a record: it is left out",
-            path.display()
-        ));
+    for skipped in &found.skipped {
+        note(&skipped.to_string());
     }
     Ok(found.files)
 }

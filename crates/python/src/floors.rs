@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 
 use crate::case::{PyCase, json};
 use crate::errors::Problem;
-use crate::study::{records, under};
+use crate::suite::Suite;
 use crate::values::quantity;
 use crate::watch::watched;
 
@@ -95,12 +95,13 @@ fn floor_spectra_over_records_json<'py>(
     threads: usize,
     progress: Option<&Bound<'py, PyAny>>,
 ) -> PyResult<String> {
-    let (case, motions) = (case.get(), records(motions)?);
+    let case = case.get();
+    let suite = Suite::of(py, case, motions)?;
     let dampings = [quantity(damping, "damping", Dimension::NUMBER)?];
     let periods = periods.as_array().to_vec();
     let failed = |error| problem(error, case);
     let made = watched(py, progress, |watch| {
-        let records = under(case, &motions)?;
+        let records = suite.under(case)?;
         let floors = match records.first() {
             Some(first) => places(&floors, &first.assembly.system).map_err(failed)?,
             None => Vec::new(),

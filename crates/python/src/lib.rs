@@ -10,6 +10,7 @@ mod models;
 mod motion;
 mod run;
 mod study;
+mod suite;
 mod values;
 mod watch;
 

@@ -14,23 +14,19 @@ use pounding_cli::answers::{
 };
 use pounding_files::FileUse;
 use pounding_files::checksum::WithoutChecksum;
-use pounding_ground_motion::Accelerogram;
 use pounding_report::page::SweepAnswer;
 use pounding_results::Kind;
 use pounding_study::comparison::{ComparisonOptions, RestitutionRule, StiffnessRule, compare};
-use pounding_study::gap_check::{
-    CaseUnderRecord, CheckError, GapCheckOptions, SweepOptions as WidthOptions, gap_check,
-    under_records,
-};
+use pounding_study::gap_check::{GapCheckOptions, SweepOptions as WidthOptions, gap_check};
 use pounding_study::{
     ResultReader, Shard, Study, StudyError, SweepOptions, evaluate, parts_folder, sweep, writable,
 };
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::case::{PyCase, json, under_motion};
+use crate::case::{PyCase, json};
 use crate::errors::{Problem, warn};
-use crate::motion::Motion;
+use crate::suite::Suite;
 use crate::values::{optional, quantity, text_of};
 use crate::watch::{Watch, watched};
 
@@ -175,68 +171,6 @@ fn has_ida(study: PathBuf) -> Result<bool, Problem> {
     Ok(Study::read(&study).map_err(failed)?.ida.is_some())
 }
 
-/// A case under motions and records of files; under its own without any.
-pub(crate) fn under(
-    case: &PyCase,
-    motions: &[(String, Record)],
-) -> Result<Vec<CaseUnderRecord>, Problem> {
-    let of = |error: CheckError| case.problem(of_check(error, &case.case));
-    if motions.is_empty() {
-        if case.motion.is_none() {
-            return under_records(&case.case, &[]).map_err(of);
-        }
-        return Ok(vec![CaseUnderRecord {
-            name: case.motion_name.clone(),
-            file: PathBuf::new(),
-            assembly: case.assembly()?,
-        }]);
-    }
-    let mut all = Vec::new();
-    for (name, record) in motions {
-        match record {
-            Record::Path(path) => {
-                let mut read = under_records(&case.case, std::slice::from_ref(path)).map_err(of)?;
-                // A folder has the names of its files.
-                if let ([one], false) = (read.as_mut_slice(), name.is_empty()) {
-                    one.name.clone_from(name);
-                }
-                all.extend(read);
-            }
-            Record::Motion(record) => {
-                let mut other = pounding_case::Case::clone(&case.case);
-                // As with records of files: for their own durations.
-                other.analysis.duration = None;
-                let assembly = under_motion(&other, record)
-                    .map_err(|e| case.problem(Failure::of_case(e, &other).within(name)))?;
-                all.push(CaseUnderRecord {
-                    name: name.clone(),
-                    file: PathBuf::new(),
-                    assembly,
-                });
-            }
-        }
-    }
-    Ok(all)
-}
-
-/// A motion in memory, or a file or folder of them.
-pub(crate) enum Record {
-    Motion(std::sync::Arc<Accelerogram>),
-    Path(PathBuf),
-}
-
-/// Records as Python gives them: motions or paths with their names.
-pub(crate) fn records(given: Vec<(String, Bound<'_, PyAny>)>) -> PyResult<Vec<(String, Record)>> {
-    let record = |(name, value): (String, Bound<'_, PyAny>)| {
-        let record = match value.cast::<Motion>() {
-            Ok(motion) => Record::Motion(std::sync::Arc::clone(&motion.get().record)),
-            Err(_) => Record::Path(value.extract()?),
-        };
-        Ok((name, record))
-    };
-    given.into_iter().map(record).collect()
-}
-
 /// Entries of the table `separation` of a case.
 fn entries_of(case: &PyCase, entries: &Bound<'_, PyDict>) -> PyResult<Separation> {
     let text = text_of(entries)?;
@@ -267,7 +201,8 @@ fn gap_check_json(
     threads: usize,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let (case, motions) = (case.get(), records(motions)?);
+    let case = case.get();
+    let suite = Suite::of(py, case, motions)?;
     let asked = AskedOfGaps {
         code,
         country,
@@ -304,7 +239,7 @@ fn gap_check_json(
         threads: threads.max(1),
     };
     let made = watched(py, progress, |watch| {
-        let records = under(case, &motions)?;
+        let records = suite.under(case)?;
         let ask = |done, total| watch.ask(done, total);
         let check = gap_check(&case.case, &separation, &records, &options, &ask);
         let check = check.map_err(|e| case.problem(of_check(e, &case.case)))?;
@@ -340,7 +275,8 @@ fn compare_json(
     threads: usize,
     progress: Option<&Bound<'_, PyAny>>,
 ) -> PyResult<String> {
-    let (case, motions) = (case.get(), records(motions)?);
+    let case = case.get();
+    let suite = Suite::of(py, case, motions)?;
     let velocity = optional(approach_velocity, "approach_velocity", Dimension::VELOCITY)?;
     if velocity.is_some_and(|velocity| velocity.is_nan() || velocity <= 0.0) {
         let help = "bodies that do not approach each other do not touch".to_owned();
@@ -362,7 +298,7 @@ fn compare_json(
         threads: threads.max(1),
     };
     let made = watched(py, progress, |watch: &Watch| {
-        let records = under(case, &motions)?;
+        let records = suite.under(case)?;
         let ask = |done, total| watch.ask(done, total);
         let comparison = compare(&case.case, &records, &options, &ask);
         let comparison = comparison.map_err(|e| case.problem(of_check(e, &case.case)))?;

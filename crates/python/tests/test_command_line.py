@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
+import warnings
 from pathlib import Path
 
 import h5py
 import numpy as np
 import pytest
-from conftest import EXAMPLES, PAIR
+from conftest import EXAMPLES, PAIR, RECORD, ROOT
 
 import pounding
 
@@ -137,3 +139,47 @@ def test_gap_and_compare_say_what_the_commands_say() -> None:
     comparison = pounding.compare(path, models)
     assert comparison.answer == said
     assert list(comparison.models.index) == models
+
+
+def test_records_of_one_name_are_numbered_as_the_commands_do(tmp_path: Path) -> None:
+    path = EXAMPLES / "gap_check" / "case.toml"
+    motions, records = ROOT / "ground_motions", []
+    for folder, record in (("a", "el_centro_1940_ns.csv"), ("b", "kobe_1995_jma_ns.csv")):
+        (tmp_path / folder).mkdir()
+        records.append(Path(shutil.copy(motions / record, tmp_path / folder / "x.csv")))
+    named = ["x", "x (2)"]
+    # Exit code 1: the gap is too small.
+    said = json.loads(command("gap", path, "--records", *records, "--points", 0, "--json", expect=1))
+    assert [record["name"] for record in said["records"]] == named
+    for given in (records, [record.parent for record in records]):
+        check = pounding.gap_check(path, given)
+        assert check.answer == said
+        assert list(check.demand.index) == named
+    assert pounding.compare(path, "jankowski_2005", records).answer["records"] == named
+    assert list(pounding.floor_spectra(path, periods=[1.0], records=records).record.values) == named
+    # Motions of arrays are called alike.
+    time = 0.02 * np.arange(500)
+    made = [pounding.Motion(3.0 * np.sin(5.0 * k * time), 0.02) for k in (1, 2)]
+    check = pounding.gap_check(path, [*made, records[0]])
+    assert list(check.demand.index) == ["motion", "motion (2)", "x"]
+    with pytest.raises(pounding.CaseError, match="x.csv is given twice"):
+        pounding.gap_check(path, [records[0], tmp_path / "a" / ".." / "a" / "x.csv"])
+
+
+def test_files_that_are_no_records_are_said_to_be_left_out(tmp_path: Path) -> None:
+    path = EXAMPLES / "gap_check" / "case.toml"
+    shutil.copy(RECORD, tmp_path)
+    (tmp_path / "README.md").write_text("Whose they are.")
+    note = f"{tmp_path / 'README.md'} is a text, not a record: it is left out"
+    for call in (
+        lambda: pounding.gap_check(path, tmp_path),
+        lambda: pounding.compare(path, "jankowski_2005", [tmp_path]),
+        lambda: pounding.floor_spectra(path, periods=[1.0], records={"all": tmp_path}),
+    ):
+        with pytest.warns(UserWarning) as told:
+            call()
+        assert [(str(w.message), w.filename) for w in told] == [(note, __file__)]
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with pytest.raises(UserWarning, match="it is left out"):
+                call()

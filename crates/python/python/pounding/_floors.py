@@ -56,7 +56,9 @@ def floor_spectra(
     damping : float or str
         Damping ratio of the equipment (-).
     records : motions, files or folders of records, optional
-        A list, or a dict by name; the motion of the case by default.
+        A list, or a dict by name; the motion of the case by default. Of records of the same name the second
+        is called ``x (2)``, as by the command; files of folders that are no records are left out with a
+        warning.
     threads : int, optional
         For several records.
     progress : callable or bool, optional

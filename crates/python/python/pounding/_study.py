@@ -363,7 +363,9 @@ def gap_check(
     ----------
     case : Case or path
     records : motions, files or folders of records, optional
-        A list, or a dict by name; the motion of the case by default.
+        A list, or a dict by name; the motion of the case by default. Of records of the same name the second
+        is called ``x (2)``, as by the command; files of folders that are no records are left out with a
+        warning.
     code : str, optional
         One code, such as ``"eurocode_8_2004"``, whose answer decides: with its statistic of the
         suite, for both cases of ownership; it stands in ``answer["gaps"][i]["code"]``. The name
@@ -476,6 +478,7 @@ def compare(
     models : iterable of str, or one name
         Names of impact models; all by default.
     records : motions, files or folders of records, optional
+        As in :func:`gap_check`.
     restitution : float, optional
         That of the gap's own law by default.
     approach_velocity : float or str, optional

@@ -32,7 +32,8 @@ pub use demand::{
 pub use error::CheckError;
 pub use parallel::{Progress, UNWATCHED};
 pub use records::{
-    CaseUnderRecord, RecordFiles, SkippedFile, distinct, record_files, under_records,
+    CaseUnderRecord, RecordFiles, SkippedFile, distinct, distinct_names, given_once,
+    name_of_record, record_files, under_record, under_records,
 };
 pub use repeated::Repeated;
 #[cfg(feature = "results")]

@@ -201,29 +201,41 @@ pub fn under_records(case: &Case, records: &[PathBuf]) -> Result<Vec<CaseUnderRe
         let file = case.resolve(&case.ground_motion.file.value);
         let assembly = assembled(case, &file, assemble)?;
         return Ok(vec![CaseUnderRecord {
-            name: name_of(&file),
+            name: name_of_record(&file),
             file,
             assembly,
         }]);
     }
     let files = record_files(records)?.files;
-    let names = distinct_names(&files);
+    let names = distinct_names(files.iter().map(|file| name_of_record(file)));
+    let cases = files.into_iter().zip(names);
+    cases
+        .map(|(file, name)| under_record(case, file, name))
+        .collect()
+}
+
+/// Puts a case under a record of this name, as [`under_records`] does.
+///
+/// # Errors
+/// A case or a record that cannot be used.
+pub fn under_record(
+    case: &Case,
+    file: PathBuf,
+    name: String,
+) -> Result<CaseUnderRecord, CheckError> {
     let own = case.resolve(&case.ground_motion.file.value);
-    let cases = files.into_iter().zip(names).map(|(file, name)| {
-        let mut other = case.clone();
-        other.ground_motion = motion(case, &file);
-        other.analysis.duration = None;
-        let assembly = match file == own {
-            true => assembled(&other, &file, assemble),
-            false => assembled(&other, &file, assemble_under_another_record),
-        }?;
-        Ok(CaseUnderRecord {
-            name,
-            file,
-            assembly,
-        })
-    });
-    cases.collect()
+    let mut other = case.clone();
+    other.ground_motion = motion(case, &file);
+    other.analysis.duration = None;
+    let assembly = match file == own {
+        true => assembled(&other, &file, assemble),
+        false => assembled(&other, &file, assemble_under_another_record),
+    }?;
+    Ok(CaseUnderRecord {
+        name,
+        file,
+        assembly,
+    })
 }
 
 /// Record files, and what lies beside them in folders.
@@ -242,6 +254,17 @@ pub struct SkippedFile {
     pub path: PathBuf,
     /// What it is, such as "a script".
     pub what: &'static str,
+}
+
+impl std::fmt::Display for SkippedFile {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { path, what } = self;
+        write!(
+            f,
+            "{} is {what}, not a record: it is left out",
+            path.display()
+        )
+    }
 }
 
 /// Replaces folders by the records in them. Of a folder all files are taken but those that
@@ -341,7 +364,10 @@ fn no_record(file: &Path) -> Option<&'static str> {
 }
 
 /// A record that counts twice would make the answer look surer than it is.
-fn given_once(files: &[PathBuf]) -> Result<(), CheckError> {
+///
+/// # Errors
+/// The first one that does.
+pub fn given_once(files: &[PathBuf]) -> Result<(), CheckError> {
     let mut seen = Vec::new();
     for file in files {
         let place = file.canonicalize().unwrap_or_else(|_| file.clone());
@@ -356,14 +382,14 @@ fn given_once(files: &[PathBuf]) -> Result<(), CheckError> {
     Ok(())
 }
 
-/// Names of files, made distinct by numbers where two are alike.
-fn distinct_names(files: &[PathBuf]) -> Vec<String> {
-    let mut names: Vec<String> = Vec::new();
-    for file in files {
-        let name = distinct(&name_of(file), "", |name| names.iter().any(|n| n == name));
-        names.push(name);
+/// Names of records in their order, made distinct by numbers where two are alike: `x`, `x (2)`.
+pub fn distinct_names(names: impl IntoIterator<Item = String>) -> Vec<String> {
+    let mut all: Vec<String> = Vec::new();
+    for name in names {
+        let name = distinct(&name, "", |name| all.iter().any(|n| n == name));
+        all.push(name);
     }
-    names
+    all
 }
 
 /// A name with an ending, with a number between them where one is known: `x (2).csv`.
@@ -377,7 +403,9 @@ pub fn distinct(name: &str, ending: &str, is_known: impl Fn(&str) -> bool) -> St
     distinct
 }
 
-fn name_of(file: &Path) -> String {
+/// What a record is called: its file without folder and ending.
+#[must_use]
+pub fn name_of_record(file: &Path) -> String {
     let stem = file.file_stem().unwrap_or(file.as_os_str());
     one_line(stem.to_string_lossy().into_owned())
 }

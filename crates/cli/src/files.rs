@@ -517,14 +517,9 @@ impl Going {
     }
 
     /// Said before the work, which may still be refused or end without a result.
+    #[must_use]
     pub fn ahead(&self) -> String {
         format!("{} will be replaced, {}", self.output, self.what)
-    }
-
-    /// Said when the new file stands there.
-    #[must_use]
-    pub fn done(&self) -> String {
-        format!("{} was replaced, {}", self.output, self.what)
     }
 }
 
@@ -535,14 +530,25 @@ impl Going {
 /// A file of somebody else under a default name, or one that cannot be read.
 pub fn page_is_spared(path: &Path, named: bool) -> Result<(), Failure> {
     no_result_comes(path)?;
-    let judged = move |path: &Path| match holds_something(path) && !is_page(path) {
+    let before = page_judged(path, named)?;
+    let output = path.to_owned();
+    asked_again(path, move || {
+        as_before(&output, &before, page_judged(&output, named))
+    })
+    .to_the_end();
+    Ok(())
+}
+
+/// What [`page_is_spared`] refuses now, or is to be said of the file that a page takes the place of.
+///
+/// # Errors
+/// As [`page_is_spared`].
+pub fn page_judged(path: &Path, named: bool) -> Result<Option<Going>, Failure> {
+    no_result_stands(path)?;
+    match holds_something(path) && !is_page(path) {
         true => foreign(path, named, "page"),
         false => Ok(None),
-    };
-    let before = judged(path)?;
-    let output = path.to_owned();
-    asked_again(path, move || as_before(&output, &before, judged(&output))).to_the_end();
-    Ok(())
+    }
 }
 
 /// Whether what stands under a name may be replaced as it was before the work: nobody was asked

@@ -51,7 +51,7 @@ pub mod answers {
     pub use crate::commands::ida::numbers::Analysis;
     pub use crate::commands::models::descriptor::Described as DescribedModel;
     pub use crate::faults::of_check;
-    pub use crate::files::{Replaced, inputs_stay_meanwhile, no_result_stands};
+    pub use crate::files::{Replaced, inputs_stay_meanwhile, page_judged};
     pub use crate::separate::{Answer as AnswerOfChild, answered as answered_by_child};
     pub use crate::study::{Finished, text_sha256};
 }

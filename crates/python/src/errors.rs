@@ -94,11 +94,15 @@ impl From<Problem> for PyErr {
     }
 }
 
-/// Warns as modules of Python do.
-pub fn warn(py: Python<'_>, text: &str) -> PyResult<()> {
+/// Warns as modules of Python do, of the line that calls the package: so many calls above this one. Where warnings
+/// are errors, that is one: what is not to be done then comes after it.
+///
+/// # Errors
+/// The warning.
+pub fn warn(py: Python<'_>, text: &str, calls: i32) -> PyResult<()> {
     // A text from a file may hold what ends a text of C.
     let text = std::ffi::CString::new(text.replace('\0', "\u{fffd}"))?;
-    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 2)
+    PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, calls)
 }
 
 fn text(faults: &[Fault]) -> String {

@@ -9,7 +9,7 @@ use numpy::ndarray::ArrayView2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArrayMethods};
 use pounding_assembly::{Assembly, RecordFiles};
 use pounding_cli::Failure;
-use pounding_cli::answers::{Replaced, no_result_stands};
+use pounding_cli::answers::{Replaced, page_judged};
 use pounding_files::checksum::Checksum;
 use pounding_report::{RunResult, page};
 use pounding_results::{
@@ -347,10 +347,10 @@ impl Run {
         };
         let going = replaced.judged(false).map_err(Problem::from)?;
         let (head, history) = (self.head(), self.history()?);
+        going.map_or(Ok(()), |going| warn(py, &going.ahead(), 2))?;
         let target = (path.as_path(), self.case.own_file());
         py.detach(|| self.with_ending(|ending| write_run(target, &head, history, ending)))
-            .map_err(|e| Problem::from(Failure::from(e)))?;
-        going.map_or(Ok(()), |going| warn(py, &going.done()))
+            .map_err(|e| Problem::from(Failure::from(e)).into())
     }
 
     /// The bytes of the result file, without its checksum.
@@ -363,11 +363,14 @@ impl Run {
     }
 
     /// Writes a page to a file.
-    fn write_page(&self, path: PathBuf, page: &str) -> Result<(), Problem> {
+    fn write_page(&self, py: Python<'_>, path: PathBuf, page: &str) -> PyResult<()> {
         self.case.writes("page", &path)?;
-        no_result_stands(&path)?;
-        let failed = |e: std::io::Error| Failure::output(&e, &path.display().to_string()).into();
-        pounding_files::write(&path, page.as_bytes()).map_err(failed)
+        let going = page_judged(&path, true).map_err(Problem::from)?;
+        going.map_or(Ok(()), |going| warn(py, &going.ahead(), 2))?;
+        let failed = |e: std::io::Error| Failure::output(&e, &path.display().to_string());
+        pounding_files::write(&path, page.as_bytes())
+            .map_err(failed)
+            .map_err(|failure| Problem::from(failure).into())
     }
 
     /// The page of the run.

@@ -57,7 +57,7 @@ fn run_study(
     let interpreter: PathBuf = py.import("sys")?.getattr("executable")?.extract()?;
     let part = shard;
     let shard = shard.map_or(Ok(Shard::WHOLE), str::parse).map_err(failed)?;
-    let made = watched(py, progress, |watch| {
+    let begun = watched(py, None, |_| {
         let read = Study::read(&study).map_err(failed)?;
         let mut files = FileUse::new();
         files.reads("study", study.clone());
@@ -66,7 +66,7 @@ fn run_study(
         }
         files.writes("result", &output);
         files.fills("the folder of its finished runs", parts_folder(&output));
-        let _inputs_stay = inputs_stay_meanwhile(&files)?;
+        let inputs_stay = inputs_stay_meanwhile(&files)?;
         writable(&output).map_err(failed)?;
         let replaced = Replaced {
             output: &output,
@@ -75,15 +75,21 @@ fn run_study(
             text_sha256: Some(text_sha256(&read)),
             named,
         };
-        let note = replaced.judged(resume)?.map(|going| going.done());
-        let _judged_again = replaced.judged_again();
+        let going = replaced.judged(resume)?;
+        let asked = (inputs_stay, replaced.judged_again());
+        Ok::<_, Problem>((read, files, going, asked))
+    })?;
+    let (read, files, going, _asked) = begun?;
+    // Above this are `_run_study` and `sweep` or `ida`.
+    going.map_or(Ok(()), |going| warn(py, &going.ahead(), 3))?;
+    let made = watched(py, progress, |watch| {
         if resume && output.is_file() {
             let mut arguments = call(&study, &output, evaluated && read.ida.is_some());
             arguments.push(format!("--threads={}", threads.max(1)).into());
             arguments.extend(part.map(|part| format!("--shard={part}").into()));
             arguments.extend(keep_going.then(|| "--keep-going".into()));
             if let Some((finished, analysis)) = stands(&interpreter, &arguments, &output, &files)? {
-                return Ok((finished, analysis, note));
+                return Ok((finished, analysis));
             }
         }
         let options = SweepOptions {
@@ -121,11 +127,9 @@ fn run_study(
             let report = evaluate(&read, &result, (options.threads, tell)).map_err(failed)?;
             json(&Analysis::of(&report, settings))
         });
-        Ok::<_, Problem>((finished, analysis.transpose()?, note))
+        Ok::<_, Problem>((finished, analysis.transpose()?))
     })?;
-    let (finished, analysis, note) = made?;
-    note.map_or(Ok(()), |note| warn(py, &note))?;
-    Ok((finished, analysis))
+    Ok(made?)
 }
 
 /// How the command line is asked to go on with a study.

@@ -61,7 +61,7 @@ impl Suite {
         });
         given_once(&files.collect::<Vec<_>>()).map_err(wrong)?;
         for file in skipped {
-            warn(py, &file.to_string())?;
+            warn(py, &file.to_string(), 2)?;
         }
         let named = distinct_names(names).into_iter().zip(records);
         Ok(Self(named.collect()))

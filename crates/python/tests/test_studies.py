@@ -8,6 +8,7 @@ import re
 import shutil
 import sys
 import tomllib
+import warnings
 from pathlib import Path
 
 import h5py
@@ -127,8 +128,34 @@ def test_a_result_takes_the_place_of_none_of_another_kind(folder: Path) -> None:
     # One of its own kind does, with a word where it is of another study.
     other = study.with_name("other.toml")
     other.write_text(study.read_text() + "# another\n")
-    with pytest.warns(UserWarning, match="was replaced, the result of another study"):
+    with pytest.warns(UserWarning, match="will be replaced, the result of another study"):
         pounding.sweep(other, output=of_study).close()
+
+
+def test_files_of_others_are_replaced_after_a_warning(folder: Path) -> None:
+    study = small_study(folder)
+    run = pounding.run(EXAMPLES / "three_storey_pair" / "case.toml")
+    for name, what, write in (
+        ("run.h5", "result", run.to_hdf5),
+        ("page.html", "page", run.report),
+        ("study.h5", "result", lambda output: pounding.sweep(study, output=output).close()),
+    ):
+        output = folder / name
+        output.write_text("precious")
+        said = f"{name} will be replaced, which is no {what} of this program"
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            # As an error it is a refusal.
+            with pytest.raises(UserWarning, match=said):
+                write(output)
+        assert output.read_text() == "precious"
+        with pytest.warns(UserWarning, match=said) as told:
+            write(output)
+        assert [w.filename for w in told] == [__file__]
+        assert output.read_bytes()[:4] != b"prec"
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            write(output)
 
 
 def test_a_result_under_its_default_name_says_of_which_study_it_is(

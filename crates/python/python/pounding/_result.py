@@ -221,7 +221,8 @@ class Result:
         return loaded
 
     def to_hdf5(self, path: str | os.PathLike[str]) -> None:
-        """Writes the result file, the same that ``pounding run`` writes.
+        """Writes the result file, the same that ``pounding run`` writes. A ``UserWarning`` says before which
+        file it takes the place of, unless that is an earlier result of the same case.
 
         Raises
         ------
@@ -235,7 +236,7 @@ class Result:
 
     def report(self, path: str | os.PathLike[str] | None = None) -> str:
         """The page of the run, one HTML file that needs no other; written to ``path`` if that is
-        given."""
+        given. A ``UserWarning`` says before that it takes the place of a file that is no page."""
         file = None if path is None else as_path(path, "path")
         page = self._native.page(self.case.title or "result")
         if file is not None:

@@ -130,7 +130,7 @@ def sweep(
     output : path, optional
         Result file (HDF5); beside the study file, with the ending ``.h5``, by default. Finished
         runs are stored beside it while the study goes on. It takes the place of no result of a
-        run.
+        run; a ``UserWarning`` says before the runs that it takes that of another file.
     threads : int, optional
         All cores by default; results do not depend on it.
     shard : str, optional

@@ -102,12 +102,28 @@ fn results_have_names_of_text(files: &FileUse) -> Result<(), Failure> {
         .filter(|path| path.extension().is_some_and(|e| e == "h5"));
     let shards = files.folders().filter(|(role, _)| *role == "--into");
     let mut all = results.chain(shards.map(|(_, folder)| folder));
-    match all.find(|path| path.to_str().is_none()) {
-        None => Ok(()),
-        Some(path) => Err(Failure::input(
+    all.try_for_each(a_result_has_a_name_of_text)
+}
+
+/// The same of one result, whatever its ending. HDF5 is given the whole path, that of the current folder too.
+fn a_result_has_a_name_of_text(path: &Path) -> Result<(), Failure> {
+    let refused = |what: String, help: &str| Err(Failure::input(what, Some(help.to_owned())));
+    if path.to_str().is_none() {
+        return refused(
             format!("the name of a result is not UTF-8: {}", path.display()),
-            Some("name it in UTF-8: HDF5 opens no other".to_owned()),
-        )),
+            "name it in UTF-8, and the folders that lead there: HDF5 opens no other",
+        );
+    }
+    match std::path::absolute(path).unwrap_or_else(|_| path.to_owned()) {
+        whole if whole.to_str().is_none() => refused(
+            format!(
+                "the path of the result {} is not UTF-8: {}",
+                path.display(),
+                whole.display()
+            ),
+            "name it in another folder, or work in one whose path is UTF-8: HDF5 opens no other",
+        ),
+        _ => Ok(()),
     }
 }
 
@@ -645,6 +661,7 @@ impl Replaced<'_> {
     /// # Errors
     /// As [`spared`](Self::spared).
     pub fn judged(&self, goes_on: bool) -> Result<Option<Going>, Failure> {
+        a_result_has_a_name_of_text(self.output)?;
         nothing_written_by_hand_stands(self.output)?;
         // Looked at before the label: a result that comes meanwhile is none of somebody else.
         let stood = holds_something(self.output);

@@ -10,8 +10,8 @@ use pounding_assembly::{
 };
 use pounding_case::{Case, read_text};
 use pounding_cli::Failure;
-use pounding_cli::answers::Understood;
-use pounding_files::FileUse;
+use pounding_cli::answers::{Understood, inputs_stay_meanwhile};
+use pounding_files::{AskedOfTargets, FileUse};
 use pounding_ground_motion::Accelerogram;
 use pounding_study::faults;
 use pyo3::prelude::*;
@@ -135,8 +135,8 @@ impl PyCase {
         (!self.made).then_some(&*self.case.file)
     }
 
-    /// Refuses to write where something is read.
-    pub fn writes(&self, role: &str, path: &Path) -> Result<(), Problem> {
+    /// Refuses to write where something is read, now and once more right before the file takes its place.
+    pub fn writes(&self, role: &str, path: &Path) -> Result<AskedOfTargets, Problem> {
         let mut files = FileUse::new();
         for (role, file) in self
             .case
@@ -150,7 +150,7 @@ impl PyCase {
             files.reads("case", self.case.file.clone());
         }
         files.writes(role, path);
-        files.check().map_err(|e| Failure::from(e).into())
+        Ok(inputs_stay_meanwhile(&files)?)
     }
 }
 

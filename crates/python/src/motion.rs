@@ -330,9 +330,16 @@ fn formats() -> Vec<(&'static str, &'static str)> {
     Format::all().iter().map(|f| (f.name, f.title)).collect()
 }
 
+/// What a motion that is read from a file is called if nothing else is said: as in commands.
+#[pyfunction]
+fn name_of_record(file: PathBuf) -> String {
+    pounding_study::gap_check::name_of_record(&file)
+}
+
 /// Adds the classes and functions of this file.
 pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<Motion>()?;
+    module.add_function(wrap_pyfunction!(name_of_record, module)?)?;
     module.add_function(wrap_pyfunction!(periods, module)?)?;
     module.add_function(wrap_pyfunction!(formats, module)?)
 }

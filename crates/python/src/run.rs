@@ -337,7 +337,7 @@ impl Run {
 
     /// Writes the result file, as `pounding run` does.
     fn to_hdf5(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
-        self.case.writes("result", &path)?;
+        let _inputs_stay = self.case.writes("result", &path)?;
         let replaced = Replaced {
             output: &path,
             kind: Kind::Run,
@@ -364,7 +364,7 @@ impl Run {
 
     /// Writes a page to a file.
     fn write_page(&self, py: Python<'_>, path: PathBuf, page: &str) -> PyResult<()> {
-        self.case.writes("page", &path)?;
+        let _inputs_stay = self.case.writes("page", &path)?;
         let going = page_judged(&path, true).map_err(Problem::from)?;
         going.map_or(Ok(()), |going| warn(py, &going.ahead(), 2))?;
         let failed = |e: std::io::Error| Failure::output(&e, &path.display().to_string());

@@ -5,6 +5,7 @@ from __future__ import annotations
 import _thread
 import gc
 import json
+import os
 import shutil
 import subprocess
 import sys
@@ -313,3 +314,26 @@ def test_packages_that_are_missing_are_told(monkeypatch: pytest.MonkeyPatch) -> 
         assert told.value.help == 'pip install "pounding[xarray]"'
         assert isinstance(told.value, ModuleNotFoundError)
         monkeypatch.undo()
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="names of files are texts there")
+def test_names_that_are_no_text(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = os.fsencode(tmp_path) + b"/w\xe9"
+    os.mkdir(folder)
+    record = folder + b"/\xe9.csv"
+    shutil.copy(RECORD, record)
+    # Records are read whatever their name.
+    motion = pounding.read_motion(record)
+    assert motion.name == "\N{REPLACEMENT CHARACTER}" and len(motion) > 1000
+    assert pounding.measures(record) == pounding.measures(RECORD)
+    assert pounding.gap_check(PAIR, [record]).answer["records"][0]["name"] == motion.name
+    # HDF5 takes names in UTF-8 alone.
+    result = pounding.run(PAIR)
+    monkeypatch.chdir(folder)
+    for name in (os.fsencode(tmp_path) + b"/\xe9.h5", b"\xe9.dat", folder + b"/o.h5", "o.h5", "o.dat"):
+        with pytest.raises(pounding.CaseError, match="not UTF-8") as told:
+            result.to_hdf5(name)
+        assert "HDF5 opens no other" in (told.value.help or "")
+        assert not os.path.exists(name)
+    result.report(b"\xe9.html")
+    result.to_hdf5(tmp_path / "o.h5")

@@ -534,6 +534,17 @@ fn names_that_are_no_text_are_refused() {
         std::fs::copy(bench.path(file), folder.join(file)).unwrap();
     }
     refused(bench.command("sweep study.toml").current_dir(&folder));
+    // The path of the folder belongs to that of a result in it.
+    let case = bench.path("case.toml");
+    for call in ["run -o out.h5", "run -o out.dat", "run"] {
+        let mut command = bench.command(call);
+        refused(command.arg(&case).current_dir(&folder));
+    }
+    let elsewhere = bench.path("out.h5");
+    let mut command = bench.command("run");
+    command.arg(&case).arg("-o").arg(&elsewhere);
+    let output = command.current_dir(&folder).output().unwrap();
+    assert!(output.status.success() && elsewhere.exists());
 }
 
 /// Storeys of both buildings 3.5 m high are level, where either alone is not: values of a list are

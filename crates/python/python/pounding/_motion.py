@@ -250,8 +250,8 @@ def read_motion(
         gravity=gravity,
         offset=optional_text(offset, "offset"),
     )
-    stem = os.path.splitext(os.path.basename(file))[0]
-    return Motion._of(native, text(name, "name") if name is not None else stem)
+    called = _native.name_of_record(file) if name is None else text(name, "name")
+    return Motion._of(native, called)
 
 
 def _as_motion(motion: Motion | str | os.PathLike[str]) -> Motion:

@@ -118,6 +118,15 @@ impl<'a> RunWriter<'a> {
             ..failed(e.to_string())
         })?;
         let part = PartFile::beside(path).map_err(|e| failed(e.to_string()))?;
+        // A link may lead from a name that HDF5 takes to a folder of one that it does not.
+        if part.path().to_str().is_none() {
+            return Err(WriteError {
+                aside: Some(
+                    "name it in a folder whose path is UTF-8: HDF5 opens no other".to_owned(),
+                ),
+                ..failed(format!("{} is not UTF-8", part.path().display()))
+            });
+        }
         let (file, tables) = begin(part.path(), head).map_err(|e| failed(reason_of(&e)))?;
         Ok(Self {
             system: head.system,

@@ -599,6 +599,20 @@ def test_tables_with_columns_are_no_lists(pair_dict: dict) -> None:
         assert "25000" in pounding.Case.from_dict(pair_dict).source
 
 
+def test_a_case_keeps_the_name_of_its_motion(pair_dict: dict) -> None:
+    motion = pounding.Motion(np.sin(0.1 * np.arange(200)), 0.02, name="first")
+    cases = [
+        pounding.Case.from_file(PAIR).with_motion(motion),
+        pounding.Case.from_dict(pair_dict, motion=motion),
+        pounding.Case(pair_dict["building"], pair_dict["gap"], ground_motion=motion),
+    ]
+    said = [case.source for case in cases]
+    assert all('"first"' in text for text in said)
+    motion.name = "second"
+    for made in (cases, pickle.loads(pickle.dumps(cases)), [copy.deepcopy(case) for case in cases]):
+        assert [case.source for case in made] == said
+
+
 def test_a_case_under_two_motions_travels(pair_dict: dict) -> None:
     first, second = (pounding.Motion([0.0, 1.0, 0.0], 0.1, name=name) for name in ("first", "second"))
     pair_dict["ground_motion"] = {"process": None, "scale": None}

@@ -182,7 +182,9 @@ class Case:
     def _of(cls, native: _NativeCase, made: tuple[Any, ...], motion: Motion | None) -> Case:
         """A case with how it is made again elsewhere: constructor and arguments."""
         case = cls.__new__(cls)
-        case._native, case._made, case._motion = native, made, motion
+        case._native, case._made = native, made
+        # The name of a motion may change, and the case was made with the one that it has now.
+        case._motion = None if motion is None else Motion._of(motion._native, motion.name)
         return case
 
     def __setstate__(self, state: dict[str, Any]) -> None:

@@ -300,8 +300,17 @@ impl Motion {
 
     /// Intensity measures, as JSON: what `pounding motion info --json` prints of them.
     fn measures_json(&self, py: Python<'_>, damping: &Bound<'_, PyAny>) -> PyResult<String> {
+        if self.record.peak().value == 0.0 {
+            let message = "the ground stands still: a record of zeros has no intensity measures";
+            let help = "use another record or component, or check the unit".to_owned();
+            let failure = Failure::input(message, Some(help));
+            return Err(Problem::of_record(failure).into());
+        }
+        let start = self.record.initial().unwrap_or_default();
         let options = MeasureOptions {
             damping: quantity(damping, "damping", Dimension::NUMBER)?,
+            initial_velocity: start.0,
+            initial_displacement: start.1,
             ..MeasureOptions::default()
         };
         let measures = watched(py, None, |watch| {

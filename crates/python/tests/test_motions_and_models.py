@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import _thread
 import array
+import json
 import pickle
 import signal
+import subprocess
+import sys
 import threading
 import time
 from pathlib import Path
@@ -357,3 +360,30 @@ def test_names_of_motions_are_texts() -> None:
         motion.name = 5
     motion.name = "other"
     assert pickle.loads(pickle.dumps(motion)).name == "other"
+
+
+def test_measures_begin_with_the_motion_that_a_file_states(tmp_path: Path) -> None:
+    record = tmp_path / "moving.csv"
+    lines = ["# Initial velocity: 50 cm/s", "# dt: 0.1 s", "time_s,acceleration_m_s2", "0,-3", "0.1,-3", "0.2,-3"]
+    record.write_text("\n".join(lines) + "\n")
+    told = subprocess.run(
+        [sys.executable, "-m", "pounding", "motion", "info", str(record), "--json"],
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    said = json.loads(told.stdout)["files"][0]["series"][0]["measures"]
+    motion = pounding.read_motion(record)
+    assert motion.measures() == said
+    assert said["peak_velocity"] == pytest.approx({"value": 0.5, "time": 0.0})
+    assert pickle.loads(pickle.dumps(motion)).measures() == said
+    assert motion.scaled_by(2).measures()["end_velocity"] == pytest.approx(-0.2)
+
+
+def test_ground_that_stands_still_has_no_measures() -> None:
+    still = pounding.Motion(np.zeros(100), 0.02)
+    for ask in (still.measures, lambda: pounding.measures(still)):
+        with pytest.raises(pounding.RecordError, match="the ground stands still") as told:
+            ask()
+        assert "another record" in (told.value.help or "")
+    assert not still.spectrum([1.0])["pseudo_acceleration"].any()

@@ -304,7 +304,16 @@ def spectrum(
 def measures(motion: Motion | str | os.PathLike[str], damping: float | str = 0.05) -> dict[str, Any]:
     """Intensity measures: peaks, durations, Arias intensity, CAV, spectral intensities.
 
-    Values are SI; names are those that ``pounding motion info --json`` prints.
+    Values are SI; names are those that ``pounding motion info --json`` prints. Velocities and displacements begin
+    with those that the file states for its first sample, if it states any.
+
+    Raises
+    ------
+    RecordError
+        The ground stands still: a record of zeros has neither durations nor periods. The command, which
+        answers for all records of a file, has ``null`` in their place.
+    CaseError
+        A damping ratio that is none.
     """
     answer: dict[str, Any] = json.loads(_as_motion(motion)._native.measures_json(damping))
     return answer

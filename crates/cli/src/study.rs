@@ -460,7 +460,9 @@ impl From<StudyError> for Failure {
             | StudyError::Table { .. }
             | StudyError::NotOwn { .. }
             | StudyError::ResultFile(
-                StudyFileError::File { what: "write", .. } | StudyFileError::Aside { .. },
+                StudyFileError::File { what: "write", .. }
+                | StudyFileError::NoPlace { .. }
+                | StudyFileError::Aside { .. },
             )) => Self::unwritten(e.to_string(), help),
             e @ StudyError::File { what, .. }
                 if what.starts_with("write") || what.starts_with("make") =>

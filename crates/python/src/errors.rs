@@ -140,8 +140,9 @@ fn whole_message(report: &Report) -> String {
 
 fn fault(report: &Report, made: Option<&str>, of_record: bool) -> Fault {
     let diagnostic: &dyn Diagnostic = report.as_ref();
+    let told = whole_message(report);
     let mut fault = Fault {
-        message: whole_message(report),
+        message: with_keywords(&told),
         help: diagnostic.help().map(|h| {
             let help = with_keywords(&h.to_string());
             match of_record {
@@ -151,8 +152,8 @@ fn fault(report: &Report, made: Option<&str>, of_record: bool) -> Fault {
         }),
         shown: String::new(),
     };
-    let rest = made.and_then(|name| behind_the_place(&fault.message, name));
-    let rest = rest.map(ToOwned::to_owned);
+    let rest = made.and_then(|name| behind_the_place(&told, name));
+    let rest = rest.map(with_keywords);
     if let Some(rest) = &rest {
         fault.message = format!("{WHOLE}: {rest}");
     }
@@ -234,9 +235,9 @@ const WITHOUT_KEYWORD: [&str; 2] = [
     ", or give all shards one folder with --into, where each has a name of its own",
 ];
 
-/// A remedy with keywords and functions in the place of options and commands.
-fn with_keywords(remedy: &str) -> String {
-    let mut remedy = remedy.to_owned();
+/// A message or a remedy with keywords and functions in the place of options and commands.
+fn with_keywords(text: &str) -> String {
+    let mut remedy = text.to_owned();
     for option in WITHOUT_KEYWORD {
         remedy = remedy.replace(option, "");
     }

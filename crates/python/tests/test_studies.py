@@ -466,3 +466,20 @@ def test_shards_that_meet_a_result_are_told_in_keywords(folder: Path) -> None:
     with pytest.raises(pounding.PoundingError) as told:
         pounding.sweep(study, shard="1/2")
     assert "--" not in str(told.value) and " -o" not in str(told.value), told.value
+
+
+def test_what_stands_in_the_place_of_a_result_is_told_in_keywords(folder: Path) -> None:
+    study = small_study(folder)
+    foreign = folder / "foreign.h5"
+    with h5py.File(foreign, "w") as file:
+        file["values"] = [1.0, 2.0]
+    before = foreign.read_bytes()
+    with pytest.raises(pounding.CaseError, match="is not the result that `resume=True` goes on with") as told:
+        pounding.sweep(study, output=foreign, resume=True)
+    assert "--" not in str(told.value) and foreign.read_bytes() == before
+    # No run was made, of which there would be anything to go on with.
+    study.with_suffix(".h5").mkdir()
+    for output in (None, folder / "missing" / "out.h5"):
+        with pytest.raises(pounding.OutputError, match="cannot write the result") as failed:
+            pounding.sweep(study, output=output)
+        assert failed.value.help and "resume" not in failed.value.help

@@ -574,8 +574,7 @@ fn assemble(
 /// [`StudyError::ResultFile`] if it is a folder or a device, or its folder is not there or
 /// cannot be written to.
 pub fn writable(path: &Path) -> Result<(), StudyError> {
-    let failed = |e: std::io::Error| StudyFileError::File {
-        what: "write",
+    let failed = |e: std::io::Error| StudyFileError::NoPlace {
         path: path.to_owned(),
         reason: e.to_string(),
     };

@@ -28,6 +28,14 @@ pub enum StudyFileError {
         /// What HDF5 or the file system said.
         reason: String,
     },
+    /// Its place takes no file, as is found out before the work.
+    #[error("cannot write the result {path}: {reason}")]
+    NoPlace {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the file system said.
+        reason: String,
+    },
     /// The result is written, but not under its name, where something stands that it may not
     /// replace.
     #[error("cannot write the result {path}: {source}")]
@@ -79,6 +87,9 @@ impl StudyFileError {
                 "check that the folder exists, may be written to and has room, or name another file with -o; what was finished stays stored: a sweep goes on with it by --resume, and shards can be merged anew"
             }
             Self::File { .. } => NO_SWEEP,
+            Self::NoPlace { .. } => {
+                "check that the folder exists, may be written to and has room, or name another file with -o"
+            }
             Self::Checksum { source, .. } => source.help().unwrap_or(NO_SWEEP),
             Self::Merge { .. } => {
                 "merge all shards i/n of one study for one n, computed by one version of the program"

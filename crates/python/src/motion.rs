@@ -75,6 +75,25 @@ fn refused(error: GroundMotionError) -> Problem {
     Problem::of_record(error.into())
 }
 
+/// The same where numbers that are out of their range were given as arguments, with a record that is sound.
+fn refused_argument(error: GroundMotionError) -> Problem {
+    match error {
+        GroundMotionError::OutOfRange { .. } => Failure::from(error).into(),
+        of_record => refused(of_record),
+    }
+}
+
+/// A factor of a record, which is neither zero nor none.
+fn factor_of(value: &Bound<'_, PyAny>) -> PyResult<f64> {
+    let factor = quantity(value, "factor", Dimension::NUMBER)?;
+    if factor.is_finite() && factor != 0.0 {
+        return Ok(factor);
+    }
+    let message = format!("factor = {factor} is not finite, or zero");
+    let help = "give a number other than zero".to_owned();
+    Err(Problem::from(Failure::input(message, Some(help))).into())
+}
+
 /// A motion of samples in a unit at even steps (s).
 fn of_samples(
     acceleration: &PyReadonlyArray1<'_, f64>,
@@ -259,14 +278,14 @@ impl Motion {
 
     /// Multiplied by a factor.
     fn scaled_by(&self, factor: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let factor = quantity(factor, "factor", Dimension::NUMBER)?;
+        let factor = factor_of(factor)?;
         let record = self.record.scaled_by(factor).map_err(refused)?;
         Ok(Self::of(record, self.read_from.clone()))
     }
 
     /// Scaled to a peak ground acceleration (m/s2).
     fn scaled_to_peak(&self, peak: &Bound<'_, PyAny>) -> PyResult<Self> {
-        let peak = quantity(peak, "peak", Dimension::ACCELERATION)?;
+        let peak = above_zero(peak, "peak", Dimension::ACCELERATION)?;
         let record = self.record.scaled_to_peak(peak).map_err(refused)?;
         Ok(Self::of(record, self.read_from.clone()))
     }
@@ -284,7 +303,7 @@ impl Motion {
         let spectrum = watched(py, None, |watch| {
             response_spectrum_while(&self.record, &periods, how, &|| !watch.stopped())
         })?;
-        let spectrum = spectrum.map_err(refused)?;
+        let spectrum = spectrum.map_err(refused_argument)?;
         let arrays = PyDict::new(py);
         for (name, values) in [
             ("displacement", spectrum.displacement),
@@ -316,7 +335,7 @@ impl Motion {
         let measures = watched(py, None, |watch| {
             IntensityMeasures::of_while(&self.record, options, &|| !watch.stopped())
         })?;
-        let measures = measures.map_err(refused)?;
+        let measures = measures.map_err(refused_argument)?;
         Ok(json(&measures)?)
     }
 }
@@ -329,7 +348,7 @@ fn periods(
     last: f64,
     count: usize,
 ) -> Result<Bound<'_, PyArray1<f64>>, Problem> {
-    let periods = logarithmic_periods(first, last, count).map_err(refused)?;
+    let periods = logarithmic_periods(first, last, count).map_err(refused_argument)?;
     Ok(periods.into_pyarray(py))
 }
 

@@ -68,6 +68,8 @@ def test_over_records() -> None:
         ({"floors": ["light"]}, "is no floor"),
         ({"floors": [("light", 0)]}, "storey"),
         ({"periods": [0.0]}, "0.001 s at least"),
+        ({"floors": []}, "no floors are given"),
+        ({"periods": []}, "no periods are given"),
         ({"damping": 1.0}, "not between 0 and 1"),
         ({"threads": -1}, "threads is -1"),
         ({"threads": "abc"}, "threads is 'abc', which is no whole number"),

@@ -11,7 +11,9 @@ import subprocess
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -293,7 +295,7 @@ def test_a_record_too_strong_to_be_squared() -> None:
 
 @pytest.mark.parametrize(
     "values",
-    [[10**400, 1], np.array([1, "2"], dtype=object), np.array([1.0, True], dtype=object), [1.0, None]],
+    [[10**400, 1], np.array([1, "2"], dtype=object), np.array([1.0, True], dtype=object), np.array([np.True_, 1.0], dtype=object), [1.0, None]],
 )
 def test_entries_that_are_no_numbers(values: object) -> None:
     with pytest.raises(pounding.CaseError, match="^acceleration ") as told:
@@ -387,3 +389,22 @@ def test_ground_that_stands_still_has_no_measures() -> None:
             ask()
         assert "another record" in (told.value.help or "")
     assert not still.spectrum([1.0])["pseudo_acceleration"].any()
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda m: m.spectrum([1.0], damping=5), "damping ratio = 5 is outside"),
+        (lambda m: m.measures(damping=5), "damping ratio = 5 is outside"),
+        (lambda m: m.spectrum([-1.0]), "period = -1 is outside"),
+        (lambda m: m.spectrum([]), "no periods are given"),
+        (lambda m: m.scaled_by(0), "factor = 0 is not finite, or zero"),
+        (lambda m: m.scaled_by(np.nan), "factor = NaN is not finite, or zero"),
+        (lambda m: m.scaled_to_peak(-1.0), "peak"),
+        (lambda m: m.scaled_to_peak(np.inf), "peak = inf is not a finite number"),
+    ],
+)
+def test_arguments_at_fault_are_no_fault_of_the_record(call: Callable[[Any], object], message: str) -> None:
+    with pytest.raises(pounding.CaseError, match=message) as told:
+        call(pounding.read_motion(RECORD))
+    assert type(told.value) is pounding.CaseError and told.value.help

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import _native
 from ._case import Case, as_case
 from ._errors import CaseTypeError, listed, needs, refused, text, whole
-from ._motion import _real
+from ._motion import _periods
 from ._result import Progress, _progress, _threads
 from ._study import Records, _records
 
@@ -79,8 +79,9 @@ def floor_spectra(
 
     given = as_case(case)
     places = None if floors is None else [_place(floor) for floor in listed(floors, "floors", "floors")]
-    chosen = _native.periods(0.05, 4.0, 100) if periods is None else periods
-    at = _real(chosen, "periods", "periods (s)")
+    if places is not None and not places:
+        raise refused("no floors are given", "leave `floors` out for the roofs of all buildings")
+    at = _periods(periods, 0.05, 4.0, 100)
     several, count = records is not None, _threads(threads)
     told, bar = _progress(progress, "floor spectra")
     try:

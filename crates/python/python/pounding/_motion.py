@@ -35,7 +35,7 @@ def _real(values: npt.ArrayLike, name: str, of: str) -> npt.NDArray[np.float64]:
             raise refused(f"{name} has values of type {kind}", "give real numbers")
         if kind.kind == "O":
             # Whose texts would be read as numbers, and nothing as none of them.
-            wrong = [v for v in np.ravel(values) if v is None or isinstance(v, (str, bytes, bytearray, bool))]
+            wrong = [v for v in np.ravel(values) if v is None or isinstance(v, (str, bytes, bytearray, bool, np.bool_))]
             if wrong:
                 raise refused(f"{name} has the value {wrong[0]!r}", "give real numbers")
         array = np.ascontiguousarray(values, dtype=np.float64)
@@ -46,6 +46,18 @@ def _real(values: npt.ArrayLike, name: str, of: str) -> npt.NDArray[np.float64]:
     if np.ndim(values) > 1:
         raise refused(f"{name} has {array.ndim} dimensions", f"give one of {of}")
     return array
+
+
+def _periods(
+    given: npt.ArrayLike | None, first: float, last: float, count: int
+) -> npt.NDArray[np.float64]:
+    """Periods (s), at least one; left out, so many between two."""
+    if given is None:
+        return _native.periods(first, last, count)
+    at = _real(given, "periods", "periods (s)")
+    if at.size == 0:
+        raise refused("no periods are given", f"leave `periods` out for {count} from {first:g} to {last:g} s")
+    return at
 
 
 class Motion:
@@ -279,12 +291,16 @@ def spectrum(
     xarray.Dataset
         ``displacement`` (m), ``velocity`` and ``pseudo_velocity`` (m/s), ``acceleration`` and
         ``pseudo_acceleration`` (m/s2) over ``period`` (s).
+
+    Raises
+    ------
+    CaseError
+        A period or a damping ratio that is none.
     """
     needs("spectrum", "xarray")
     import xarray as xr
 
-    given = _native.periods(0.02, 10.0, 200) if periods is None else periods
-    at = _real(given, "periods", "periods (s)")
+    at = _periods(periods, 0.02, 10.0, 200)
     ratio, arrays = _as_motion(motion)._native.spectrum(at, damping)
     units = {
         "displacement": "m",

@@ -181,7 +181,7 @@ fn texts_that_are_no_numbers_leave_values() {
 /// `gap --csv`; nothing that is one or none is counted as several.
 #[test]
 fn names_and_words() {
-    let long = format!("=cmd|{}", "x".repeat(190));
+    let long = format!("=cmd|{}", "x".repeat(180));
     let case = pair("6 s")
         .replace("\"light\"", &format!("\"{long}\""))
         .replace("\"heavy\"", "\"@sum, or more\"");
@@ -458,6 +458,15 @@ fn addresses_are_no_traps() {
         (
             json!({ "models": { "gap.0": "nonsense" } }),
             vec!["ignored", "models {\"gap.0\":\"nonsense\"}"],
+        ),
+        // What no control shows.
+        (
+            json!({ "entries": { "analysis.duration": "2 s", "gap.0.width": "20 mm" } }),
+            vec!["ignored", "analysis.duration"],
+        ),
+        (
+            json!({ "absent": ["gap.0.name"], "entries": { "gap.0.levels": [[1, 1]] } }),
+            vec!["ignored", "gap.0.levels", "gap.0.name"],
         ),
         (
             json!({ "overlays": ["hertz_1882", "no_such_law"], "gap": 99, "quantity": "weight", "more": 1 }),

@@ -340,7 +340,8 @@
         }
         if (own.rules) await useRules(own.rules);
         if (own.rules) refused.push(...wrong.asked);
-        const { faults } = await solver.live.ask({ do: "controls", changes: state.changes() });
+        const { faults, controls: shown } = await solver.live.ask({ do: "controls", changes: state.changes() });
+        if (!faults) ignored.push(...state.shownAlone(shown));
         if (faults) {
           refused.push(...faults.map((fault) => ({ ...fault, message: `what the address changes is left out: ${fault.message}` })));
           state.clear();

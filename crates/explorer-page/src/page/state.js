@@ -58,6 +58,17 @@ const stateOf = (changed) => {
       now.record = keys;
       changed();
     },
+    // Takes out what is of entries without a control, which nothing here would show: what it was.
+    shownAlone: (controls) => {
+      const shown = new Set(controls.map((control) => control.path));
+      const hidden = [...Object.keys(now.entries), ...now.absent].filter((path) => !shown.has(path));
+      for (const path of hidden) delete now.entries[path];
+      now.absent = now.absent.filter((path) => shown.has(path));
+      const others = (now.record || []).map(([key]) => key).filter((key) => key !== "file" && key !== "component");
+      if (others.length) now.record = now.record.filter(([key]) => !others.includes(key));
+      if (now.record && !now.record.some(([key]) => key === "file")) now.record = null;
+      return [...hidden, ...others.map((key) => `ground_motion.${key}`)];
+    },
     look: (part) => {
       Object.assign(now, part);
       changed();

@@ -85,7 +85,10 @@ impl ContactFree {
             return None;
         }
         let fastest = fastest_rate(system.buildings());
-        let frequencies = system.buildings().iter().map(|b| &b.modes().circular_frequency);
+        let frequencies = system
+            .buildings()
+            .iter()
+            .map(|b| &b.modes().circular_frequency);
         let swings = frequencies.flatten().copied().fold(0.0, f64::max);
         if swings * step > COARSEST || fastest * step > FASTEST_DECAY {
             return None;

@@ -1,6 +1,6 @@
 //! Files of plain numbers: matrices of buildings, histories of forces.
 
-use std::io::{BufRead, BufReader, Read};
+use std::io::Read;
 use std::path::Path;
 
 use pounding_case::Case;
@@ -63,40 +63,25 @@ impl NumberFile {
     }
 
     fn rows(&self, source: impl Read) -> Result<Numbers, Refused> {
-        let mut source = BufReader::with_capacity(START, source);
-        let start = source.fill_buf().map_err(|e| self.unreadable(&e))?;
-        if is_wide(start) {
-            let message = "the text is UTF-16, whose characters have two bytes".to_owned();
-            return Err((message, "save it as UTF-8".to_owned()));
-        }
-        let separator = separator(start);
-        // A line that ends by both characters would count from the second one on.
-        let end = if start.contains(&b'\n') { b'\n' } else { b'\r' };
+        let text = self.text(source)?;
         let mut reader = csv::ReaderBuilder::new()
             .has_headers(false)
             .flexible(true)
             .comment(Some(b'#'))
-            .delimiter(separator)
-            .terminator(csv::Terminator::Any(end))
+            .delimiter(separator(&text))
             .trim(csv::Trim::All)
-            .from_reader(source);
+            .from_reader(text.as_bytes());
         let correct = || format!("write {}", self.rows);
         let Numbers {
             mut names,
             mut rows,
         } = Numbers::default();
-        // How many columns there are, and what says so.
-        let mut columns: Option<(usize, &str)> = None;
-        for record in reader.records() {
+        for (place, record) in reader.records().enumerate() {
             let record = record.map_err(|e| (e.to_string(), correct()))?;
-            if record.iter().all(str::is_empty) {
-                continue;
-            }
             let finite = |text: &str| text.parse::<f64>().ok().filter(|x| x.is_finite());
+            let is_header = self.header && place == 0;
             let is_text = record.iter().all(|text| text.parse::<f64>().is_err());
-            let is_first = names.is_none() && rows.is_empty();
-            if self.header && is_first && is_text && record.get(0).is_some_and(is_name) {
-                columns = Some((record.len(), "the names above"));
+            if is_header && is_text && record.get(0).is_some_and(is_name) {
                 names = Some(record.iter().map(str::to_owned).collect());
                 continue;
             }
@@ -107,7 +92,7 @@ impl NumberFile {
                         "line {line}, column {}: \"{text}\" is no number",
                         column + 1
                     );
-                    let help = match finite(&text.replace(',', ".")) {
+                    let help = match finite(&text.replacen(',', ".", 1)) {
                         Some(_) => "write decimal points".to_owned(),
                         None => correct(),
                     };
@@ -121,36 +106,75 @@ impl NumberFile {
             }
             let entries = record.iter().enumerate();
             rows.push(entries.map(number).collect::<Result<_, _>>()?);
-            let (expected, what) = *columns.get_or_insert((record.len(), "the first row"));
-            if self.header && record.len() != expected {
-                let message = format!(
-                    "line {line} has {} where {what} {} {expected}",
-                    counted(record.len(), "column"),
-                    if what == "the first row" {
-                        "has"
-                    } else {
-                        "are"
-                    },
-                );
-                let help = "write as many numbers in every row as there are columns, each with a name if any has one; no comma stands in a number: 1200, 0.5".to_owned();
-                return Err((message, help));
+            if self.header {
+                let columns = rows.first().map_or(0, Vec::len);
+                if rows.len() == 1
+                    && let Some(names) = &mut names
+                {
+                    fit(names, columns);
+                }
+                let (expected, what) = match &names {
+                    Some(names) => (names.len(), "the names above are"),
+                    None => (columns, "the first row has"),
+                };
+                if record.len() != expected {
+                    let found = counted(record.len(), "column");
+                    let message = format!("line {line} has {found} where {what} {expected}");
+                    return Err((message, COLUMNS.to_owned()));
+                }
             }
         }
         Ok(Numbers { names, rows })
     }
+
+    /// The text, with every line ended alike.
+    fn text(&self, source: impl Read) -> Result<String, Refused> {
+        let mut bytes = Vec::new();
+        let read = source.take(LARGEST + 1).read_to_end(&mut bytes);
+        read.map_err(|e| self.unreadable(&e))?;
+        if bytes.len() as u64 > LARGEST {
+            let message = format!("it has more than {} MB", LARGEST / 1_000_000);
+            return Err((message, format!("write {}", self.rows)));
+        }
+        if is_wide(&bytes) {
+            let message = "the text is UTF-16, whose characters have two bytes".to_owned();
+            return Err((message, "save it as UTF-8".to_owned()));
+        }
+        // A name in another encoding is a name all the same; a number is none.
+        let text = match String::from_utf8(bytes) {
+            Ok(text) => text,
+            Err(error) => String::from_utf8_lossy(error.as_bytes()).into_owned(),
+        };
+        let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
+        Ok(text.replace("\r\n", "\n").replace('\r', "\n"))
+    }
 }
 
-/// How much of a file tells how it is written.
-const START: usize = 1 << 16;
+/// The largest file (bytes): far more than its most lines.
+const LARGEST: u64 = 256_000_000;
 
-/// What separates its columns: what stands in its first line.
-fn separator(start: &[u8]) -> u8 {
-    let lines = start.split(|b| matches!(b, b'\n' | b'\r'));
-    let lines = lines.map(<[u8]>::trim_ascii);
-    let mut first = lines.filter(|line| !line.is_empty() && !line.starts_with(b"#"));
-    let first = first.next().unwrap_or_default();
-    let mut known = [b';', b'\t'].into_iter();
-    known.find(|b| first.contains(b)).unwrap_or(b',')
+/// What to do about rows of another number of columns.
+const COLUMNS: &str = "write as many numbers in every row as there are columns, each with a name if any has one; no comma stands in a number: 1200, 0.5";
+
+/// Takes away what is no name of a column: an empty one behind a comma at the end of the line. The name of a single column
+/// may have commas.
+fn fit(names: &mut Vec<String>, columns: usize) {
+    while names.len() > columns && names.last().is_some_and(String::is_empty) {
+        names.pop();
+    }
+    if columns == 1 {
+        *names = vec![names.join(", ")];
+    }
+}
+
+/// What separates the columns: what stands in the first row of numbers.
+fn separator(text: &str) -> u8 {
+    let lines = text.lines().map(str::trim);
+    let rows = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
+    let mut rows = rows.filter(|line| !is_name(line.trim_start_matches('"')));
+    let row = rows.next().unwrap_or_default();
+    let mut known = [';', ',', '\t'].into_iter();
+    known.find(|c| row.contains(*c)).map_or(b',', |c| c as u8)
 }
 
 /// Whether a text is in characters of two bytes: by the mark at its start, or by the zeros in it.

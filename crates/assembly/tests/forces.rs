@@ -203,8 +203,20 @@ fn forces_that_cannot_be_read_are_refused_at_their_place() {
         (
             file,
             "time (s);force (kN)\n0,0\n0.5,10\n1,0\n",
-            "line 2, column 1: \"0,0\" is no number",
-            "write decimal points",
+            "line 2 has 2 columns where the names above are 1",
+            "as many numbers",
+        ),
+        (
+            file,
+            "t (s),F (kN)\r0,0\r0.5,10\r1,0\r# second pulse\r1.1,0\r1.2,9x0\r",
+            "line 7, column 2: \"9x0\" is no number",
+            "",
+        ),
+        (
+            "file = \"f.csv\"\ntime_step = \"0.1 s\"\ncolumn = 2",
+            "100,0\n,\n100,9\n",
+            "line 2, column 1: \"\" is no number",
+            "",
         ),
         (
             file,
@@ -227,19 +239,19 @@ fn forces_that_cannot_be_read_are_refused_at_their_place() {
         (
             file,
             "time (s),force x 1000 (N)\n0,0\n0.5,10\n",
-            "has a factor, \"1000\"",
+            "has a factor, 1000,",
             "`scale`",
         ),
         (
             file,
             "time (s),F*1e3 (N)\n0,0\n0.5,10\n",
-            "has a factor, \"1e3\"",
+            "has a factor, 1e3,",
             "`scale`",
         ),
         (
             file,
             "time (s),F 10^3 (N)\n0,0\n0.5,10\n",
-            "has a factor, \"10^3\"",
+            "has a factor, 1e3,",
             "`scale`",
         ),
         (
@@ -287,11 +299,72 @@ fn files_are_read_however_their_lines_are_written() {
         "time (s),force (kN)\r0,0\r0.5,10\r1,0\r",
         "\u{feff}time (s),force (kN)\n0,0\n0.5,10\n1,0\n",
         "time (s),Fx (kN),F2 (kN)\n0,0,5\n0.5,10,6\n1,0,7\n",
+        "\u{feff}# made by hand; twice\ntime (s),force (kN),\n0,0\n0.5,10\n1,0\n",
+        "# c\rtime (s),force (kN)\r# d\r0,0\r0.5,10\r1,0\n",
+        "time (s),\tF roof; level 3 (kN)\n0,\t0\n0.5,\t10\n1,\t0\n",
+        "\"t; of run (s)\",\"F; roof (kN)\"\n0,0\n0.5,10\n1,0\n",
     ] {
         let assembly = assembled("file = \"f.csv\"", csv).unwrap();
         let points = assembly.system.forces()[0].history.points().to_vec();
         assert_eq!(points, [(0.0, 0.0), (0.5, 1e4), (1.0, 0.0)], "{csv}");
     }
+}
+
+/// Names with what is a factor, and with what is none.
+#[test]
+fn factors_are_told_from_directions_and_places() {
+    let read = |name: &str| {
+        let csv = format!("time (s),\"{name}\"\n0,0\n0.5,10\n1,0\n");
+        assembled("file = \"f.csv\"", &csv).map(|_| ())
+    };
+    for name in [
+        "F_x 2 (kN)",
+        "Wind X 1 (kN)",
+        "wind x 2 (kN)",
+        "force-x 3 (kN)",
+        "F.x 1 (kN)",
+        "X1 (kN)",
+        "x 1 (kN)",
+        "F_X1 (kN)",
+        "grid A x 3 (kN)",
+        "F* 1 (kN)",
+        "X10 (kN)",
+        "level 100 (kN)",
+        "12 x 12 column (kN)",
+        "F/kN",
+        "span 1/2 (kN)",
+        "F1 (kN)",
+        "F x 1 (kN)",
+        "E3 (kN)",
+    ] {
+        assert!(read(name).is_ok(), "{name}");
+    }
+    for name in [
+        "1000*F (N)",
+        "10 x F (N)",
+        "F (N) x -1",
+        "F (N) *-1",
+        "F (N) x .5",
+        "F 10E3 (N)",
+        "F (N)/1000",
+        "F (N) times 1000",
+        "F 10\u{b3} (N)",
+        "F \u{d7} 10\u{b3} (N)",
+        "F 10**3 (N)",
+        "F x1000 (N)",
+        "F\u{b7}1000 (N)",
+        "F x 1e-3 (N)",
+        "F X 1000 (N)",
+    ] {
+        let error = read(name).expect_err(name).to_string();
+        assert!(error.contains("has a factor"), "{name}: {error}");
+    }
+    let times = "t (s) at x 2,F (kN)\n0,0\n0.5,10\n1,0\n";
+    assert!(assembled("file = \"f.csv\"", times).is_ok());
+    // One column has one name.
+    let single = "F, roof (kN)\n0\n10\n0\n";
+    let force = "file = \"f.csv\"\ntime_step = \"0.1 s\"";
+    assert!(assembled(force, single).is_ok());
 }
 
 #[test]

@@ -206,11 +206,10 @@ fn unit_of_name(name: &str, dimension: Dimension) -> Result<Option<f64>, Refused
         Err((message, help()))
     };
     if let Some(factor) = factor_in(name) {
-        let message =
-            format!("the column \"{name}\" has a factor, \"{factor}\", which is not applied");
-        let help =
-            "multiply the numbers by it, or give it as `scale`, and leave it out of the name"
-                .to_owned();
+        let message = format!(
+            "the name of the column \"{name}\" has a factor, {factor}, which is not applied"
+        );
+        let help = "write the forces themselves or give the factor as `scale`, and leave it out of the name, as a number that is no factor".to_owned();
         return Err((message, help));
     }
     let (unit, marked) = match (unit_in(name), name.rsplit_once('/')) {
@@ -246,23 +245,43 @@ fn unit_of_name(name: &str, dimension: Dimension) -> Result<Option<f64>, Refused
     }
 }
 
-/// A factor in the name of a column, `x 1000`, `*1e3`, `x10^3` or `10^3`.
-fn factor_in(name: &str) -> Option<&str> {
-    let power = |from: usize| {
-        let text = &name[from..];
-        let end = text.find(|c: char| !c.is_ascii_alphanumeric() && !"^.+-".contains(c));
-        &text[..end.unwrap_or(text.len())]
-    };
-    for (at, sign) in name.match_indices(['x', 'X', '×', '*', '·']) {
-        // The letter of a word, as in `Fx 2`, is no sign.
-        let of_word = sign.eq_ignore_ascii_case("x") && name[..at].ends_with(char::is_alphanumeric);
-        let behind = name[at + sign.len()..].trim_start();
-        if !of_word && behind.starts_with(|c: char| c.is_ascii_digit()) {
-            return Some(power(name.len() - behind.len()));
+/// A factor in the name of a column: `x 1000`, `*1e3`, `1000*F`, `/1000` or `10^3`. A number beside a direction or a place,
+/// `Fx 2`, `X1`, `grid A x 3`, is none.
+fn factor_in(name: &str) -> Option<String> {
+    let mut text = name.to_lowercase().replace("10**", "10^");
+    for (raised, power) in [('\u{b2}', "^2"), ('\u{b3}', "^3"), ('\u{2076}', "^6")] {
+        text = text.replace(raised, power);
+    }
+    // `1e` for `10^` is a number as it is written.
+    text = text.replace("10^", "1e").replace("times", "*");
+    for sign in ['*', '\u{d7}', '\u{b7}'] {
+        text = text.replace(sign, " * ");
+    }
+    let text = text.replace('/', " / ").replace(['(', ')', '[', ']'], " ");
+    let words: Vec<&str> = text.split_whitespace().collect();
+    for (place, word) in words.iter().enumerate() {
+        let (by, number) = match word.strip_prefix('x') {
+            Some(number) if !number.is_empty() => ("x", number),
+            _ => (place.checked_sub(1).map_or("", |k| words[k]), *word),
+        };
+        let Ok(value) = number.parse::<f64>() else {
+            continue;
+        };
+        let behind = words.get(place + 1).copied().unwrap_or_default();
+        let power = libm::log10(value.abs());
+        let tens = value != 1.0 && (power - libm::round(power)).abs() < 1.0e-9;
+        let is_factor = match (by, behind) {
+            ("*", _) | (_, "*") => value != 1.0,
+            ("x", _) => (tens && value > 10.0) || value < 1.0,
+            ("/", _) => tens && value > 10.0,
+            (_, "x") => tens,
+            _ => tens && number.contains('e'),
+        };
+        if is_factor {
+            return Some(number.to_owned());
         }
     }
-    let tens = name.match_indices("10^").map(|(at, _)| at);
-    tens.map(power).next()
+    None
 }
 
 /// The words of a name of a column.

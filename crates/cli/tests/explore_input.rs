@@ -469,6 +469,10 @@ fn addresses_are_no_traps() {
             vec!["ignored", "gap.0.levels", "gap.0.name"],
         ),
         (
+            json!({ "models": { "gap.0": [["model", "jankowski_2005"], ["stiffness", 2.75e9], ["damping_ratio", 0.35], ["levels", [[3, 3]]]] } }),
+            vec!["ignored", "gap.0.levels"],
+        ),
+        (
             json!({ "overlays": ["hertz_1882", "no_such_law"], "gap": 99, "quantity": "weight", "more": 1 }),
             vec![
                 "ignored",

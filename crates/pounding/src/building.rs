@@ -235,6 +235,11 @@ impl Building {
         let damping = damping.ok_or_else(|| Error::NoDamping {
             building: self.name.clone(),
         })?;
+        if self.isolator.is_none() && matches!(damping, Damping::Isolated { .. }) {
+            return Err(Error::DampingOfIsolators {
+                building: self.name.clone(),
+            });
+        }
         let gravity = if self.p_delta { STANDARD_GRAVITY } else { 0.0 };
         let name = self.name.clone();
         let (mass, height) = (each(|f| f.mass.si()), each(|f| f.height.si()));

@@ -39,6 +39,18 @@ pub enum Error {
         /// Name of the building.
         building: String,
     },
+    /// The damping of a building on isolators, for one that stands on none.
+    #[error("building {building}: its damping is that of a building on isolators, and it has none")]
+    DampingOfIsolators {
+        /// Name of the building.
+        building: String,
+    },
+    /// Floors that act on each other as if they were level, in a gap that names no pairs of floors.
+    #[error("gap {gap}: `.floor_to_floor()` has no meaning without pairs of floors")]
+    FloorToFloor {
+        /// Name of the gap.
+        gap: String,
+    },
     /// A building that is not said to be damped, nor to be undamped.
     #[error("building {building} has no damping")]
     NoDamping {
@@ -265,6 +277,14 @@ impl Error {
     pub fn help(&self) -> Option<String> {
         match self {
             Self::GravityOnIsolators { .. } => Some("leave `.p_delta()` out".to_owned()),
+            Self::DampingOfIsolators { .. } => Some(
+                "make the building by `Building::isolated(...)`, or give it the damping of its storeys alone"
+                    .to_owned(),
+            ),
+            Self::FloorToFloor { .. } => Some(
+                "name the pairs of storeys that may touch by `.levels(...)`, or leave it out"
+                    .to_owned(),
+            ),
             Self::Building(ShearBuildingError::NoStoreys { .. }) => Some(
                 "`.storeys(...)` adds them, and `.floors(...)` those of a building with a stiffness matrix"
                     .to_owned(),

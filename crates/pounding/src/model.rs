@@ -12,7 +12,9 @@ use pounding_time_history::{Outcome, Recorder, RunOptions, System, run};
 use crate::error::Error;
 use crate::help;
 use crate::progress::Progress;
-use crate::record::{GroundMotion, wherever};
+use crate::record::GroundMotion;
+#[cfg(feature = "toml")]
+use crate::record::wherever;
 use crate::units::Time;
 
 /// A simulation whose every part was checked: the system, the record and the options that the

@@ -8,6 +8,7 @@ use pounding_time_history::{
 
 use crate::building::Building;
 use crate::error::Error;
+use crate::facing::Levels;
 use crate::gap::Gap;
 use crate::link::Link;
 use crate::model::{Model, OUTPUT_STEP};
@@ -230,6 +231,9 @@ impl Simulation {
     }
 
     fn add_gap(&self, gap: &Gap, system: &mut System) -> Result<(), Error> {
+        if gap.floor_to_floor && !matches!(gap.facing.levels, Levels::Pairs(_)) {
+            return Err(Error::FloorToFloor { gap: gap.name() });
+        }
         let pairs = gap.facing.pairs(&self.buildings, system)?;
         let (widths, model) = (gap.built_widths(pairs.len())?, gap.built_model()?);
         let levels = pairs.into_iter().zip(widths);

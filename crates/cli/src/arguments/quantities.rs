@@ -108,7 +108,16 @@ pub fn with_units_alike<'a>(
     option: &str,
     parts: impl Iterator<Item = &'a str> + Clone,
 ) -> Result<(), Failure> {
-    let bare = parts.clone().find(|part| is_bare(part));
+    // Zero is the same in every unit; behind a decimal comma stands no blank.
+    let is_zero = |part: &str| part.trim().parse() == Ok(0.0);
+    let next = parts
+        .clone()
+        .skip(1)
+        .map(|next| next.starts_with(' '))
+        .chain([false]);
+    let mut bare = parts.clone().zip(next);
+    let bare = bare.find(|(part, apart)| is_bare(part) && !(is_zero(part) && *apart));
+    let bare = bare.map(|(part, _)| part);
     let united = parts.into_iter().find(|part| !is_bare(part));
     let (Some(bare), Some(united)) = (bare, united) else {
         return Ok(());
@@ -178,6 +187,7 @@ mod tests {
         let times = |text: &str| list(text, "at", Dimension::TIME);
         assert_eq!(times("0.1 s, 500 ms").unwrap(), [0.1, 0.5]);
         assert_eq!(times("0.1, 0.5").unwrap(), [0.1, 0.5]);
+        assert_eq!(times("0, 0.5 s").unwrap(), [0.0, 0.5]);
         for text in ["0,1 s", "1,5 s", "0,1 s, 0,5 s", "0.2, 0.5 s", "1 s, 2"] {
             assert!(times(text).is_err(), "{text}");
         }

@@ -67,6 +67,12 @@ const stateOf = (changed) => {
       const others = (now.record || []).map(([key]) => key).filter((key) => key !== "file" && key !== "component");
       if (others.length) now.record = now.record.filter(([key]) => !others.includes(key));
       if (now.record && !now.record.some(([key]) => key === "file")) now.record = null;
+      for (const [gap, keys] of Object.entries(now.models)) {
+        const path = (key) => `${gap}.${key}`;
+        const unseen = keys.filter(([key]) => key !== "model" && !shown.has(path(key)));
+        hidden.push(...unseen.map(([key]) => path(key)));
+        now.models[gap] = keys.filter((pair) => !unseen.includes(pair));
+      }
       return [...hidden, ...others.map((key) => `ground_motion.${key}`)];
     },
     look: (part) => {

@@ -74,3 +74,25 @@ fn parts_are_added() {
     let (said, _) = refused(&again);
     assert!(said.contains("it has a law already"), "{said}");
 }
+
+/// Floors that are to act on each other as if they were level are named.
+#[test]
+fn floors_that_act_as_if_level_are_named() {
+    let pair = |gap: Gap| {
+        let building = |name: &str| Building::shear(name).storey(storey(25.0, 3.46)).undamped();
+        Simulation::of([building("a"), building("b")])
+            .gap(
+                gap.width(Length::millimetres(20.0))
+                    .model("linear_elastic", [("stiffness", 93.5e6)]),
+            )
+            .ground_motion(el_centro())
+    };
+    let gap = || Gap::between("a", "b").floor_to_floor();
+    let (said, help) = refused(&pair(gap()));
+    assert!(
+        said.contains("gap a-b: `.floor_to_floor()` has no meaning"),
+        "{said}"
+    );
+    assert!(help.contains("`.levels(...)`"), "{help}");
+    assert!(pair(gap().levels([(1, 1)])).build().is_ok());
+}

@@ -252,14 +252,16 @@ fn errors_of_buildings_are_in_our_words() {
             coefficients: vec![1e5, -1e5],
         },
         Damping::from_rows(&[vec![1e5]]).unwrap(),
-        Damping::Isolated {
-            superstructure: Box::new(Damping::Modal { ratios: vec![] }),
-            isolators: -1.0,
-        },
     ] {
         let help = refuse(Building::shear("b").storeys(2, sound).damping(damping));
         assert!(help.contains("0.02 to 0.05"), "{help}");
     }
+    let isolated = Damping::Isolated {
+        superstructure: Box::new(Damping::Modal { ratios: vec![0.05] }),
+        isolators: 0.0,
+    };
+    let help = refuse(Building::shear("b").storeys(2, sound).damping(isolated));
+    assert!(help.contains("`Building::isolated(...)`"), "{help}");
     let walls = [
         LateralStiffness::cantilever(&[3.0; 2], &[6e9], None),
         LateralStiffness::cantilever(&[3.0; 2], &[6e9, 0.0], None),

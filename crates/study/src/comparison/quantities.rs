@@ -390,16 +390,20 @@ pub(super) fn value(quantity: &Quantity, outcome: &Outcome, jumps: bool) -> f64 
     }
 }
 
-/// `sqrt(sum v_out^2 / sum v_in^2)` over the finished impacts of a gap.
+/// `sqrt(sum v_out^2 / sum v_in^2)` over the finished impacts of a gap; none where the floors met at rest in all of them.
 fn restitution(outcome: &Outcome, gap: usize) -> f64 {
     let finished = outcome
         .impacts
         .iter()
         .filter(|i| i.gap == gap && i.separation_velocity.is_finite());
-    let (mut before, mut after) = (0.0, 0.0);
+    let (mut before, mut after, mut met) = (0.0, 0.0, false);
     for impact in finished {
         before += impact.approach_velocity.powi(2);
         after += impact.separation_velocity.powi(2);
+        met |= impact.achieved_restitution.is_finite();
     }
-    (after / before).sqrt()
+    match met {
+        true => (after / before).sqrt(),
+        false => f64::NAN,
+    }
 }

@@ -71,7 +71,7 @@ const FINE: f64 = 0.7;
 
 /// Maximum product of the greatest circular frequency and the step. Constants of a step and its peaks are worked out part by part, whatever
 /// the duration leaves of it; other steps end where the run does.
-const COARSEST: f64 = 1.0e4;
+const COARSEST: f64 = 1.0e6;
 /// The same of the fastest decay of modes that are damped beyond critical: other steps are no faster there, and lose digits
 /// of the small differences between floors that stiff storeys join.
 const FASTEST_DECAY: f64 = 1.0e8;

@@ -330,8 +330,11 @@ pub(super) fn levels(gap: &GapResult, input: f64) -> String {
             let finished = here.iter().filter(|i| i.separation_velocity.is_finite());
             finished.map(|i| speed(i) * speed(i)).sum()
         };
-        let restitution =
-            (squares(|i| i.separation_velocity) / squares(|i| i.approach_velocity)).sqrt();
+        // None where the floors met at rest in all of them.
+        let restitution = match here.iter().any(|i| i.achieved_restitution.is_finite()) {
+            true => (squares(|i| i.separation_velocity) / squares(|i| i.approach_velocity)).sqrt(),
+            false => f64::NAN,
+        };
         let dissipated: f64 = here
             .iter()
             .map(|i| i.energy_dissipated)

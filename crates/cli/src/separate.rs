@@ -14,6 +14,7 @@ use std::thread::JoinHandle;
 #[cfg(not(unix))]
 use std::time::{Duration, Instant};
 
+use pounding_case::{MORE_FILES, is_short_of_files};
 use pounding_files::checksum::{ABSENT, WithoutChecksum, is_absent};
 use pounding_files::{FileUse, remove_left_by};
 use pounding_results::watch::{Watcher, watch};
@@ -86,6 +87,12 @@ impl NoAnswer {
 
     /// What this says of the files that were to be read.
     pub fn failure(&self, files: &[PathBuf]) -> Failure {
+        if let Some(limit) = limited_memory() {
+            return Failure::computation(
+                format!("results cannot be read here: {}; {limit}", self.how),
+                Some(MORE_MEMORY.to_owned()),
+            );
+        }
         let about = match (self.file.and_then(|number| files.get(number)), files) {
             (Some(file), _) | (None, [file]) => file.display().to_string(),
             (None, files) => format!("one of {} files", files.len()),
@@ -95,6 +102,26 @@ impl NoAnswer {
             Some("copy the file again from where it is whole, or run it again".to_owned()),
         )
     }
+}
+
+/// Memory (bytes) with which any result of ours can be read, but those of millions of runs.
+const ENOUGH_MEMORY: u64 = 1 << 30;
+/// What to do where there is less.
+pub const MORE_MEMORY: &str = "allow more memory (`ulimit -v`)";
+
+/// That the memory of this process is so limited that a file may be whole where it cannot be read.
+pub fn limited_memory() -> Option<String> {
+    #[cfg(unix)]
+    {
+        use rustix::process::{Resource, getrlimit};
+        let limit = getrlimit(Resource::As).current?;
+        (limit < ENOUGH_MEMORY).then(|| {
+            let megabytes = limit / 1_000_000;
+            format!("the memory of this process is limited to {megabytes} MB, which may be why")
+        })
+    }
+    #[cfg(not(unix))]
+    None
 }
 
 /// Has a child do what this process was asked for, as it reads these files; `child` says that
@@ -222,15 +249,25 @@ fn ended(
     } = run(command, size(files))?;
     let (said, file) = unmarked(&said);
     let how = match ending {
-        Ending::Exit(status) => match status.code() {
-            Some(code) if OWN_CODES.contains(&code) => {
+        Ending::Exit(status) => match (status.code(), limited_memory()) {
+            // What is told of a file as if it were damaged, or none of ours.
+            (Some(2), Some(limit)) => {
+                let mut said = said;
+                said.extend_from_slice(format!("note: {limit}: {MORE_MEMORY}\n").as_bytes());
+                return Ok(Ok(Answer {
+                    code: 3,
+                    printed,
+                    said,
+                }));
+            }
+            (Some(code), _) if OWN_CODES.contains(&code) => {
                 return Ok(Ok(Answer {
                     code: u8::try_from(code).unwrap_or_default(),
                     printed,
                     said,
                 }));
             }
-            Some(OUT_OF_PROCESSOR_TIME) => {
+            (Some(OUT_OF_PROCESSOR_TIME), _) => {
                 "reading it took too much time of the processor".to_owned()
             }
             _ => format!("reading it ended without an answer ({status})"),
@@ -325,9 +362,15 @@ fn printed_by(mut pipe: ChildStdout) -> std::io::Result<JoinHandle<Vec<u8>>> {
 
 /// Why there is no process that reads.
 fn no_process(error: std::io::Error) -> Failure {
+    let help = match is_short_of_files(&error) {
+        true => MORE_FILES,
+        false => {
+            "end other programs, or raise the limits of processes and memory (`ulimit -u`, `ulimit -v`)"
+        }
+    };
     Failure::computation(
         format!("results are read by a process of their own, which the system refuses: {error}"),
-        Some("end other programs, or raise the limits of processes and memory (`ulimit -u`, `ulimit -v`)".to_owned()),
+        Some(help.to_owned()),
     )
 }
 

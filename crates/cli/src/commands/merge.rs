@@ -16,7 +16,7 @@ use crate::failure::Failure;
 use crate::files::{Replaced, reads_too, shard_files};
 use crate::output::{pretty, print, warn};
 use crate::page;
-use crate::separate::{Reading, by_child, reading, warnings};
+use crate::separate::{Reading, by_child, limited_memory, reading, warnings};
 use crate::study::{none_succeeded, shows_a_run, table_has_a_place, told as sentences};
 
 /// Merges the results of shards, or says whether they can be merged.
@@ -70,6 +70,8 @@ fn looked_at(shards: &[PathBuf], files: &FileUse, child: bool) -> Result<Reading
             Err(none) => none,
         };
         match none.file.filter(|number| !unreadable.contains(number)) {
+            // The others would come to no answer either.
+            Some(_) if limited_memory().is_some() => return Err(none.failure(shards)),
             Some(number) => {
                 unreadable.push(number);
                 known.push(format!("--unreadable={number}").into());

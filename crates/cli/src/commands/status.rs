@@ -23,6 +23,7 @@ use crate::interruption::{resumed, shell_line};
 use crate::output::{note, pretty, print, print_as_it_is};
 use crate::plan::{path_word, program};
 use crate::progress::time;
+use crate::separate::limited_memory;
 
 /// The shortest time between two looks: each reads a file of every shard.
 const LEAST: Duration = Duration::from_millis(100);
@@ -265,7 +266,10 @@ impl Found {
                 source: OpenError::Checksum(ChecksumError::Read(reason)),
                 ..
             }) => return of(Standing::Unreadable(reason.to_string()), None),
-            Err(_) => return of(Standing::Damaged, None),
+            Err(_) => {
+                let standing = limited_memory().map_or(Standing::Damaged, Standing::Unreadable);
+                return of(standing, None);
+            }
         };
         let found = &result.description.part;
         if Part::of(vec![shard.index], shard.count).as_ref() != Some(found) {

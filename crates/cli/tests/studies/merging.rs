@@ -40,6 +40,59 @@ fn more_shards_than_open_files_are_merged() {
     assert!(bench.bytes("merged.csv") == bench.bytes("whole.csv"));
 }
 
+/// A result that cannot be read for want of memory is not called damaged, or none, as if it were to be made again.
+#[test]
+fn a_lack_of_memory_is_no_damage() {
+    let bench = Bench::new(MIXED);
+    for index in [1, 2] {
+        bench.text(&format!(
+            "sweep study.toml --shard {index}/2 --into shards --threads 1"
+        ));
+    }
+    bench.text("sweep study.toml -o whole.h5");
+    let run = |kilobytes: usize, words: &str| {
+        let program = env!("CARGO_BIN_EXE_pounding");
+        let script = format!("ulimit -v {kilobytes}; exec {program} {words}");
+        let mut command = Command::new("bash");
+        command.args(["-c", &script]).env("NO_COLOR", "1");
+        command.current_dir(bench.folder.path()).output().unwrap()
+    };
+    // What the program itself takes.
+    let mut least = 20_000;
+    while !run(least, "check case.toml").status.success() {
+        least += 2000;
+    }
+    let (mut done, mut short) = (0, 0);
+    for kilobytes in (least - 4000..least + 12_000).step_by(250) {
+        for words in [
+            "report whole.h5 -o page.html",
+            "merge shards -o merged.h5",
+            "status shards",
+        ] {
+            let output = run(kilobytes, words);
+            let told = [&output.stderr[..], &output.stdout[..]].concat();
+            let told = String::from_utf8_lossy(&told).replace(['\u{2502}', '\n'], " ");
+            let told = told.split_whitespace().collect::<Vec<_>>().join(" ");
+            match output.status.code() {
+                Some(0) => done += 1,
+                Some(2) => panic!("{words} {kilobytes}: {told}"),
+                // What `status` says of shards that it cannot read is no that they are done.
+                code => {
+                    let of_memory = told.contains("memory of this process is limited");
+                    short += usize::from(of_memory);
+                    let damaged = told.contains("damaged") || told.contains("is not the result");
+                    assert!(
+                        of_memory || !damaged,
+                        "{words} {kilobytes}: {code:?} {told}"
+                    );
+                }
+            }
+            let _ = std::fs::remove_file(bench.folder.path().join("merged.h5"));
+        }
+    }
+    assert!(done > 10 && short > 0, "{done} {short}");
+}
+
 /// A sweep that may open too few files is no fault of the study: it says what is short, and with more
 /// it goes on to the same bytes.
 #[test]

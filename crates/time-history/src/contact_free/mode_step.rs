@@ -102,8 +102,8 @@ struct Doubling {
 impl Doubling {
     /// A sub-step, and how often it is to be doubled.
     fn new(mode: Oscillator, step: f64, parts: f64) -> Self {
-        let times = parts.log2().ceil() as u32;
-        let h = step / f64::from(times).exp2();
+        let times = libm::log2(parts).ceil() as u32;
+        let h = step / libm::exp2(f64::from(times));
         let mut this = Self {
             times,
             change: [[0.0; 4]; 2],

@@ -66,6 +66,11 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
         arguments.report.as_deref(),
     ])?;
     an_answer_has_a_place(arguments.output.as_deref())?;
+    if (arguments.csv.is_some() || arguments.plot.is_some()) && arguments.points == 0 {
+        let help = "leave --points 0 away".to_owned();
+        let message = "without a sweep there is nothing to write or draw";
+        return Err(Failure::input(message, Some(help)));
+    }
     let progress = Progress::begin(Unit::Runs)?;
     let tell = |done: usize, total: usize| {
         progress.show(done, total, "");
@@ -227,11 +232,6 @@ fn options(arguments: &GapArguments) -> Result<GapCheckOptions, Failure> {
     {
         let help = format!("leave --points 0 away, or {name}");
         let message = format!("without a sweep there is nothing that {name} could say");
-        return Err(Failure::input(message, Some(help)));
-    }
-    if (arguments.csv.is_some() || arguments.plot.is_some()) && arguments.points == 0 {
-        let help = "leave --points 0 away".to_owned();
-        let message = "without a sweep there is nothing to write or draw";
         return Err(Failure::input(message, Some(help)));
     }
     let sweep = (arguments.points > 0).then(|| SweepOptions {

@@ -10,9 +10,13 @@ use pounding_time_history::{GroundAcceleration, MethodChoice, RunOptions, System
 /// Two storeys of 120 and 160 t, the upper one stiffer by this ratio, 5 % in the first mode, under a sine in samples of this
 /// length (s).
 fn system(ratio: f64, time_step: f64) -> System {
+    let damping = Damping::StiffnessProportional { ratio: 0.05 };
+    damped(ratio, time_step, damping)
+}
+
+fn damped(ratio: f64, time_step: f64, damping: Damping) -> System {
     let mass = vec![1.2e5, 1.6e5];
     let stiffness = 2.8e5 * 169.0;
-    let damping = Damping::StiffnessProportional { ratio: 0.05 };
     let stiffnesses = vec![stiffness, stiffness * ratio];
     let building = ShearBuilding::new("b".into(), mass, stiffnesses, vec![3.0; 2], damping);
     let samples = (0..100).map(|i| 3.0 * (0.3 * f64::from(i)).sin());
@@ -55,5 +59,45 @@ fn modes_damped_far_beyond_critical_keep_their_digits() {
         // The difference between floors that such a storey joins is known to so many digits.
         let allowed = 1e-15 * ratio + 1e-11;
         assert!(errors.iter().all(|e| *e < allowed), "{ratio:e}: {errors:?}");
+    }
+}
+
+/// The same damping by a dashpot a storey, which are not taken apart by modes: the exponential of a sample is squared some
+/// twenty times.
+#[test]
+fn dashpots_of_stiff_storeys_keep_their_digits() {
+    let options = RunOptions {
+        method: MethodChoice::EventDriven {
+            relative_tolerance: 1e-8,
+        },
+        duration: Some(1.0),
+        energy_tolerance: Some(1e-9),
+    };
+    for (ratio, is_fast) in [(1e4, false), (1e6, true)] {
+        let first = system(ratio, 0.02).buildings()[0]
+            .modes()
+            .circular_frequency[0];
+        let per_stiffness = 2.0 * 0.05 / first;
+        let stiffness = 2.8e5 * 169.0;
+        let coefficients = vec![per_stiffness * stiffness, per_stiffness * stiffness * ratio];
+        let system = damped(ratio, 0.02, Damping::Dashpots { coefficients });
+        let options = RunOptions {
+            energy_tolerance: Some(if is_fast { 1e-7 } else { 1e-9 }),
+            ..options
+        };
+        let outcome = run(&system, &options, &mut [], &mut |_| {}).unwrap();
+        let shear = outcome.buildings[0].storeys[1].storey_shear.value;
+        let expected = PEAKS.iter().find(|p| p.0 == ratio).unwrap().2[0];
+        let error = (shear / expected - 1.0).abs();
+        assert!(
+            error < if is_fast { 1e-6 } else { 1e-10 },
+            "{ratio:e}: {error:e}"
+        );
+        // Of accelerations a warning says that they may be off.
+        let warned = outcome
+            .warnings
+            .iter()
+            .any(|w| w.to_string().contains("to rest within a sample"));
+        assert_eq!(warned, is_fast, "{:?}", outcome.warnings);
     }
 }

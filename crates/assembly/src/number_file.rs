@@ -93,7 +93,9 @@ impl NumberFile {
                         column + 1
                     );
                     let help = match finite(&text.replacen(',', ".", 1)) {
-                        Some(_) => "write decimal points".to_owned(),
+                        Some(_) => {
+                            "write decimal points, and no separators of thousands".to_owned()
+                        }
                         None => correct(),
                     };
                     (message, help)
@@ -167,14 +169,19 @@ fn fit(names: &mut Vec<String>, columns: usize) {
     }
 }
 
-/// What separates the columns: what stands in the first row of numbers.
+/// What separates the columns: what stands between numbers in the first row of them.
 fn separator(text: &str) -> u8 {
     let lines = text.lines().map(str::trim);
     let rows = lines.filter(|line| !line.is_empty() && !line.starts_with('#'));
     let mut rows = rows.filter(|line| !is_name(line.trim_start_matches('"')));
     let row = rows.next().unwrap_or_default();
-    let mut known = [';', ',', '\t'].into_iter();
-    known.find(|c| row.contains(*c)).map_or(b',', |c| c as u8)
+    let is_number = |field: &str| field.trim().trim_matches('"').parse::<f64>().is_ok();
+    let stands = |c: &char| row.contains(*c);
+    let parts = |c: &char| stands(c) && row.split(*c).all(is_number);
+    let known = [';', '\t', ','];
+    let found = known.iter().find(|c| parts(c));
+    let found = found.or_else(|| known.iter().find(|c| stands(c)));
+    found.map_or(b',', |c| *c as u8)
 }
 
 /// Whether a text is in characters of two bytes: by the mark at its start, or by the zeros in it.

@@ -226,6 +226,18 @@ fn forces_that_cannot_be_read_are_refused_at_their_place() {
         ),
         (
             file,
+            "t\tF (kN)\n0,0\t0,0\n0,5\t10,0\n",
+            "line 2, column 1: \"0,0\" is no number",
+            "write decimal points",
+        ),
+        (
+            file,
+            "t,F (N)\n0,0\n0.5,\"10,000\"\n",
+            "\"10,000\" is no number",
+            "no separators of thousands",
+        ),
+        (
+            file,
             "time (ms)\n0,0\n0.5,10\n",
             "line 2 has 2 columns where the names above are 1",
             "",
@@ -336,15 +348,25 @@ fn factors_are_told_from_directions_and_places() {
         "F1 (kN)",
         "F x 1 (kN)",
         "E3 (kN)",
+        "node 10 x (kN)",
+        "node 100 X (kN)",
+        "Floor 100 x (kN)",
+        "x 0 (kN)",
+        "x 100 (kN)",
+        "at x 0.5 m (kN)",
+        "10 x 10 panel (kN)",
+        "pressure on 3 x 100 m (kN)",
+        "storey 3/100 (kN)",
+        "F/100 years (kN)",
+        "case 1e3 (kN)",
+        "sometimes 3 (kN)",
     ] {
         assert!(read(name).is_ok(), "{name}");
     }
     for name in [
         "1000*F (N)",
         "10 x F (N)",
-        "F (N) x -1",
         "F (N) *-1",
-        "F (N) x .5",
         "F 10E3 (N)",
         "F (N)/1000",
         "F (N) times 1000",
@@ -355,6 +377,9 @@ fn factors_are_told_from_directions_and_places() {
         "F\u{b7}1000 (N)",
         "F x 1e-3 (N)",
         "F X 1000 (N)",
+        "F \u{22c5} 1000 (N)",
+        "F 10\u{207b}\u{b3} (N)",
+        "F*2 (N)",
     ] {
         let error = read(name).expect_err(name).to_string();
         assert!(error.contains("has a factor"), "{name}: {error}");

@@ -555,10 +555,10 @@ pub fn page_is_spared(path: &Path, named: bool) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What [`page_is_spared`] refuses now, or is to be said of the file that a page takes the place of.
+/// What `page_is_spared` refuses now, or is to be said of the file that a page takes the place of.
 ///
 /// # Errors
-/// As [`page_is_spared`].
+/// As `page_is_spared`.
 pub fn page_judged(path: &Path, named: bool) -> Result<Option<Going>, Failure> {
     no_result_stands(path)?;
     match holds_something(path) && !is_page(path) {

@@ -104,8 +104,9 @@ impl NoAnswer {
     }
 }
 
-/// Memory (bytes) with which any result of ours can be read, but those of millions of runs.
-const ENOUGH_MEMORY: u64 = 1 << 30;
+/// Memory (bytes) with which any result of ours can be read, but those of millions of runs: three times what the program
+/// itself takes.
+const ENOUGH_MEMORY: u64 = 1 << 28;
 /// What to do where there is less.
 pub const MORE_MEMORY: &str = "allow more memory (`ulimit -v`)";
 

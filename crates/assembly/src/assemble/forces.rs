@@ -246,36 +246,46 @@ fn unit_of_name(name: &str, dimension: Dimension) -> Result<Option<f64>, Refused
 }
 
 /// A factor in the name of a column: `x 1000`, `*1e3`, `1000*F`, `/1000` or `10^3`. A number beside a direction or a place,
-/// `Fx 2`, `X1`, `grid A x 3`, is none.
+/// `Fx 2`, `X1`, `grid A x 100`, `node 10 x`, is none.
 fn factor_in(name: &str) -> Option<String> {
+    const POWERS: [(&str, &str); 6] = [
+        ("\u{207b}\u{b2}", "^-2"),
+        ("\u{207b}\u{b3}", "^-3"),
+        ("\u{207b}\u{2076}", "^-6"),
+        ("\u{b2}", "^2"),
+        ("\u{b3}", "^3"),
+        ("\u{2076}", "^6"),
+    ];
     let mut text = name.to_lowercase().replace("10**", "10^");
-    for (raised, power) in [('\u{b2}', "^2"), ('\u{b3}', "^3"), ('\u{2076}', "^6")] {
+    for (raised, power) in POWERS {
         text = text.replace(raised, power);
     }
-    // `1e` for `10^` is a number as it is written.
-    text = text.replace("10^", "1e").replace("times", "*");
-    for sign in ['*', '\u{d7}', '\u{b7}'] {
+    // A power of ten multiplies whatever stands before it.
+    text = text.replace("10^", "*1e");
+    for sign in ['*', '\u{d7}', '\u{b7}', '\u{22c5}', '\u{2219}'] {
         text = text.replace(sign, " * ");
     }
     let text = text.replace('/', " / ").replace(['(', ')', '[', ']'], " ");
-    let words: Vec<&str> = text.split_whitespace().collect();
+    let words = text.split_whitespace();
+    let words: Vec<&str> = words.map(|w| if w == "times" { "*" } else { w }).collect();
+    let word_at = |place: Option<usize>| place.and_then(|k| words.get(k)).copied();
     for (place, word) in words.iter().enumerate() {
         let (by, number) = match word.strip_prefix('x') {
-            Some(number) if !number.is_empty() => ("x", number),
-            _ => (place.checked_sub(1).map_or("", |k| words[k]), *word),
+            Some(number) if !number.is_empty() => (Some("x"), number),
+            _ => (word_at(place.checked_sub(1)), *word),
         };
         let Ok(value) = number.parse::<f64>() else {
             continue;
         };
-        let behind = words.get(place + 1).copied().unwrap_or_default();
+        let [behind, next] = [1, 2].map(|more| word_at(Some(place + more)));
         let power = libm::log10(value.abs());
-        let tens = value != 1.0 && (power - libm::round(power)).abs() < 1.0e-9;
+        let tens = (power - libm::round(power)).abs() < 1.0e-9;
+        let is_size = next.is_some_and(|word| word.parse::<f64>().is_ok());
         let is_factor = match (by, behind) {
-            ("*", _) | (_, "*") => value != 1.0,
-            ("x", _) => (tens && value > 10.0) || value < 1.0,
-            ("/", _) => tens && value > 10.0,
-            (_, "x") => tens,
-            _ => tens && number.contains('e'),
+            (Some("*"), _) | (_, Some("*")) => value != 1.0,
+            (Some("x" | "/"), _) => tens && !(0.011..999.0).contains(&value),
+            (None, Some("x")) => tens && value != 1.0 && !is_size,
+            _ => tens && number.starts_with("10e"),
         };
         if is_factor {
             return Some(number.to_owned());

@@ -18,9 +18,6 @@ const COORDINATES: usize = 60;
 const REACH: f64 = 0.5;
 /// Its terms.
 const TERMS: usize = 16;
-/// Product of the fastest decay and an interval up to which the derivatives of the motion, on which peaks rest, keep seven
-/// digits of the accelerations of floors that nearly rigid and heavily damped members join; ten times as much keeps two.
-const FASTEST_DECAY: f64 = 1.5e4;
 /// Blocks of rows of derivatives: those of order two to six, two for bounds, and the others.
 const FIRST: usize = 5;
 const ALL: usize = BOUNDED.end;
@@ -96,12 +93,6 @@ impl Building {
         // The bounds rest on both.
         let (soft, stiff) = values(scaled(&stiffness));
         let (driven, most_damped) = values(scaled(&damping));
-        if lengths
-            .iter()
-            .any(|length| most_damped * length > FASTEST_DECAY)
-        {
-            return None;
-        }
         if !(soft > 0.0) || driven < -1.0e-9 * most_damped.max(f64::MIN_POSITIVE) {
             return None;
         }

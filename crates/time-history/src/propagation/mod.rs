@@ -116,6 +116,13 @@ impl Propagation {
         this
     }
 
+    /// How often every building may die out within the longest interval, at most.
+    pub(crate) fn decays(&self) -> impl Iterator<Item = f64> {
+        let longest = self.lengths.iter().copied().fold(0.0, f64::max);
+        let damped = self.buildings.iter().map(|building| building.damped);
+        damped.map(move |rate| rate * longest)
+    }
+
     /// A series for contacts of a system with these buildings.
     pub(crate) fn contact_series(&self, system: &System) -> ContactSeries {
         ContactSeries::new(system, &self.buildings)

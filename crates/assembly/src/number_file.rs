@@ -37,7 +37,8 @@ impl NumberFile {
     /// ones are left out.
     ///
     /// # Errors
-    /// A file that cannot be read, what is no number, too many rows or columns.
+    /// A file that cannot be read, what is no number, too many rows or columns; where lines may have names, rows of
+    /// another number of columns than these, or than the first.
     pub(crate) fn read(&self, case: &Case, path: &Path) -> Result<Numbers, Refused> {
         let unreadable = |why: &dyn std::fmt::Display| self.unreadable(why);
         match case.given(path) {
@@ -152,7 +153,7 @@ impl NumberFile {
     }
 }
 
-/// The largest file (bytes): far more than its most lines.
+/// The largest file (bytes): more than any with so many lines needs.
 const LARGEST: u64 = 256_000_000;
 
 /// What to do about rows of another number of columns.
@@ -185,9 +186,9 @@ fn separator(text: &str) -> u8 {
 }
 
 /// Whether a text is in characters of two bytes: by the mark at its start, or by the zeros in it.
-fn is_wide(start: &[u8]) -> bool {
-    let marked = start.starts_with(b"\xff\xfe") || start.starts_with(b"\xfe\xff");
-    marked || start.iter().take(2).any(|b| *b == 0)
+fn is_wide(bytes: &[u8]) -> bool {
+    let marked = bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff");
+    marked || bytes.iter().take(2).any(|b| *b == 0)
 }
 
 /// Whether a text names a column; a number that is spelled wrongly, or has its unit, does not.

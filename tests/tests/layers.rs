@@ -231,6 +231,39 @@ fn the_solver_needs_no_files() {
     }
 }
 
+/// Features with which a package is compiled, by what cargo builds of the whole workspace (`cargo metadata` knows more, of
+/// dependencies that are left out).
+fn features(package: &str) -> BTreeSet<String> {
+    let output = Command::new(env!("CARGO"))
+        .args(["tree", "--locked", "--workspace"])
+        .args(["-e", "features", "-i", package])
+        .current_dir(root())
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{output:?}");
+    let tree = String::from_utf8(output.stdout).unwrap();
+    assert!(tree.starts_with(package), "{tree}");
+    let named = format!("{package} feature \"");
+    tree.lines()
+        .filter_map(|l| l.split_once(&named)?.1.split('"').next())
+        .map(str::to_owned)
+        .collect()
+}
+
+/// Libraries that take other instructions where the processor has them round otherwise there: nalgebra's products of matrices
+/// with its feature `std`, which are fused multiply-adds of `matrixmultiply`, the transforms of rustfft by AVX.
+/// `scripts/processors` compares results.
+#[test]
+fn no_library_rounds_as_the_processor_likes() {
+    let expected = ["alloc", "libm-force"].map(str::to_owned);
+    assert_eq!(features("nalgebra"), BTreeSet::from(expected));
+    assert_eq!(features("rustfft"), BTreeSet::new());
+    let packages = Packages::resolved();
+    for none in ["faer", "pulp", "gemm"] {
+        assert!(!packages.0.contains_key(none), "{none}");
+    }
+}
+
 /// Packages of the repository that are no libraries.
 const NOT_PUBLISHED: [&str; 7] = [
     "pounding-book",

@@ -10,7 +10,7 @@
 //! In the coordinates `U_1..U_n, u_f, theta` the mass matrix is diagonal. An influence vector
 //! of ones on the displacements and zero on the rotation belongs to them.
 
-use nalgebra::{Complex, DMatrix, DVector};
+use nalgebra::{Complex, ComplexField, DMatrix, DVector};
 
 use crate::modes::undamped_dense;
 
@@ -544,10 +544,12 @@ impl BuildingOnFoundation {
             let part = f64::from(step) / f64::from(STEPS_OF_DAMPING);
             (s, shape) = self.follow(s, shape, part)?;
         }
-        let oscillates = s.im > ROUND_OFF * s.norm();
+        // That of `Complex` itself may be of the C library.
+        let size = s.modulus();
+        let oscillates = s.im > ROUND_OFF * size;
         oscillates.then(|| CoupledMode {
-            period: std::f64::consts::TAU / s.norm(),
-            damping_ratio: -s.re / s.norm(),
+            period: std::f64::consts::TAU / size,
+            damping_ratio: -s.re / size,
         })
     }
 
@@ -582,20 +584,20 @@ impl BuildingOnFoundation {
             let a = shape.dot(&mass.component_mul(&shape));
             let b = shape.dot(&(&damping * &shape));
             let c = shape.dot(&(&stiffness * &shape));
-            let root = (b * b - a * c * 4.0).sqrt();
+            let root = ComplexField::sqrt(b * b - a * c * 4.0);
             let roots = [(-b + root) / (a * 2.0), (-b - root) / (a * 2.0)];
-            let near = |x: &Complex<f64>| (x - s).norm();
+            let near = |x: &Complex<f64>| (x - s).modulus();
             let [one, other] = roots;
             let found = if near(&one) <= near(&other) {
                 one
             } else {
                 other
             };
-            let change = (found - s).norm();
+            let change = (found - s).modulus();
             s = found;
             // What no longer falls is the round-off of stiffnesses that are far apart.
-            let is_stale = change >= last && change <= MOST_STALE * s.norm();
-            if change <= ROUND_OFF * s.norm() || is_stale {
+            let is_stale = change >= last && change <= MOST_STALE * s.modulus();
+            if change <= ROUND_OFF * s.modulus() || is_stale {
                 return Some((s, shape));
             }
             last = change;
@@ -916,12 +918,12 @@ mod tests {
             let values = state.complex_eigenvalues();
             let first = founded.first_mode().unwrap();
             let distance = |s: &Complex<f64>| {
-                let period = std::f64::consts::TAU / s.norm() / first.period - 1.0;
-                libm::hypot(period, -s.re / s.norm() - first.damping_ratio)
+                let period = std::f64::consts::TAU / s.modulus() / first.period - 1.0;
+                libm::hypot(period, -s.re / s.modulus() - first.damping_ratio)
             };
             let nearest = values.iter().map(distance).fold(1.0, f64::min);
             assert!(nearest < 1e-10, "{nearest:e}");
-            let slowest = values.iter().filter(|s| s.im > 0.0).map(|s| s.norm());
+            let slowest = values.iter().filter(|s| s.im > 0.0).map(|s| s.modulus());
             let slowest = slowest.fold(f64::INFINITY, f64::min);
             near(first.period, std::f64::consts::TAU / slowest, 1e-9);
         }

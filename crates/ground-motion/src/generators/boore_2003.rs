@@ -258,7 +258,7 @@ impl Boore2003 {
         let inner = 1..length / 2;
         let square = coefficients[inner.clone()]
             .iter()
-            .map(realfft::num_complex::Complex::norm_sqr)
+            .map(num_complex::Complex::norm_sqr)
             .sum::<f64>()
             / inner.len() as f64;
         let root_mean_square = square.sqrt();

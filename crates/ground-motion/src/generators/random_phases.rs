@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use realfft::num_complex::Complex64;
+use num_complex::Complex64;
 
 use crate::error::{GroundMotionError, positive};
 use crate::generators::noise::Noise;
@@ -66,7 +66,8 @@ impl<S: PowerSpectrum> StationaryMotion<S> {
             let power = self.spectrum.density(k as f64 * apart) * apart;
             variance += 2.0 * power;
             // 2 sqrt(S dw) cos(w t + phi), halved between both signs of w.
-            *c = Complex64::from_polar(length as f64 * power.sqrt(), noise.phase());
+            let (sine, cosine) = libm::sincos(noise.phase());
+            *c = Complex64::new(cosine, sine).scale(length as f64 * power.sqrt());
         }
         let mut samples = inverse_transform(coefficients, length);
         samples.truncate(count);

@@ -1,43 +1,10 @@
 //! Fourier and power spectra.
 
-use realfft::RealFftPlanner;
-use realfft::num_complex::Complex64;
 use serde::Serialize;
 
 use crate::accelerogram::Accelerogram;
 use crate::error::{GroundMotionError, bound, positive};
-
-/// Coefficients `sum a_j exp(-2 pi i j k/n)`, k = 0..=n/2, of `length` samples: those
-/// given and zeros after them.
-pub(crate) fn transform(samples: &[f64], length: usize) -> Vec<Complex64> {
-    let length = length.max(samples.len());
-    let plan = RealFftPlanner::<f64>::new().plan_fft_forward(length);
-    let mut input = plan.make_input_vec();
-    input[..samples.len()].copy_from_slice(samples);
-    let mut output = plan.make_output_vec();
-    // It fails only where lengths differ, and both come from the plan.
-    let done = plan.process(&mut input, &mut output);
-    debug_assert!(done.is_ok());
-    output
-}
-
-/// The `length` samples of such coefficients; what is imaginary at both ends of the
-/// band is passed over.
-pub(crate) fn inverse_transform(mut coefficients: Vec<Complex64>, length: usize) -> Vec<f64> {
-    let plan = RealFftPlanner::<f64>::new().plan_fft_inverse(length);
-    coefficients.resize(length / 2 + 1, Complex64::default());
-    coefficients[0].im = 0.0;
-    if length.is_multiple_of(2) {
-        coefficients[length / 2].im = 0.0;
-    }
-    let mut output = plan.make_output_vec();
-    let done = plan.process(&mut coefficients, &mut output);
-    debug_assert!(done.is_ok());
-    for a in &mut output {
-        *a /= length as f64;
-    }
-    output
-}
+use crate::spectra::transform::transform;
 
 /// Fourier amplitudes of an acceleration.
 #[derive(Debug, Clone, PartialEq, Serialize)]
@@ -63,7 +30,7 @@ pub fn fourier_spectrum(record: &Accelerogram, least_length: usize) -> FourierSp
     let length = count as f64 * step;
     FourierSpectrum {
         frequencies: (0..coefficients.len()).map(|k| k as f64 / length).collect(),
-        amplitudes: coefficients.iter().map(|c| step * c.norm()).collect(),
+        amplitudes: coefficients.iter().map(|c| step * libm::hypot(c.re, c.im)).collect(),
         length,
         time_step: step,
     }

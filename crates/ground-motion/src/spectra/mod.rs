@@ -9,12 +9,14 @@ mod response;
 mod rotated;
 mod target;
 mod target_file;
+mod transform;
 
 use serde::Serialize;
 
 pub use floor::{FloorMotion, floor_spectrum};
 pub use fourier::{FourierSpectrum, fourier_spectrum};
-pub(crate) use fourier::{inverse_transform, transform};
+pub(crate) use transform::{inverse_transform, transform};
+
 pub(crate) use oscillator::{Oscillator, State, TOGETHER, exponential, zero};
 pub use response::{
     OscillatorResponse, ResponseSpectrum, logarithmic_periods, oscillator_response,

@@ -9,7 +9,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use realfft::num_complex::Complex64;
+use num_complex::Complex64;
 
 use crate::accelerogram::Peak;
 use crate::spectra::Evaluation;
@@ -240,7 +240,7 @@ impl Oscillator {
         if !self.may_reach(peak, states, forces, quantity) {
             return;
         }
-        let amplitude = quantity.curvature.norm();
+        let amplitude = quantity.curvature.norm_sqr().sqrt();
         let h = self.time_step;
         // A step of many half cycles would take an evaluation and more for each: those in which
         // the straight part and the swing together do not reach the peak are passed over.
@@ -266,7 +266,7 @@ impl Oscillator {
             (quantity.rate)(self, state, force)
         };
         // Between zeros of the second derivative the rate is monotonic.
-        let first = (PI / 2.0 - quantity.curvature.arg()).rem_euclid(PI) / self.damped_frequency;
+        let first = (PI / 2.0 - libm::atan2(quantity.curvature.im, quantity.curvature.re)).rem_euclid(PI) / self.damped_frequency;
         let (mut from, mut rate_from) = (0.0, Some((quantity.rate)(self, states[0], forces[0])));
         let mut k = 0;
         while from < h {

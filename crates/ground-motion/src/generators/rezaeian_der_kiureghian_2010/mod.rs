@@ -5,7 +5,7 @@ mod scenario;
 
 use std::f64::consts::{PI, TAU};
 
-use realfft::num_complex::Complex64;
+use num_complex::Complex64;
 
 pub use scenario::{FaultMechanism, RezaeianDerKiureghianScenario};
 

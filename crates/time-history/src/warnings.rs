@@ -103,13 +103,6 @@ pub enum Warning {
         /// Period on the soil over that on a fixed base, less one (-).
         lengthening: f64,
     },
-    /// A building of which parts come to rest so often within a sample that the derivatives of its motion lose digits.
-    FastDecay {
-        /// Name of the building.
-        building: String,
-        /// How often they die out within a sample (-).
-        times: f64,
-    },
     /// A gap wider than a storey beside it is high.
     WideGap {
         /// Name of the gap.
@@ -591,11 +584,6 @@ impl fmt::Display for Warning {
                 "{building}: the soil makes the fundamental period longer by {} % only, as good as a fixed base, and contacts take short steps to follow the foundation on its stiff springs; leave the foundation out, or check the units of the soil",
                 short(100.0 * lengthening.max(0.0))
             ),
-            Self::FastDecay { building, times } => write!(
-                f,
-                "{building}: its damping brings members of it to rest within a sample {} times over: accelerations of floors that members so stiff and heavily damped join may be off by a percent and more; join such floors, give their members less damping, or compare with method = \"newmark\"",
-                short(*times)
-            ),
             Self::Uplift { building, ratio } => write!(
                 f,
                 "{building}: the moment on the foundation is {ratio:.2} of half of weight times length, {}: its edge lifts off the soil, which is not modelled; springs that hold it down make the rotation, and with it the displacement of floors, too small, and the moment too large",
@@ -957,7 +945,6 @@ fn standing(system: &System, options: &RunOptions) -> Vec<Warning> {
         warnings.push(Warning::ManySteps { steps, limit });
     }
     warnings.extend(of_fundamental_modes(system, &options.method));
-    warnings.extend(fast_decays(system, &options.method));
     warnings
 }
 
@@ -1040,28 +1027,6 @@ impl ImplicitSteps {
             _ => return None,
         })
     }
-}
-
-/// How often members may die out within a sample before the derivatives of the motion, on which its peaks rest, lose digits of
-/// accelerations that show: measured with a storey joined by a dashpot, seven are left here, and two at ten times as much.
-const FAST_DECAY: f64 = 1.5e4;
-
-/// Buildings whose damping couples modes, and parts of which die out so fast.
-fn fast_decays(system: &System, method: &MethodChoice) -> Vec<Warning> {
-    let exact = matches!(method, MethodChoice::EventDriven { .. });
-    if !exact || system.contact_free().is_some() {
-        return Vec::new();
-    }
-    let Some(propagation) = system.propagation() else {
-        return Vec::new();
-    };
-    let buildings = system.buildings().iter().zip(propagation.decays());
-    let fast = buildings.filter(|(_, times)| *times > FAST_DECAY);
-    fast.map(|(building, times)| Warning::FastDecay {
-        building: building.name().to_owned(),
-        times,
-    })
-    .collect()
 }
 
 /// Period lengthening, less one, below which soil is as good as a fixed base.

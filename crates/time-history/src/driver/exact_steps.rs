@@ -68,7 +68,7 @@ impl ExactSteps {
         Some(Self {
             series: propagation.contact_series(system),
             doubtful: Vec::with_capacity(functions.len()),
-            put_off: PeaksPutOff::new(system, functions.len()),
+            put_off: PeaksPutOff::new(system, functions.len(), propagation.most_halvings()),
             functions,
             groups,
             stale: true,

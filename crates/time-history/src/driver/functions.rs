@@ -759,7 +759,12 @@ impl Function {
 
     /// Whether it depends on the motion of this building.
     pub(super) fn is_of(&self, building: usize) -> bool {
-        self.row.mobility.iter().any(|(b, _)| *b == building)
+        self.buildings().any(|b| b == building)
+    }
+
+    /// The buildings on whose motion it depends.
+    pub(super) fn buildings(&self) -> impl Iterator<Item = usize> {
+        self.row.mobility.iter().map(|(b, _)| *b)
     }
 
     fn order(&self) -> usize {

@@ -6,7 +6,7 @@ use super::Driver;
 use super::exact_steps::ExactSteps;
 use super::functions::{Begin, Place};
 use crate::dynamics::Segment;
-use crate::propagation::HALVINGS;
+use crate::propagation::{HALVINGS, part_of};
 use crate::system::System;
 
 /// States that are kept at most.
@@ -34,15 +34,19 @@ pub(super) struct PeaksPutOff {
     intervals: Vec<usize>,
     states: Vec<f64>,
     size: usize,
-    /// Space for the state inside an interval, and for the functions to be looked at in it.
+    /// Space for the states at both ends of a part of an interval, one pair for each further halving.
     inside: Vec<f64>,
+    /// The functions to be looked at in it: after those of an interval those of a half of a part and so on, from these places on.
     open: Vec<usize>,
+    open_from: Vec<usize>,
 }
 
 impl PeaksPutOff {
-    pub(super) fn new(system: &System, functions: usize) -> Self {
+    /// With room for this many halvings of an interval.
+    pub(super) fn new(system: &System, functions: usize, halvings: usize) -> Self {
         let size = 2 * system.degrees_of_freedom();
         let capacity = NOTES * STATES + functions;
+        let depths = halvings.saturating_sub(HALVINGS) + 1;
         Self {
             notes: Vec::with_capacity(capacity),
             capacity,
@@ -50,8 +54,9 @@ impl PeaksPutOff {
             intervals: Vec::with_capacity(STATES),
             states: vec![0.0; STATES * size],
             size,
-            inside: vec![0.0; size],
-            open: Vec::with_capacity(functions),
+            inside: vec![0.0; depths * 2 * size],
+            open: Vec::with_capacity(depths * functions),
+            open_from: vec![0; depths],
         }
     }
 
@@ -144,6 +149,31 @@ impl Driver<'_> {
         let Some(which) = exact.propagation.known_length(segment.length) else {
             return;
         };
+        let size = exact.put_off.size;
+        for halvings in 0..=HALVINGS {
+            let put_off = &mut exact.put_off;
+            put_off.inside[..size].copy_from_slice(&put_off.states[number * size..][..size]);
+            let mut unsure = false;
+            for part in 0..1_u32 << halvings {
+                let tau = f64::from(part) * part_of(segment.length, halvings);
+                unsure |= self.look_at_part(exact, segment, (which, halvings), tau);
+            }
+            if !unsure {
+                return;
+            }
+        }
+    }
+
+    /// Takes the peaks of the functions that are open in a part of an interval, from the state at its start to that at its
+    /// end. Whether some polynomials are not exact: from the last of the [`HALVINGS`] on only that part is halved further.
+    /// There a part of the motion dies out within it, which ends of steps leave behind them.
+    fn look_at_part(
+        &mut self,
+        exact: &mut ExactSteps,
+        segment: &Segment,
+        (which, halvings): (usize, usize),
+        tau: f64,
+    ) -> bool {
         let ExactSteps {
             propagation,
             series,
@@ -153,42 +183,57 @@ impl Driver<'_> {
             ..
         } = exact;
         let PeaksPutOff {
-            states,
-            size,
-            inside,
-            open,
-            ..
+            size, inside, open, ..
         } = put_off;
-        for halvings in 0..=HALVINGS {
-            inside.copy_from_slice(&states[number * *size..][..*size]);
-            let parts = 1_u32 << halvings;
-            let mut unsure = false;
-            for part in 0..parts {
-                let tau = segment.length * f64::from(part) / f64::from(parts);
-                let place = (which, halvings);
-                let doubted = |b: usize| open.iter().any(|f| functions[*f].is_of(b));
-                propagation.advance((self.system, segment), tau, place, inside, doubted);
-                propagation.deepen(series, doubted);
-                let ends = &propagation.ends;
-                let now = Place {
-                    system: self.system,
-                    segment,
-                    tau,
-                    contacts: &[],
-                    levels,
-                    series: None,
-                    finest: halvings == HALVINGS,
-                };
-                for function in open.iter() {
-                    unsure |= !functions[*function].takes_peak(&now, ends, &mut self.peaks);
+        let depth = halvings.saturating_sub(HALVINGS);
+        let first = put_off.open_from[depth];
+        let (asked, place) = (first..open.len(), depth * 2 * *size);
+        let (state, end) = inside[place..][..2 * *size].split_at_mut(*size);
+        let doubted = |b: usize| open[asked.clone()].iter().any(|f| functions[*f].is_of(b));
+        propagation.advance(
+            (self.system, segment),
+            tau,
+            (which, halvings),
+            state,
+            doubted,
+        );
+        propagation.deepen(series, doubted);
+        let ends = &propagation.ends;
+        let (u, v) = end.split_at_mut(*size / 2);
+        u.copy_from_slice(&ends.end[0]);
+        v.copy_from_slice(&ends.end[1]);
+        let mut unsure = false;
+        for k in asked.clone() {
+            let function = &functions[open[k]];
+            let most = function.buildings().map(|b| propagation.halvings(which, b));
+            let now = Place {
+                system: self.system,
+                segment,
+                tau,
+                contacts: &[],
+                levels,
+                series: None,
+                finest: halvings >= most.min().unwrap_or(HALVINGS),
+            };
+            if !function.takes_peak(&now, ends, &mut self.peaks) {
+                unsure = true;
+                if halvings >= HALVINGS {
+                    open.push(open[k]);
                 }
-                let (u, v) = inside.split_at_mut(*size / 2);
-                u.copy_from_slice(&ends.end[0]);
-                v.copy_from_slice(&ends.end[1]);
-            }
-            if !unsure {
-                return;
             }
         }
+        if open.len() > asked.end {
+            let (this, below) = inside.split_at_mut(place + 2 * *size);
+            below[..*size].copy_from_slice(&this[place..][..*size]);
+            put_off.open_from[depth + 1] = asked.end;
+            let half = part_of(segment.length, halvings + 1);
+            for tau in [tau, tau + half] {
+                self.look_at_part(exact, segment, (which, halvings + 1), tau);
+            }
+            exact.put_off.open.truncate(asked.end);
+        }
+        let PeaksPutOff { size, inside, .. } = &mut exact.put_off;
+        inside.copy_within(place + *size..place + 2 * *size, place);
+        unsure
     }
 }

@@ -51,7 +51,8 @@ pub(super) struct Building {
     whole: WholeInterval,
     /// Whether forces push it, so that its loads are not its ground accelerations.
     pushed: bool,
-    /// By length, then by the number of halvings.
+    /// By length, then by the number of halvings: [`HALVINGS`], or as many more as it takes for the series of the exponential
+    /// to be summed over the last part.
     steps: Vec<Vec<Step>>,
     /// Displacements, velocities and loads at both ends of the step; what comes of them.
     start: Vec<f64>,
@@ -214,12 +215,10 @@ impl Building {
             change += power;
         }
         let identity = DMatrix::identity(all, all);
-        let mut steps = Vec::with_capacity(HALVINGS + 1);
+        let mut steps = Vec::with_capacity(doublings + 1);
         for left in (0..=doublings).rev() {
             let whole = &identity + &change;
-            if left <= HALVINGS {
-                steps.push(step(n, rate, &whole, &viscous));
-            }
+            steps.push(step(n, rate, &whole, &viscous));
             if left > 0 {
                 // `W + (I + N)' W (I + N)`.
                 let lead = change.view((0, 0), (columns, columns));
@@ -231,6 +230,11 @@ impl Building {
         }
         steps.reverse();
         steps
+    }
+
+    /// How often an interval of this length can be halved.
+    pub(super) fn halvings(&self, which: usize) -> usize {
+        self.steps[which].len() - 1
     }
 
     /// Leads the building over a step.

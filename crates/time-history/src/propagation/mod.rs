@@ -30,7 +30,7 @@ pub(crate) use whole_interval::Courses;
 
 /// Lengths of intervals for which matrices are kept.
 const LENGTHS: usize = 4;
-/// How often an interval can be halved.
+/// How often an interval can be halved at least: of buildings in which a part of the motion dies out faster, more often.
 pub(crate) const HALVINGS: usize = 6;
 /// Lengths closer than this, relative to each other, are one.
 const SAME: f64 = 1.0e-9;
@@ -116,11 +116,21 @@ impl Propagation {
         this
     }
 
-    /// How often every building may die out within the longest interval, at most.
-    pub(crate) fn decays(&self) -> impl Iterator<Item = f64> {
-        let longest = self.lengths.iter().copied().fold(0.0, f64::max);
-        let damped = self.buildings.iter().map(|building| building.damped);
-        damped.map(move |rate| rate * longest)
+    /// How often an interval of this length can be halved in this building: at the end, derivatives of the motion are those of a
+    /// step within the reach of its series, whatever dies out in it.
+    pub(crate) fn halvings(&self, which: usize, building: usize) -> usize {
+        self.buildings[building].halvings(which)
+    }
+
+    /// The most of all buildings and lengths.
+    pub(crate) fn most_halvings(&self) -> usize {
+        let lengths = 0..self.lengths.len();
+        let of = |building| {
+            lengths
+                .clone()
+                .map(move |which| self.halvings(which, building))
+        };
+        (0..self.buildings.len()).flat_map(of).max().unwrap_or(0)
     }
 
     /// A series for contacts of a system with these buildings.
@@ -145,7 +155,7 @@ impl Propagation {
         of: impl Fn(usize) -> bool,
     ) {
         let n = system.degrees_of_freedom();
-        let h = segment.length / f64::from(1_u32 << halvings);
+        let h = part_of(segment.length, halvings);
         self.by_series = false;
         let ends = &mut self.ends;
         ends.length = h;
@@ -244,6 +254,11 @@ impl Propagation {
     pub(crate) fn works(&mut self, series: &mut ContactSeries, system: &System) {
         series.works((system, &self.buildings), &mut self.ends);
     }
+}
+
+/// A half, a quarter and so on of an interval (s).
+pub(crate) fn part_of(length: f64, halvings: usize) -> f64 {
+    length / (1_u64 << halvings) as f64
 }
 
 /// Displacements of the ground, which are cubics.

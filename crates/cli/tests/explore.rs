@@ -216,6 +216,48 @@ fn settings_are_those_of_run() {
     assert_eq!(format!("{:.1}", 1e3 * demand), "117.2");
 }
 
+/// Cases of the examples in which matrices are multiplied (dashpots, plan, columns, soil) have the bits of the command line in the
+/// module too, which knows no fused multiply-add.
+#[test]
+fn coupled_structures_are_those_of_run() {
+    let folders = [
+        "blast_beside_a_tower",
+        "pair_that_turns",
+        "slab_hits_column",
+        "soil_pair",
+    ];
+    for folder in folders {
+        let case = root().join(format!("examples/{folder}/case.toml"));
+        let files = std::fs::read_dir(case.parent().unwrap()).unwrap();
+        let own = files
+            .map(|f| f.unwrap().path())
+            .filter(|f| f.extension().is_some_and(|e| e == "csv"))
+            .map(|f| {
+                (
+                    f.file_name().unwrap().to_str().unwrap().to_owned(),
+                    f.clone(),
+                )
+            });
+        let motions = root().join("ground_motions").read_dir().unwrap();
+        let motions = motions.map(|f| f.unwrap().path()).map(|f| {
+            let name = f.file_name().unwrap().to_str().unwrap().to_owned();
+            (format!("../../ground_motions/{name}"), f)
+        });
+        let files = own.chain(motions);
+        let mut requests: Vec<Value> = files
+            .map(|(name, file)| json!({ "do": "file", "name": name, "$bytes": file }))
+            .collect();
+        requests.push(json!({ "do": "open", "name": "case.toml", "$bytes": case }));
+        requests.push(json!({ "do": "run", "changes": [], "frames": 0 }));
+        let ours = natively(&requests).pop().unwrap();
+        assert!(ours["faults"].is_null(), "{folder}: {}", ours["faults"]);
+        assert!(ours["summary"]["buildings"].is_array(), "{folder}");
+        if let Some(mut module) = under_node(&requests) {
+            same(&module.pop().unwrap()["summary"], &ours["summary"], folder);
+        }
+    }
+}
+
 /// Widths by demand, codes and rules are those of `pounding gap`, runs of a sweep too, and other
 /// models are calibrated as by `compare`.
 #[test]

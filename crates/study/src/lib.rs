@@ -9,6 +9,9 @@
 //! Without the feature `results`, which needs HDF5, there are gap checks, calibrated models,
 //! edited cases and what is wrong with them: all that reads and writes no file.
 
+// The same bits on every machine: see clippy.toml.
+#![warn(clippy::disallowed_methods)]
+
 pub mod calibration;
 pub mod edited;
 pub mod faults;

@@ -65,7 +65,10 @@ pub(super) fn stiffness(
 pub(super) fn elastic_penetration(reference: &ReferenceCollision) -> f64 {
     let n = reference.exponent;
     let energy = reference.effective_mass * reference.approach_velocity.powi(2);
-    (0.5 * (n + 1.0) * energy / reference.stiffness).powf(1.0 / (n + 1.0))
+    libm::pow(
+        0.5 * (n + 1.0) * energy / reference.stiffness,
+        1.0 / (n + 1.0),
+    )
 }
 
 /// Contact time (s) of the elastic law of this exponent and penetration (m): the time for
@@ -76,7 +79,7 @@ fn duration_of(exponent: f64, depth: f64, approach: Approach) -> Result<f64, Str
     let trial = depth / approach.velocity;
     let other = duration(trial, exponent, approach, None).map_err(text)?;
     // k is proportional to T^-(n + 1) at one velocity.
-    Ok(trial * (other.value / wanted.value).powf(1.0 / (exponent + 1.0)))
+    Ok(trial * libm::pow(other.value / wanted.value, 1.0 / (exponent + 1.0)))
 }
 
 #[cfg(test)]

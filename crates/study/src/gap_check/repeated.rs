@@ -172,9 +172,9 @@ mod tests {
             let t = 0.01 * i as f64;
             let sines = (1..20).map(|k| {
                 let k = f64::from(k);
-                (k * (3.0 + seed) * t + k * k * seed).sin() / k
+                libm::sin(k * (3.0 + seed) * t + k * k * seed) / k
             });
-            sines.sum::<f64>() * (-(t - 5.0) * (t - 5.0) / 8.0).exp()
+            sines.sum::<f64>() * libm::exp(-(t - 5.0) * (t - 5.0) / 8.0)
         };
         (0..1000).map(at).collect()
     }

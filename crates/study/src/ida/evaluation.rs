@@ -967,7 +967,7 @@ mod tests {
         let intensities: Vec<f64> = (0..6).map(|i| 0.5 * 1.35_f64.powi(i)).collect();
         let mut runs = Vec::new();
         for record in 0..12 {
-            let capacity = (0.4 * quantile((record as f64 + 0.5) / 12.0)).exp();
+            let capacity = libm::exp(0.4 * quantile((record as f64 + 0.5) / 12.0));
             for structure in 0..structures {
                 for (level, intensity) in intensities.iter().enumerate() {
                     runs.push(Run {
@@ -1017,7 +1017,7 @@ mod tests {
         assert_eq!(a.degrees_of_freedom, b.degrees_of_freedom);
         let random = |record: usize, structure: usize| {
             let unit = crate::design::mixing::unit(&[5, record as u64, structure as u64]);
-            (2.0 * pounding_ground_motion::distributions::normal_quantile(unit)).exp()
+            libm::exp(2.0 * pounding_ground_motion::distributions::normal_quantile(unit))
         };
         let (one, ten) = (with_structures(1, &random), with_structures(10, &random));
         let ratio = fitted(&one).standard_errors[0] / fitted(&ten).standard_errors[0];
@@ -1079,7 +1079,7 @@ mod tests {
     fn least_gap(intensities: &[f64]) -> MinimumGap {
         let quantile = pounding_ground_motion::distributions::normal_quantile;
         let per_g =
-            (0..30).map(|record| 0.2 * (0.4 * quantile((f64::from(record) + 0.5) / 30.0)).exp());
+            (0..30).map(|record| 0.2 * libm::exp(0.4 * quantile((f64::from(record) + 0.5) / 30.0)));
         let demands: Vec<f64> = per_g.collect();
         least_gap_of(&demands, intensities, (2e-4, 2e-3))
     }
@@ -1142,7 +1142,7 @@ mod tests {
     fn a_steep_end_of_the_hazard_leaves_the_least_gap() {
         let quantile = pounding_ground_motion::distributions::normal_quantile;
         let per_g =
-            (0..30).map(|record| 0.2 * (0.4 * quantile((f64::from(record) + 0.5) / 30.0)).exp());
+            (0..30).map(|record| 0.2 * libm::exp(0.4 * quantile((f64::from(record) + 0.5) / 30.0)));
         let per_g: Vec<f64> = per_g.collect();
         let fine: Vec<f64> = (0..16).map(|i| 0.05 * 1.35_f64.powi(i)).collect();
         let points = [(0.02, 0.5), (2.0, 5e-5)].map(|(x, y)| (x * STANDARD_GRAVITY, y));
@@ -1163,7 +1163,7 @@ mod tests {
     fn a_curve_that_begins_late_bounds_the_least_gap() {
         let quantile = pounding_ground_motion::distributions::normal_quantile;
         let per_g =
-            (0..30).map(|record| 0.2 * (0.4 * quantile((f64::from(record) + 0.5) / 30.0)).exp());
+            (0..30).map(|record| 0.2 * libm::exp(0.4 * quantile((f64::from(record) + 0.5) / 30.0)));
         let per_g: Vec<f64> = per_g.collect();
         let fine: Vec<f64> = (0..16).map(|i| 0.05 * 1.35_f64.powi(i)).collect();
         // Exceeded with 2e-4 / x^2, x in g, from this intensity on.
@@ -1196,7 +1196,7 @@ mod tests {
     /// that lie above or below give an upper bound, and say so with what lies below it.
     #[test]
     fn gaps_that_the_intensities_leave_open_are_bounds() {
-        let exact = 0.2 * (0.1 * f64::exp(0.32)).sqrt();
+        let exact = 0.2 * (0.1 * libm::exp(0.32)).sqrt();
         let fine: Vec<f64> = (0..16).map(|i| 0.05 * 1.35_f64.powi(i)).collect();
         let found = least_gap(&fine);
         assert!(

@@ -75,7 +75,7 @@ impl Fragility {
         if intensity <= 0.0 {
             return 0.0;
         }
-        normal_distribution((intensity / self.median).ln() / self.dispersion)
+        normal_distribution(libm::log(intensity / self.median) / self.dispersion)
     }
 
     /// How many standard errors bounds with this confidence lie off on either side.
@@ -95,7 +95,10 @@ impl Fragility {
     #[must_use]
     pub fn median_bounds(&self, confidence: f64) -> [f64; 2] {
         let reach = self.reach(confidence) * self.standard_errors[0];
-        [self.median * (-reach).exp(), self.median * reach.exp()]
+        [
+            self.median * libm::exp(-reach),
+            self.median * libm::exp(reach),
+        ]
     }
 
     /// Bounds of the dispersion, with this confidence: even in its logarithm.
@@ -103,8 +106,8 @@ impl Fragility {
     pub fn dispersion_bounds(&self, confidence: f64) -> [f64; 2] {
         let reach = self.reach(confidence) * self.standard_errors[1] / self.dispersion;
         [
-            self.dispersion * (-reach).exp(),
-            self.dispersion * reach.exp(),
+            self.dispersion * libm::exp(-reach),
+            self.dispersion * libm::exp(reach),
         ]
     }
 
@@ -112,7 +115,7 @@ impl Fragility {
     /// covariance of the parameters by the delta method on the scale of the quantile.
     #[must_use]
     pub fn probability_bounds(&self, intensity: f64, confidence: f64) -> [f64; 2] {
-        let z = (intensity / self.median).ln() / self.dispersion;
+        let z = libm::log(intensity / self.median) / self.dispersion;
         let (a, b) = (-1.0 / self.dispersion, -z / self.dispersion);
         let [s, t] = self.standard_errors;
         let variance = a * a * s * s + b * b * t * t + 2.0 * a * b * self.covariance;
@@ -142,7 +145,7 @@ impl FragilityFit {
             return self;
         };
         // About the logarithm of the median the intercept is zero.
-        let (slope, centre) = (1.0 / fit.dispersion, fit.median.ln());
+        let (slope, centre) = (1.0 / fit.dispersion, libm::log(fit.median));
         let used = counts.iter().filter(|c| c.runs > 0 && c.intensity > 0.0);
         let here = likelihood(&used.collect::<Vec<_>>(), 0.0, slope, centre);
         let [aa, ab, bb] = here.hessian;
@@ -248,7 +251,7 @@ fn likelihood(used: &[&Counts], a: f64, b: f64, centre: f64) -> Likelihood {
         hessian: [0.0; 3],
     };
     for c in used {
-        let x = c.intensity.ln() - centre;
+        let x = libm::log(c.intensity) - centre;
         let z = a + b * x;
         let density = normal_density(z);
         // Both sides of the law by themselves, so that neither tail is lost.
@@ -261,7 +264,7 @@ fn likelihood(used: &[&Counts], a: f64, b: f64, centre: f64) -> Likelihood {
             }
             let n = count as f64;
             let ratio = density / side.max(f64::MIN_POSITIVE);
-            l.value += n * side.max(f64::MIN_POSITIVE).ln();
+            l.value += n * libm::log(side.max(f64::MIN_POSITIVE));
             let first = sign * n * ratio;
             let second = -n * ratio * (ratio + sign * z);
             l.gradient[0] += first;
@@ -279,7 +282,7 @@ fn likelihood(used: &[&Counts], a: f64, b: f64, centre: f64) -> Likelihood {
 fn of_motion(curve: &CurveOfRuns, (slope, centre): (f64, f64), spread: &mut [f64; 3]) {
     // What each run brings where the state is reached, and where not.
     let runs = curve.iter().map(|(intensity, runs)| {
-        let x = intensity.ln() - centre;
+        let x = libm::log(*intensity) - centre;
         let z = slope * x;
         let density = runs * normal_density(z);
         let [below, above] = [z, -z].map(|z| normal_distribution(z).max(f64::MIN_POSITIVE));
@@ -315,7 +318,7 @@ fn maximum(used: &[&Counts]) -> Option<Fragility> {
     // Around the mean logarithm intercept and slope hardly disturb one another.
     let centre = used
         .iter()
-        .map(|c| c.runs as f64 * c.intensity.ln())
+        .map(|c| c.runs as f64 * libm::log(c.intensity))
         .sum::<f64>()
         / runs;
     let (mut a, mut b) = (0.0, 1.0);
@@ -362,7 +365,7 @@ fn parameters(here: &Likelihood, a: f64, b: f64, centre: f64) -> Fragility {
     let variance =
         median[0] * median[0] * va + 2.0 * median[0] * median[1] * vab + median[1] * median[1] * vb;
     Fragility {
-        median: (centre - a / b).exp(),
+        median: libm::exp(centre - a / b),
         dispersion: 1.0 / b,
         standard_errors: [variance.max(0.0).sqrt(), spread.abs() * vb.max(0.0).sqrt()],
         covariance: spread * (median[0] * vab + median[1] * vb),
@@ -411,15 +414,15 @@ mod tests {
     fn two_intensities_are_met() {
         let f = lognormal(&[(0.2, 40, 6), (0.5, 40, 27)]);
         let (z1, z2) = (normal_quantile(6.0 / 40.0), normal_quantile(27.0 / 40.0));
-        let dispersion = (0.5_f64 / 0.2).ln() / (z2 - z1);
-        let median = 0.2 * (-z1 * dispersion).exp();
+        let dispersion = libm::log(0.5_f64 / 0.2) / (z2 - z1);
+        let median = 0.2 * libm::exp(-z1 * dispersion);
         assert!((f.dispersion / dispersion - 1.0).abs() < 1e-12);
         assert!((f.median / median - 1.0).abs() < 1e-12);
         assert!((f.probability(0.5) - 27.0 / 40.0).abs() < 1e-12);
         // Each quantile has the variance p (1 - p) / (n density^2), by the delta method
         // on its own fraction, and the two are independent.
         let variance = |p: f64| p * (1.0 - p) / (40.0 * normal_density(normal_quantile(p)).powi(2));
-        let span = (0.5_f64 / 0.2).ln();
+        let span = libm::log(0.5_f64 / 0.2);
         let spread =
             span / (z2 - z1).powi(2) * (variance(6.0 / 40.0) + variance(27.0 / 40.0)).sqrt();
         assert!((f.standard_errors[1] / spread - 1.0).abs() < 1e-10);
@@ -444,7 +447,7 @@ mod tests {
         let variance = |i: usize| p[i] * (1.0 - p[i]) / (40.0 * density[i] * density[i]);
         let together = p[0] * (1.0 - p[1]) / (40.0 * density[0] * density[1]);
         let rise = z[1] - z[0];
-        let span = (0.5_f64 / 0.2).ln();
+        let span = libm::log(0.5_f64 / 0.2);
         let spread = span / (rise * rise) * (variance(0) + variance(1) - 2.0 * together).sqrt();
         assert!((f.standard_errors[1] / spread - 1.0).abs() < 1e-9, "{f:?}");
         // ln median = ln 0.2 - z1 span / (z2 - z1).
@@ -467,14 +470,15 @@ mod tests {
         const SETS: u64 = 600;
         const DISPERSION: f64 = 0.3;
         for (records, levels) in [(40_u64, 8_u64), (40, 24), (10, 24)] {
-            let intensity = |level| 5.0_f64.powf(2.0 * level as f64 / (levels - 1) as f64 - 1.0);
+            let intensity =
+                |level| libm::pow(5.0_f64, 2.0 * level as f64 / (levels - 1) as f64 - 1.0);
             let intensities: Vec<f64> = (0..levels).map(intensity).collect();
             let curves = vec![intensities.iter().map(|i| (*i, 1.0)).collect(); records as usize];
             let (mut found, mut held, mut errors, mut alone) = (Vec::new(), [0; 2], [0.0; 2], 0.0);
             for set in 0..SETS {
                 let first = (0..records).map(|record| {
                     let random = normal_quantile(unit(&[7, levels, set, records, record]));
-                    (DISPERSION * random).exp()
+                    libm::exp(DISPERSION * random)
                 });
                 let first: Vec<f64> = first.collect();
                 let row = |intensity: &f64| Counts {
@@ -492,7 +496,7 @@ mod tests {
                 else {
                     continue;
                 };
-                found.push([f.median.ln(), f.dispersion]);
+                found.push([libm::log(f.median), f.dispersion]);
                 let [low, high] = f.median_bounds(0.95);
                 held[0] += usize::from(low < 1.0 && 1.0 < high);
                 let [low, high] = f.dispersion_bounds(0.95);

@@ -325,8 +325,9 @@ mod tests {
         for (k, median, beta) in [(2.5, 0.4, 0.45), (1.7, 3.0, 0.8), (3.2, 1.0, 0.2)] {
             let k0 = 2.0e-4;
             let grid = (0..400).map(|i| 1e-6 * 1.1_f64.powi(i));
-            let curve = HazardCurve::new(grid.map(|x| (x, k0 * x.powf(-k))).collect()).unwrap();
-            let expected = k0 * f64::powf(median, -k) * (0.5 * k * k * beta * beta).exp();
+            let curve =
+                HazardCurve::new(grid.map(|x| (x, k0 * libm::pow(x, -k))).collect()).unwrap();
+            let expected = k0 * libm::pow(median, -k) * libm::exp(0.5 * k * k * beta * beta);
             let found = curve.with_fragility(&fragility(median, beta));
             assert!((found / expected - 1.0).abs() < 1e-10, "{found} {expected}");
         }
@@ -339,13 +340,13 @@ mod tests {
         let curve = HazardCurve::new(points).unwrap();
         let f = fragility(0.5, 0.5);
         let count = 1_000_000;
-        let (from, to) = (0.05_f64.ln(), 60.0_f64.ln());
+        let (from, to) = (libm::log(0.05_f64), libm::log(60.0_f64));
         let h = (to - from) / f64::from(count);
         let mut sum = 0.0;
         for i in 0..count {
             let (a, b) = (from + h * f64::from(i), from + h * f64::from(i + 1));
-            let fall = curve.frequency(a.exp()) - curve.frequency(b.exp());
-            sum += fall * f.probability((0.5 * (a + b)).exp());
+            let fall = curve.frequency(libm::exp(a)) - curve.frequency(libm::exp(b));
+            sum += fall * f.probability(libm::exp(0.5 * (a + b)));
         }
         let found = curve.with_fragility(&f);
         assert!((found / sum - 1.0).abs() < 1e-8, "{found} {sum}");
@@ -361,21 +362,21 @@ mod tests {
             (0.906_179_845_938_664, 0.236_926_885_056_189_08),
             (-0.906_179_845_938_664, 0.236_926_885_056_189_08),
         ];
-        let reach = (from / f.median).ln().max(9.0 * f.dispersion) + 60.0 / law.slope;
-        let to = to.min(f.median * reach.exp());
-        let rise = 0.5 * ((from / f.median).ln().min(0.0) / f.dispersion).powi(2);
-        let to = to.min(from * ((60.0 + rise) / law.slope).exp());
+        let reach = libm::log(from / f.median).max(9.0 * f.dispersion) + 60.0 / law.slope;
+        let to = to.min(f.median * libm::exp(reach));
+        let rise = 0.5 * (libm::log(from / f.median).min(0.0) / f.dispersion).powi(2);
+        let to = to.min(from * libm::exp((60.0 + rise) / law.slope));
         // Above, all reach the state: the law alone is left.
-        let all = f.median * (9.0 * f.dispersion).exp();
+        let all = f.median * libm::exp(9.0 * f.dispersion);
         if from < all && all < to {
             return quadrature(f, law, from, all) + quadrature(f, law, all, to);
         }
         let panels = 3_000;
-        let width = (to / from).ln() / f64::from(panels);
+        let width = libm::log(to / from) / f64::from(panels);
         let at = |u: f64| {
-            let quantile = ((from / f.median).ln() + u) / f.dispersion;
-            let log = law.slope * ((from / law.intensity).ln() + u);
-            law.slope * law.frequency * (-log).exp() * normal_distribution(quantile)
+            let quantile = (libm::log(from / f.median) + u) / f.dispersion;
+            let log = law.slope * (libm::log(from / law.intensity) + u);
+            law.slope * law.frequency * libm::exp(-log) * normal_distribution(quantile)
         };
         let panel = |i: u32| -> f64 {
             let middle = (f64::from(i) + 0.5) * width;
@@ -465,9 +466,9 @@ mod tests {
     #[test]
     fn what_a_curve_leaves_out_is_told() {
         let (k0, k, median, beta) = (2.0e-4_f64, 2.2_f64, 0.4_f64, 0.5_f64);
-        let law = |x: f64| (x, k0 * x.powf(-k));
+        let law = |x: f64| (x, k0 * libm::pow(x, -k));
         let shown = |si: f64| ShownIntensity { si, in_g: false };
-        let all = k0 * median.powf(-k) * (0.5 * k * k * beta * beta).exp();
+        let all = k0 * libm::pow(median, -k) * libm::exp(0.5 * k * k * beta * beta);
         let fit = FragilityFit::Lognormal(fragility(median, beta));
         let wide = [0.01, 9.0];
         let short = HazardCurve::new(vec![law(0.3), law(3.0)]).unwrap();
@@ -537,7 +538,7 @@ mod tests {
             lower: 0.5,
             upper: 0.7,
         };
-        let expected = 1e-2 * 5.0_f64.powf(-2.0);
+        let expected = 1e-2 * libm::pow(5.0_f64, -2.0);
         assert!((mean_annual_frequency(&step, &curve).unwrap() / expected - 1.0).abs() < 1e-12);
         let never = FragilityFit::Never { up_to: 1.0 };
         assert!((mean_annual_frequency(&never, &curve).unwrap() / 1e-4 - 1.0).abs() < 1e-12);

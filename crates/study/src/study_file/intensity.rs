@@ -65,8 +65,8 @@ impl IntensityMeasure {
             | Self::AverageSpectralAcceleration { periods, damping } => {
                 let spectrum = response_spectrum(record, periods, *damping, evaluation)?;
                 let values = &spectrum.pseudo_acceleration;
-                let sum: f64 = values.iter().map(|a| a.ln()).sum();
-                (sum / values.len() as f64).exp()
+                let sum: f64 = values.iter().map(|a| libm::log(*a)).sum();
+                libm::exp(sum / values.len() as f64)
             }
         })
     }
@@ -101,8 +101,8 @@ impl IntensityMeasure {
         match self {
             Self::SpectralAcceleration { periods, .. }
             | Self::AverageSpectralAcceleration { periods, .. } => {
-                let sum: f64 = periods.iter().map(|period| period.ln()).sum();
-                (sum / periods.len() as f64).exp().max(1.0)
+                let sum: f64 = periods.iter().map(|period| libm::log(*period)).sum();
+                libm::exp(sum / periods.len() as f64).max(1.0)
             }
             Self::PeakGroundAcceleration | Self::PeakGroundVelocity => 1.0,
         }
@@ -244,11 +244,11 @@ fn periods(
 
 /// From 0.2 to 3 times the geometric mean of some periods.
 fn band(periods: &[f64]) -> Vec<f64> {
-    let sum: f64 = periods.iter().map(|t| t.ln()).sum();
-    let middle = (sum / periods.len() as f64).exp();
+    let sum: f64 = periods.iter().map(|t| libm::log(*t)).sum();
+    let middle = libm::exp(sum / periods.len() as f64);
     let (from, to) = (0.2 * middle, 3.0 * middle);
-    let step = (to / from).ln() / (AVERAGED - 1) as f64;
+    let step = libm::log(to / from) / (AVERAGED - 1) as f64;
     (0..AVERAGED)
-        .map(|i| from * (step * i as f64).exp())
+        .map(|i| from * libm::exp(step * i as f64))
         .collect()
 }

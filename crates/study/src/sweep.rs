@@ -488,28 +488,30 @@ fn spare_other_shards(description: &Description, output: &Path) -> Result<(), St
     }
 }
 
-/// What the user should know of a folder of shards that holds another version of the study. One
-/// shard is looked at, as of thousands each would look at all others: where none was said to be of
-/// another version, they are of one.
+/// Results of other shards that a shard looks at: of thousands each would look at all others, and one of either version is
+/// found soon.
+const LOOKED_AT: usize = 16;
+
+/// What the user should know of a folder of shards that holds another version of the study.
 fn other_version(description: &Description, options: &SweepOptions) -> Option<String> {
     let folder = options.shared.as_deref()?;
     let own = ShardName::of(&options.output.file_name()?.to_string_lossy())?;
-    let mut names = std::fs::read_dir(folder).ok()?.filter_map(|entry| {
+    let names = std::fs::read_dir(folder).ok()?.filter_map(|entry| {
         let name = ShardName::of(&entry.ok()?.file_name().to_string_lossy())?;
         let is_other = name.study == own.study && name.count == own.count && name != own;
         is_other.then_some(name)
     });
-    let (path, study) = names.find_map(|name| {
+    let mut studies = names.filter_map(|name| {
         let path = folder.join(name.result());
         let study = Label::of(&path)?.study?;
         Some((path, study))
-    })?;
-    (study.sha256 != description.study_sha256).then(|| {
-        format!(
-            "{} is of another version of the study, and is not merged with this shard: move it away and make it again, or give each version a folder of its own",
-            path.display()
-        )
-    })
+    });
+    let mut looked_at = studies.by_ref().take(LOOKED_AT);
+    let (path, _) = looked_at.find(|(_, study)| study.sha256 != description.study_sha256)?;
+    Some(format!(
+        "{} is of another version of the study, and is not merged with this shard: move it away and make it again, or give each version a folder of its own",
+        path.display()
+    ))
 }
 
 /// What a result is that is not this one.

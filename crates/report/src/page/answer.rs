@@ -122,7 +122,7 @@ impl<'a> Answer<'a> {
         let whole = column.counts() || source.starts_with("count ") || self.is_whole(source, row);
         match whole && value.is_finite() {
             true => format!("{value}"),
-            false => figures_of(source, value),
+            false => figures_of(&source.replace('*', row), value),
         }
     }
 

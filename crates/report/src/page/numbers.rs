@@ -6,7 +6,7 @@ use pounding_catalogue::numbers::rounded_up;
 const SMALL: [&str; 4] = ["mean_annual_frequency", "/hazard/", "residual", "p_value"];
 
 /// Parts of the names of widths that are asked for, by records, rules, codes and target frequencies, and how these end.
-const REQUIRED: [(&str, &str); 7] = [
+const REQUIRED: [(&str, &str); 9] = [
     ("", "/required"),
     ("", "/required/by_count"),
     ("", "/required/lognormal/width"),
@@ -14,13 +14,17 @@ const REQUIRED: [(&str, &str); 7] = [
     ("/provisions/", "/records/+/width"),
     ("/combinations/", "/width/+/+"),
     ("/readings/", "/width"),
+    ("maximum /gaps/", "/demand/+/peak"),
+    ("/gaps/", "/suite/maximum"),
 ];
 
 /// Four figures of the number of this name or path, of a width that is asked for at least those; a dash for what is
 /// not known.
 pub(super) fn figures_of(name: &str, x: f64) -> String {
     let mut required = REQUIRED.iter();
-    if required.any(|(part, end)| name.contains(part) && name.ends_with(end)) {
+    // What is divided by such a width is none.
+    let is_ratio = name.contains(" / ");
+    if !is_ratio && required.any(|(part, end)| name.contains(part) && name.ends_with(end)) {
         return figures_that_suffice(x);
     }
     match SMALL.iter().any(|part| name.contains(part)) {
@@ -145,6 +149,13 @@ mod tests {
             ("maximum /gaps/0/combinations/*/width/+/+", "160.2"),
             ("/gaps/0/code/cases/0/levels/1/readings/0/width", "160.2"),
             ("/gaps/0/minimum/width", "160.2"),
+            ("maximum /gaps/0/levels/*/demand/+/peak", "160.2"),
+            ("/gaps/0/suite/maximum", "160.2"),
+            ("/gaps/0/suite/mean", "160.1"),
+            (
+                "/gaps/0/levels/*/width / maximum /gaps/0/levels/*/demand/+/peak",
+                "160.1",
+            ),
             // What is provided, and what was tried.
             ("/gaps/0/levels/*/width", "160.1"),
             ("/sweep/widths/*", "160.1"),

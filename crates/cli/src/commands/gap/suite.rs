@@ -1,6 +1,6 @@
 //! The records of a gap check, one by one and together.
 
-use pounding_catalogue::numbers::{rounded_up_beside, six_digits};
+use pounding_catalogue::numbers::{rounded_up, rounded_up_beside, six_digits};
 use pounding_study::gap_check::GapCheck;
 
 use crate::tables::{G, decimal, new_table};
@@ -49,7 +49,7 @@ pub fn suite(check: &GapCheck, index: usize, all: bool) -> String {
         mm(s.median),
         mm(s.p16),
         mm(s.p84),
-        mm(s.maximum),
+        rounded_up(s.maximum * 1e3, 1),
         mm(s.standard_deviation),
     );
     if check.records.len() > LISTED && !all {

@@ -304,6 +304,33 @@ fn the_overturning_ratio_of_storeys_with_laws_is_that_of_elastic_ones() {
     );
 }
 
+/// The double difference combination takes of both buildings the mode on the soil that `check` names, with the damping of the
+/// soil: its correlation is the formula (Jeng, Kasai and Maison 1992, Earthquake Spectra 8, 201) of these.
+#[test]
+fn the_correlation_on_soil_is_that_of_the_modes_of_check() {
+    let bench = Bench::with(&by_soil());
+    let checked = bench.json("check case.toml");
+    let [a, b] = [0, 1].map(|k| {
+        let soil = &checked["buildings"][k]["foundation"];
+        ["period", "damping_ratio"].map(|of| soil[of].as_f64().unwrap())
+    });
+    let ([ta, xa], [tb, xb]) = (a, b);
+    let r = tb / ta;
+    let expected = 8.0 * (xa * xb).sqrt() * (xb + xa * r) * r.powf(1.5)
+        / ((1.0 - r * r).powi(2)
+            + 4.0 * r * xa * xb * (1.0 + r * r)
+            + 4.0 * (xa * xa + xb * xb) * r * r);
+    let output = bench.output("gap case.toml --points 0 --json");
+    let told: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let rules = told["gaps"][0]["combinations"].as_array().unwrap();
+    let found = rules.iter().find(|r| r["rule"] == "double_difference");
+    let correlation = found.unwrap()["correlation"].as_f64().unwrap();
+    assert!(
+        (correlation / expected - 1.0).abs() < 1e-12,
+        "{correlation} {expected}"
+    );
+}
+
 /// Both buildings with storeys that yield.
 fn yielding(analysis: &str) -> String {
     let with_law = |building: &str, force: &str| {

@@ -30,7 +30,10 @@ pub fn fourier_spectrum(record: &Accelerogram, least_length: usize) -> FourierSp
     let length = count as f64 * step;
     FourierSpectrum {
         frequencies: (0..coefficients.len()).map(|k| k as f64 / length).collect(),
-        amplitudes: coefficients.iter().map(|c| step * libm::hypot(c.re, c.im)).collect(),
+        amplitudes: coefficients
+            .iter()
+            .map(|c| step * libm::hypot(c.re, c.im))
+            .collect(),
         length,
         time_step: step,
     }

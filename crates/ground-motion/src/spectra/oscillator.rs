@@ -266,7 +266,9 @@ impl Oscillator {
             (quantity.rate)(self, state, force)
         };
         // Between zeros of the second derivative the rate is monotonic.
-        let first = (PI / 2.0 - libm::atan2(quantity.curvature.im, quantity.curvature.re)).rem_euclid(PI) / self.damped_frequency;
+        let first = (PI / 2.0 - libm::atan2(quantity.curvature.im, quantity.curvature.re))
+            .rem_euclid(PI)
+            / self.damped_frequency;
         let (mut from, mut rate_from) = (0.0, Some((quantity.rate)(self, states[0], forces[0])));
         let mut k = 0;
         while from < h {

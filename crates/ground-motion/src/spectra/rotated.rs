@@ -177,7 +177,9 @@ impl<'a> Pair<'a> {
         let curvature = |k: usize| {
             let of = |c: usize| {
                 let forces = [-self.ground[c][k], -self.ground[c][k + 1]];
-                let curvature = self.oscillator.curvature(self.states[c][k], forces[0], forces[1]);
+                let curvature = self
+                    .oscillator
+                    .curvature(self.states[c][k], forces[0], forces[1]);
                 libm::hypot(curvature.re, curvature.im)
             };
             libm::hypot(of(0), of(1))

@@ -60,7 +60,11 @@ fn roots_of_unity(n: usize) -> Vec<Complex64> {
 fn root_of_unity(k: usize, n: usize) -> Complex64 {
     // Eighths of a turn, and what is left of the last one, from that of its ends which is a multiple of a quarter.
     let (eighth, rest) = (8 * k / n, 8 * k % n);
-    let from_quarter = if eighth.is_multiple_of(2) { rest } else { n - rest };
+    let from_quarter = if eighth.is_multiple_of(2) {
+        rest
+    } else {
+        n - rest
+    };
     let (sine, cosine) = if from_quarter == n {
         (FRAC_1_SQRT_2, FRAC_1_SQRT_2)
     } else {
@@ -119,7 +123,12 @@ fn pass_of_four(
         let (s1, rest) = rest.split_at_mut(stride);
         let (s2, s3) = rest.split_at_mut(stride);
         let here = p * stride..(p + 1) * stride;
-        let (a, b, c, d) = (&a[here.clone()], &b[here.clone()], &c[here.clone()], &d[here]);
+        let (a, b, c, d) = (
+            &a[here.clone()],
+            &b[here.clone()],
+            &c[here.clone()],
+            &d[here],
+        );
         for q in 0..stride {
             let (even, odd) = (a[q] + c[q], b[q] + d[q]);
             let (apart, across) = (a[q] - c[q], b[q] - d[q]);
@@ -199,7 +208,10 @@ mod tests {
             assert_eq!(found.len(), length / 2 + 1);
             for (k, found) in found.iter().enumerate() {
                 let error = (found - directly(&given, length, k)).norm_sqr().sqrt();
-                assert!(error < 1.0e-14 * scale, "{length}, {k}: {error:e} of {scale}");
+                assert!(
+                    error < 1.0e-14 * scale,
+                    "{length}, {k}: {error:e} of {scale}"
+                );
             }
         }
     }

@@ -757,9 +757,17 @@ fn oscillator(
 ) -> Result<Oscillator, CheckError> {
     let made = &place.system.buildings()[building];
     let (modes, mode) = (made.modes(), made.fundamental_mode());
-    let first = Oscillator {
-        period: modes.period[mode],
-        damping_ratio: modes.damping_ratio[mode],
+    // On soil the mode that `check` names, with the damping of both.
+    let on_soil = made.foundation().and_then(|soil| soil.first_mode());
+    let first = match on_soil {
+        Some(damped) => Oscillator {
+            period: damped.period,
+            damping_ratio: damped.damping_ratio,
+        },
+        None => Oscillator {
+            period: modes.period[mode],
+            damping_ratio: modes.damping_ratio[mode],
+        },
     };
     let isolator = isolated.isolator.as_ref();
     if let Some(isolator) = isolator.filter(|i| i.effective_period > first.period) {

@@ -118,9 +118,22 @@ fn present(value: f64, plain: &[u8]) -> Result<f64, String> {
             "\"{}\" stands for a value that is missing",
             shown(plain)
         ))
+    } else if value == 0.0 && !is_zero(plain) {
+        Err(format!(
+            "\"{}\" is not zero, but its exponent makes it too small to be told from it",
+            shown(plain)
+        ))
     } else {
         Ok(value)
     }
+}
+
+/// Whether no digit of the mantissa is other than zero.
+fn is_zero(plain: &[u8]) -> bool {
+    let mantissa = plain.split(|b| b"eEdD".contains(b)).next();
+    let mantissa = mantissa.unwrap_or_default();
+    let mantissa = &mantissa[..inner_sign(mantissa).unwrap_or(mantissa.len())];
+    !mantissa.iter().any(|b| (b'1'..=b'9').contains(b))
 }
 
 /// Characters of a field that a message shows, and the most bytes of one.
@@ -471,6 +484,30 @@ mod tests {
             ("1e999", "is too large"),
         ] {
             assert!(parse(text.as_bytes()).unwrap_err().contains(told), "{text}");
+        }
+    }
+
+    /// No number that is not zero is read as zero.
+    #[test]
+    fn what_is_too_small_is_not_zero() {
+        for text in [
+            "-0.00074489-959",
+            "258.27-838",
+            "258.27E-400",
+            "0.1E-330",
+            "2.5D-999",
+            "1e-99999999999999999999",
+            "-7.501000E-402",
+        ] {
+            let error = parse(text.as_bytes()).unwrap_err();
+            assert!(error.contains("is not zero"), "{error}");
+        }
+        for text in ["0", "-0.0", "0.000E-999", "-.00D+25", "0.000-959", "0e-7"] {
+            assert_eq!(parse(text.as_bytes()).unwrap(), 0.0, "{text}");
+        }
+        // Numbers below the least normal one stay as they are.
+        for (text, value) in [("4.9E-324", 5e-324), ("1.234-310", 1.234e-310)] {
+            assert_eq!(parse(text.as_bytes()).unwrap(), value, "{text}");
         }
     }
 

@@ -746,3 +746,20 @@ fn values_of_list_directed_output_of_intel() {
         "{said}"
     );
 }
+
+/// A value whose exponent makes it zero, which it is not, is refused, also among values without exponents.
+#[test]
+fn values_that_become_zero() {
+    let told = "is not zero";
+    refuses(
+        &of_exponents(),
+        |value| Some(value.replace("E-0", "E-40")).filter(|small| small != value),
+        told,
+    );
+    let fixed: Vec<String> = (0..COUNT).map(|i| format!("{:.6}", sample(i))).collect();
+    let tiny = |value: &str| {
+        let is_other = value.bytes().any(|b| (b'1'..=b'9').contains(&b));
+        (is_other && value.contains('.')).then(|| format!("{value}-959"))
+    };
+    refuses(&fixed, tiny, told);
+}

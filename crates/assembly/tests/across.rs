@@ -39,6 +39,12 @@ fn folder() -> tempfile::TempDir {
             &own(if name == "early.csv" { "NS" } else { "EW" }, &start, 0.5),
         );
     }
+    for (name, start) in [
+        ("instant.csv", "2011/03/11 05:46:30 UTC"),
+        ("odd.csv", "in the afternoon"),
+    ] {
+        write(name, &own("EW", &format!("# Start: {start}\n"), 0.5));
+    }
     folder
 }
 
@@ -144,6 +150,14 @@ fn records_that_start_apart_are_refused_or_said() {
         "{said}"
     );
     assert!(help.contains("--trim"), "{help}");
+    // One instant by two zones, and a start that cannot be compared.
+    let early_across = |other: &str| format!("file = \"early.csv\"\nacross = \"{other}\"");
+    assert_eq!(assembled(&early_across("instant.csv")), Ok(Vec::new()));
+    let told = assembled(&early_across("odd.csv")).unwrap();
+    assert!(
+        told.len() == 1 && told[0].contains("in the afternoon"),
+        "{told:?}"
+    );
     // Cut to the time that they have in common.
     let cut =
         "file = \"early_long.csv\"\nprocess = [{ trim = { start = \"3 s\", end = \"5 s\" } }]\n";

@@ -1,96 +1,114 @@
 //! Times of first samples as agencies print them.
 
-/// Half a day (s): times of day that are further apart lie on either side of a midnight.
-const HALF_DAY: f64 = 43_200.0;
+mod calendar;
+mod clock;
+mod zone;
 
-/// A time of day with what stands before it, which is the date.
-struct Printed {
-    /// Digits of the date, and the rest of what stands before the time.
-    date: String,
-    form: String,
-    seconds: f64,
-    inserted_from: Option<f64>,
+use calendar::{Days, date_later, days_of, is_no_date};
+use clock::Clock;
+use zone::{Zone, less};
+
+pub(crate) use calendar::{days_after_1900, year_and_day};
+
+/// A day (s), and half a day: times of day that are further apart lie on either side of a midnight.
+const DAY_SECONDS: f64 = 86_400.0;
+const HALF_DAY: f64 = 0.5 * DAY_SECONDS;
+
+/// A time as it is printed.
+struct Printed<'t> {
+    /// What stands before the time of day, and the days that it may be.
+    date: &'t str,
+    days: Option<Days>,
+    clock: Clock,
+    zone: Zone<'t>,
+    /// Seconds to take off it.
+    less: f64,
 }
 
-/// How far apart two printed times are (s), where both stand in one form that has hours, minutes
-/// and seconds, such as `2011/03/11 14:46:30 JST` or `20110311_144630.005`; days apart are infinite.
+/// How far apart two printed times are (s), each in any notation that has hours, minutes and seconds, such as
+/// `2011/03/11 14:46:30 JST` or `20110311_144630.005`; days apart are infinite.
 pub(crate) fn apart(first: &str, second: &str) -> Option<f64> {
     from_to(first, second).map(f64::abs)
 }
 
-/// The seconds from one printed time to another, below zero where the second is the earlier one.
+/// The seconds from one printed time to another, below zero where the second is the earlier one: between instants where
+/// both state their zones, else between the readings of their clocks. `None` where they cannot be compared: one is not
+/// understood, one alone has a date, or a zone is not known.
 pub(crate) fn from_to(first: &str, second: &str) -> Option<f64> {
     let (first, second) = (Printed::of(first)?, Printed::of(second)?);
-    if first.form != second.form {
-        return None;
-    }
-    let later = second.seconds - first.seconds;
-    let is_one_day = first.date == second.date;
-    // The minute of a second that was inserted has 61: one more lies between that and the next.
-    let is_behind = |other: &Printed, inserted: &Printed, from: f64| match is_one_day {
-        true => other.seconds >= from,
-        false => other.seconds < inserted.seconds,
+    let ahead = match (first.zone, second.zone) {
+        (Zone::Ahead(first), Zone::Ahead(second)) => second - first,
+        (Zone::Named(first), Zone::Named(second)) if first == second => 0.0,
+        (Zone::Unstated, _) | (_, Zone::Unstated) => 0.0,
+        _ => return None,
     };
-    let inserted = match (first.inserted_from, second.inserted_from) {
-        (None, Some(from)) if is_behind(&first, &second, from) => -1.0,
-        (Some(from), None) if is_behind(&second, &first, from) => 1.0,
-        _ => 0.0,
+    let of_day = second.clock.seconds - first.clock.seconds + first.less - second.less - ahead;
+    let counted = match (first.days, second.days) {
+        (Some(a), Some(b)) => {
+            let days = nearest(a, b, of_day / DAY_SECONDS)?;
+            let counted = of_day + DAY_SECONDS * days as f64;
+            (days == 0 || counted.abs() <= HALF_DAY).then_some(counted)
+        }
+        (None, None) => {
+            // Of dates that are not known, equal ones are one day.
+            let parted = |text: &str| text.chars().partition::<String, _>(char::is_ascii_digit);
+            let ((a, form), (b, form_of_other)) = (parted(first.date), parted(second.date));
+            if form != form_of_other {
+                return None;
+            }
+            let over_midnight = of_day - DAY_SECONDS.copysign(of_day);
+            match (of_day.abs() > HALF_DAY, a == b) {
+                (true, false) => Some(over_midnight),
+                // The zones alone may lead over midnight.
+                (true, true) if ahead != 0.0 => Some(over_midnight),
+                (_, true) => Some(of_day),
+                (false, false) => None,
+            }
+        }
+        _ => return None,
     };
-    let counted = later + inserted;
-    Some(match (is_one_day, later.abs() > HALF_DAY) {
-        (true, _) => counted,
-        // Over midnight.
-        (false, true) => counted - (2.0 * HALF_DAY).copysign(later),
-        (false, false) => f64::INFINITY,
-    })
+    Some(counted.map_or(f64::INFINITY, |counted| {
+        counted + inserted(&first, &second, counted)
+    }))
 }
 
-impl Printed {
-    fn of(text: &str) -> Option<Self> {
-        let clock = Clock::of(text)?;
-        let (digits, rest) = text[..clock.from].chars().partition(char::is_ascii_digit);
-        Some(Self {
-            date: digits,
-            form: rest,
-            seconds: clock.seconds,
-            inserted_from: clock.inserted_from,
+/// The days from the first date to the second: of those that they may be, with day and month in one order, those that
+/// bring both times the nearest.
+fn nearest(first: Days, second: Days, of_day: f64) -> Option<i64> {
+    let in_orders = |is_one: bool| {
+        let pairs = (0..first.len()).flat_map(|i| (0..second.len()).map(move |j| (i, j)));
+        let pairs = pairs.filter(move |(i, j)| !is_one || i % 2 == j % 2);
+        let days = pairs.filter_map(|(i, j)| Some(second[j]? - first[i]?));
+        days.min_by(|a, b| {
+            let off = |days: &i64| (*days as f64 + of_day).abs();
+            off(a).total_cmp(&off(b))
         })
+    };
+    in_orders(true).or_else(|| in_orders(false))
+}
+
+/// What a second that was inserted adds between two times so many seconds apart by their clocks: the minute has 61, and
+/// one more lies between that second and the next minute.
+fn inserted(first: &Printed<'_>, second: &Printed<'_>, counted: f64) -> f64 {
+    // Round-off of the times.
+    let is_behind = |seconds: f64, from: f64| seconds >= from - 1.0e-7;
+    match (first.clock.inserted_from, second.clock.inserted_from) {
+        (None, Some(from)) if is_behind(second.clock.seconds - counted, from) => -1.0,
+        (Some(from), None) if is_behind(first.clock.seconds + counted, from) => 1.0,
+        _ => 0.0,
     }
 }
 
-/// The time of day in a text.
-struct Clock {
-    /// Where it stands.
-    from: usize,
-    to: usize,
-    /// Seconds after midnight.
-    seconds: f64,
-    /// Where the second begins (s) that was inserted into the minute, if the time lies in it.
-    inserted_from: Option<f64>,
-    /// Digits behind the point.
-    decimals: usize,
-    /// What stands between hours, minutes and seconds.
-    separator: &'static str,
-}
-
-impl Clock {
-    fn of(text: &str) -> Option<Self> {
-        let (from, to, [hours, minutes, seconds], separator) = with_colons(text)
-            .map(|(from, to, numbers)| (from, to, numbers, ":"))
-            .or_else(|| in_a_row(text).map(|(from, to, numbers)| (from, to, numbers, "")))
-            .or_else(|| in_blanks(text).map(|(from, to, numbers)| (from, to, numbers, " ")))?;
-        let inside = is_of_clock([hours, minutes, seconds]);
-        let behind = text[from..to].split_once('.');
-        let minute = 3600.0 * hours + 60.0 * minutes;
-        // Headers round up to 60 seconds in any minute: that of an inserted second stands at few dates.
-        let is_inserted = seconds > 60.0 || seconds == 60.0 && may_insert(&text[..from]);
-        inside.then_some(Self {
-            from,
-            to,
-            seconds: minute + seconds,
-            inserted_from: (is_inserted && minutes == 59.0).then_some(minute + 60.0),
-            decimals: behind.map_or(0, |(_, digits)| digits.len()),
-            separator,
+impl<'t> Printed<'t> {
+    fn of(text: &'t str) -> Option<Self> {
+        let clock = Clock::of(text)?;
+        let behind = clock.behind(text);
+        Some(Self {
+            date: &text[..clock.from],
+            days: days_of(&text[..clock.from]),
+            zone: Zone::behind(behind),
+            less: less(behind),
+            clock,
         })
     }
 }
@@ -129,12 +147,27 @@ pub(crate) fn later(text: &str, by: f64) -> Option<String> {
     }
     let point = if digits.is_empty() { "" } else { "." };
     let between = clock.separator;
+    let hours = whole / 3600;
+    // Hours that are counted to 12 begin with 12.
+    let (hours, behind) = match clock.half {
+        None => (hours, text[clock.to..].to_owned()),
+        Some(half) => {
+            let letter = match (hours >= 12, text.as_bytes()[half.at].is_ascii_uppercase()) {
+                (true, true) => "P",
+                (true, false) => "p",
+                (false, true) => "A",
+                (false, false) => "a",
+            };
+            let mut behind = text[clock.to..].to_owned();
+            let at = half.at - clock.to;
+            behind.replace_range(at..=at, letter);
+            ((hours + 11) % 12 + 1, behind)
+        }
+    };
     Some(format!(
-        "{date}{:02}{between}{:02}{between}{:02}{point}{digits}{}",
-        whole / 3600,
+        "{date}{hours:02}{between}{:02}{between}{:02}{point}{digits}{behind}",
         whole / 60 % 60,
         whole % 60 + within,
-        &text[clock.to..]
     ))
 }
 
@@ -142,245 +175,15 @@ pub(crate) fn later(text: &str, by: f64) -> Option<String> {
 const DAY: i64 = 86_400_000_000;
 const SECOND: i64 = 1_000_000;
 
-/// What stands before a time of day, with its date so many days later: `2011/03/11 `,
-/// `2011-03-11T`, `2011 03 11 `, `20110311_` or `2011 day 70 `.
-fn date_later(text: &str, days: i64) -> Option<String> {
-    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
-    let number = |from: usize, to: usize| text.get(from..to)?.parse::<i64>().ok();
-    if digits == 8 {
-        let date = (number(0, 4)?, number(4, 6)?, number(6, 8)?);
-        let (year, month, day) = date_of(days_after_1900(date)? + days);
-        return Some(format!("{year:04}{month:02}{day:02}{}", &text[8..]));
-    }
-    if digits != 4 {
-        return None;
-    }
-    if let Some(rest) = text[4..].strip_prefix(" day ") {
-        let length = rest.bytes().take_while(u8::is_ascii_digit).count();
-        let day: i64 = rest[..length].parse().ok()?;
-        let (year, day) = year_and_day(number(0, 4)?, day + days);
-        return Some(format!("{year} day {day}{}", &rest[length..]));
-    }
-    let between = text.get(4..5).filter(|c| matches!(*c, "/" | "-" | " "))?;
-    if text.get(7..8) != Some(between) {
-        return None;
-    }
-    let date = (number(0, 4)?, number(5, 7)?, number(8, 10)?);
-    let (year, month, day) = date_of(days_after_1900(date)? + days);
-    let rest = text.get(10..)?;
-    Some(format!(
-        "{year:04}{between}{month:02}{between}{day:02}{rest}"
-    ))
-}
-
 /// Whether a printed time has an hour, a day or a month that there is not. What stands in no known form
 /// says nothing.
 pub(crate) fn is_impossible(text: &str) -> bool {
-    let clock = with_colons(text)
-        .or_else(|| in_a_row(text))
-        .or_else(|| in_blanks(text));
-    let (date, of_clock) = match clock {
-        Some((from, _, numbers)) => (&text[..from], !is_of_clock(numbers)),
+    let clock = Clock::find(text);
+    let (date, of_clock) = match &clock {
+        Some(clock) => (&text[..clock.from], !clock.is_possible),
         None => (text, false),
     };
     of_clock || is_no_date(date)
-}
-
-/// The same of a date in year, month and day, in a year and its day, or in day, month and year; beside
-/// slashes the month may stand before the day.
-fn is_no_date(text: &str) -> bool {
-    let digits = text.bytes().take_while(u8::is_ascii_digit).count();
-    let number = |text: &str| text.parse::<i64>().ok();
-    let is_date = |(year, month, day): (i64, i64, i64)| {
-        let next = usize::try_from(month)
-            .ok()
-            .and_then(|index| BEFORE.get(index));
-        let before = usize::try_from(month - 1)
-            .ok()
-            .and_then(|index| BEFORE.get(index));
-        let leap = i64::from(month == 2 && is_leap(year));
-        before.is_some_and(|before| (1..=next.unwrap_or(&365) - before + leap).contains(&day))
-    };
-    if digits == 8 {
-        let part = |from: usize, to: usize| number(&text[from..to]);
-        let date = (part(0, 4).zip(part(4, 6))).zip(part(6, 8));
-        return date.is_some_and(|((year, month), day)| !is_date((year, month, day)));
-    }
-    if let Some(rest) = text[digits..].strip_prefix(" day ") {
-        let day = rest.split(' ').next().and_then(number);
-        let year = number(&text[..digits]);
-        return (year.zip(day)).is_some_and(|(y, day)| !(1..=length_of(y)).contains(&day));
-    }
-    let Some(sign) = text[digits..]
-        .chars()
-        .next()
-        .filter(|c| "/-. ".contains(*c))
-    else {
-        return false;
-    };
-    let mut parts = text.splitn(3, sign);
-    let mut next = || {
-        let part = parts.next()?;
-        let end = part
-            .find(|c: char| !c.is_ascii_digit())
-            .unwrap_or(part.len());
-        Some((end, number(&part[..end])?))
-    };
-    let (Some(first), Some(second), Some(third)) = (next(), next(), next()) else {
-        return false;
-    };
-    match (first.0, second.0, third.0) {
-        (4, 1..=2, 1..=2) => !is_date((first.1, second.1, third.1)),
-        // Blanks stand in other texts, too.
-        _ if sign == ' ' => false,
-        (1..=2, 1..=2, 4) if sign == '/' => {
-            !is_date((third.1, second.1, first.1)) && !is_date((third.1, first.1, second.1))
-        }
-        (1..=2, 1..=2, 4) => !is_date((third.1, second.1, first.1)),
-        _ => false,
-    }
-}
-
-/// Whether a second may be inserted at the date that stands before a time of day: they are at the ends of June and of
-/// December in UTC, and so on the day after where clocks are ahead of it.
-fn may_insert(date: &str) -> bool {
-    let digits: String = date.chars().filter(char::is_ascii_digit).collect();
-    // Month and day, either first, at the start or at the end.
-    let days = ["0630", "3006", "0701", "0107", "1231", "3112", "0101"];
-    days.iter()
-        .any(|day| digits.starts_with(day) || digits.ends_with(day))
-}
-
-/// Seconds are inserted at the end of a day of UTC, which is that of an hour where clocks differ from it by whole hours;
-/// headers round up to 60 in any minute.
-fn is_of_clock([hours, minutes, seconds]: [f64; 3]) -> bool {
-    let is_inserted = minutes == 59.0 && seconds < 61.0;
-    hours < 24.0 && minutes < 60.0 && (seconds <= 60.0 || is_inserted)
-}
-
-fn is_leap(year: i64) -> bool {
-    year % 4 == 0 && year % 100 != 0 || year % 400 == 0
-}
-
-fn length_of(year: i64) -> i64 {
-    365 + i64::from(is_leap(year))
-}
-
-/// Days of the year before each month.
-const BEFORE: [i64; 12] = [0, 31, 59, 90, 120, 151, 181, 212, 243, 273, 304, 334];
-
-/// Days from 1 January 1900 to a date (year, month, day) of the Gregorian calendar.
-pub(crate) fn days_after_1900((year, month, day): (i64, i64, i64)) -> Option<i64> {
-    let index = usize::try_from(month - 1).ok()?;
-    let before = BEFORE.get(index)?;
-    if !((1..=31).contains(&day) && (1..=9999).contains(&year)) {
-        return None;
-    }
-    let of_year = before + i64::from(is_leap(year) && month > 2) + day - 1;
-    let past = year - 1;
-    Some(365 * (year - 1900) + past / 4 - past / 100 + past / 400 - 460 + of_year)
-}
-
-/// Year, month and day so many days after 1 January 1900.
-fn date_of(days: i64) -> (i64, i64, i64) {
-    let (year, day) = year_and_day(1900, days + 1);
-    let leap = i64::from(is_leap(year));
-    let first = |index: usize| BEFORE[index] + if index > 1 { leap } else { 0 };
-    let month = (0..12).rev().find(|index| first(*index) < day).unwrap_or(0);
-    (year, month as i64 + 1, day - first(month))
-}
-
-/// A day of a year, counted from 1, which may lie in another year.
-pub(crate) fn year_and_day(mut year: i64, mut day: i64) -> (i64, i64) {
-    while day > length_of(year) {
-        day -= length_of(year);
-        year += 1;
-    }
-    while day < 1 {
-        year -= 1;
-        day += length_of(year);
-    }
-    (year, day)
-}
-
-/// Where `14:46:30.005` starts and ends, and its numbers; one digit may have a blank before it, as
-/// in `10:34: 1.0`.
-fn with_colons(text: &str) -> Option<(usize, usize, [f64; 3])> {
-    let first = text.find(':')?;
-    let is_digit = |c: char| c.is_ascii_digit();
-    let hours = text[..first].trim_end_matches(is_digit).len();
-    let second = first + 1 + text[first + 1..].find(':')?;
-    let rest = &text[second + 1..];
-    let blanks = rest.len() - rest.trim_start_matches(' ').len();
-    let end = rest[blanks..].find(|c: char| !is_digit(c) && c != '.');
-    let seconds = rest[..end.map_or(rest.len(), |end| blanks + end)].trim_end_matches('.');
-    let number = |text: &str| text.trim().parse::<f64>().ok();
-    Some((
-        hours,
-        second + 1 + seconds.len(),
-        [
-            number(&text[hours..first])?,
-            number(&text[first + 1..second])?,
-            number(seconds)?,
-        ],
-    ))
-}
-
-/// The same of `20110311_144630.005`.
-fn in_a_row(text: &str) -> Option<(usize, usize, [f64; 3])> {
-    let (date, time) = text.split_once('_')?;
-    let whole = time.split('.').next()?;
-    let all_digits = |text: &str| text.bytes().all(|b| b.is_ascii_digit());
-    if !(date.len() == 8 && all_digits(date) && whole.len() == 6 && all_digits(whole)) {
-        return None;
-    }
-    let time = time.trim_end();
-    let number = |text: &str| text.parse::<f64>().ok();
-    let from = date.len() + 1;
-    Some((
-        from,
-        from + time.len(),
-        [
-            number(&time[..2])?,
-            number(&time[2..4])?,
-            number(&time[4..])?,
-        ],
-    ))
-}
-
-/// The same of `2011 03 11 14 46 30.005`, with whatever stands behind a blank.
-fn in_blanks(text: &str) -> Option<(usize, usize, [f64; 3])> {
-    // Digits of year, month, day, hour and minute, each with a blank behind it.
-    const WIDTHS: [usize; 5] = [4, 2, 2, 2, 2];
-    let mut at = 0;
-    let mut starts = [0; WIDTHS.len()];
-    for (start, width) in starts.iter_mut().zip(WIDTHS) {
-        let field = text.get(at..at + width + 1)?;
-        let digits = field.strip_suffix(' ')?;
-        if !digits.bytes().all(|b| b.is_ascii_digit()) {
-            return None;
-        }
-        *start = at;
-        at += width + 1;
-    }
-    let seconds = text[at..].split(' ').next()?;
-    let whole = seconds.split('.').next()?;
-    let is_number = seconds.bytes().all(|b| b.is_ascii_digit() || b == b'.');
-    if whole.len() != 2 || !is_number {
-        return None;
-    }
-    let seconds = seconds.trim_end_matches('.');
-    let number = |text: &str| text.parse::<f64>().ok();
-    let [_, _, _, hours, minutes] = starts;
-    Some((
-        hours,
-        at + seconds.len(),
-        [
-            number(&text[hours..hours + 2])?,
-            number(&text[minutes..minutes + 2])?,
-            number(seconds)?,
-        ],
-    ))
 }
 
 #[cfg(test)]
@@ -388,7 +191,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn times_of_one_form() {
+    fn times_apart() {
         for (a, b, seconds) in [
             (
                 "2011/03/11 14:46:30 JST less 15 s",
@@ -425,14 +228,18 @@ mod tests {
             (
                 "2011 day 70 14:46:30.000 UTC",
                 "2011/03/11 14:46:30 JST",
-                None,
+                Some(32_400.0),
             ),
             (
                 "10/20/2021, 10:34: 1.0 UTC",
                 "10/20/2021, 10:34:11.0 UTC",
                 Some(10.0),
             ),
-            ("10/20/2021,  9: 4: 1.0", "10/20/2021, 10: 4: 1.0", None),
+            (
+                "10/20/2021,  9: 4: 1.0",
+                "10/20/2021, 10: 4: 1.0",
+                Some(3600.0),
+            ),
             (
                 "10/20/2021, 9: 4: 1.0",
                 "10/20/2021, 10: 4: 1.0",
@@ -480,6 +287,94 @@ mod tests {
                 "2017/01/01 08:59:60.50 JST",
                 Some(2.5),
             ),
+            // One instant by two zones.
+            (
+                "2011/03/11 14:46:15 JST",
+                "2011/03/11 05:46:15 UTC",
+                Some(0.0),
+            ),
+            (
+                "2011/03/12 00:30:00 JST",
+                "2011-03-11T15:30:00.5Z",
+                Some(0.5),
+            ),
+            (
+                "2011/03/11 14:46:15 JST",
+                "2011/03/11 14:46:15 UTC",
+                Some(32_400.0),
+            ),
+            (
+                "2011/03/11 14:46:15 JST",
+                "2011/03/11 14:46:15 JST less 15 s",
+                Some(15.0),
+            ),
+            (
+                "2011/03/11 14:46:15 JST",
+                "2011 day 70 05:46:25 UTC",
+                Some(10.0),
+            ),
+            ("2011/03/11 14:46:15 JST", "20110311_144625", Some(10.0)),
+            ("2011/03/11 14:46:15 JST", "20110311T054615Z", Some(0.0)),
+            ("2011/03/11 14:46:15 JST", "2011,070,14:46:15", Some(0.0)),
+            (
+                "2014/07/06 4:00:18 PM",
+                "2014/07/06 4:00:18 AM",
+                Some(43_200.0),
+            ),
+            ("2014/07/06 12:00:18 a.m.", "2014/07/06 00:00:19", Some(1.0)),
+            (
+                "2012-05-29T07:00:03+02:00",
+                "2012-05-29T07:00:03+00:00",
+                Some(7200.0),
+            ),
+            (
+                "2012-05-29T07:00:03+02:00",
+                "29.05.2012 05:00:03 GMT",
+                Some(0.0),
+            ),
+            (
+                "1999/09/20-17:46:37.0 GMT+8",
+                "1999-09-20T09:46:37Z",
+                Some(0.0),
+            ),
+            // Month and day, and the century, may be meant in two ways.
+            (
+                "7/06/19, 03:16: 8.0 UTC (GPS)",
+                "2019-07-06T03:16:09Z",
+                Some(1.0),
+            ),
+            (
+                "7/06/19, 03:16: 8.0 UTC (GPS)",
+                "2019-07-08T03:16:09Z",
+                Some(f64::INFINITY),
+            ),
+            (
+                "2011/03/11 23:00:00",
+                "2011/03/13 01:00:00",
+                Some(f64::INFINITY),
+            ),
+            (
+                "03/04/2011 10:00:00",
+                "04/03/2011 10:00:00",
+                Some(f64::INFINITY),
+            ),
+            ("13/04/2011 10:00:00", "04/13/2011 10:00:00", Some(0.0)),
+            // An inserted second in another zone.
+            (
+                "2016-12-31T23:59:60.500Z",
+                "2017/01/01 09:00:00.25 JST",
+                Some(0.75),
+            ),
+            // No date, or a zone that is not known.
+            ("22:46:15 UTC", "07:46:15 JST", Some(0.0)),
+            ("18:14:18", "1985/09/19 18:14:18", None),
+            (
+                "2014/07/06 10:00:18 CST",
+                "2014/07/06 10:00:19 CST",
+                Some(1.0),
+            ),
+            ("2014/07/06 10:00:18 CST", "2014/07/06 10:00:18 UTC", None),
+            ("2011/03/11 14:46:15", "in the evening", None),
             ("", "", None),
             ("14:46", "14:47", None),
             ("at 99:00:00", "at 99:00:01", None),
@@ -519,6 +414,8 @@ mod tests {
             "41/13/2000 00:00:00",
             "2016-12-31T23:58:60.5",
             "2016-12-31T23:59:61.0",
+            "2012/05/29 13:00:00 AM",
+            "2012/05/29 24:00:00 PM",
         ] {
             assert!(is_impossible(text), "{text}");
         }
@@ -542,6 +439,8 @@ mod tests {
             "2012 02 29 14 46 00 JST",
             "2012 2",
             "2012 13 more",
+            "2012/05/29 12:59:59 PM",
+            "2012/05/29 14:59:59 PM",
             "1 13 2012",
             "unknown",
             "2020",
@@ -604,6 +503,32 @@ mod tests {
             ),
             ("2011 03 11 14 59 60", 1.0, Some("2011 03 11 15 00 01")),
             ("12/31/2016 23:59:60.0", 0.5, Some("12/31/2016 23:59:60.5")),
+            (
+                "2012/05/29 11:59:59 AM",
+                1.0,
+                Some("2012/05/29 12:00:00 PM"),
+            ),
+            (
+                "2012/05/29 11:59:59 PM",
+                1.0,
+                Some("2012/05/30 12:00:00 AM"),
+            ),
+            (
+                "2012/05/29 12:59:59 PM UTC",
+                1.0,
+                Some("2012/05/29 01:00:00 PM UTC"),
+            ),
+            (
+                "2012/05/29 12:00:00.5 a.m.",
+                -1.0,
+                Some("2012/05/28 11:59:59.5 p.m."),
+            ),
+            (
+                "2012-05-29T07:00:03+02:00",
+                1.5,
+                Some("2012-05-29T07:00:04.5+02:00"),
+            ),
+            ("20110311T054615Z", 1.0, Some("20110311T054616Z")),
             // The order of day and month is not known.
             ("10/11/21, 23:59:59.0", 2.0, None),
             ("some day", 2.0, None),

@@ -212,3 +212,62 @@ fn jma_starts_between_blanks() {
     let said = |w: &String| w.contains("2011 13 41") && w.contains("is not used");
     assert!(odd.origin().unwrap().warnings.iter().any(said));
 }
+
+/// Starts in any two notations are compared: as instants where both state their zones, else as clocks show them.
+#[test]
+fn starts_in_other_notations_are_compared() {
+    let first = csv("N-S", "2011/03/11 14:46:15 JST");
+    for together in [
+        "2011/03/11 05:46:15 UTC",
+        "2011-03-11T06:46:15+01:00",
+        "2011/03/11 14:46:30 JST less 15 s",
+        "2011 day 70 05:46:15.000 UTC",
+        "20110311_144615",
+        "2011/03/11 02:46:15 PM",
+        "",
+    ] {
+        let pair = rotate(&first, &csv("E-W", together), 30.0).unwrap();
+        let warnings = &pair.first.origin().unwrap().warnings;
+        assert!(warnings.is_empty(), "{together}: {warnings:?}");
+    }
+    for apart in [
+        "2011/03/11 14:46:15 UTC",
+        "2011/03/11 14:46:15 JST less 15 s",
+        "2011 day 70 05:46:25 UTC",
+        "20110311_144625",
+        "2011/03/11 02:46:15 AM",
+        "2011-03-11T05:46:15+02:00",
+    ] {
+        let error = rotate(&first, &csv("E-W", apart), 30.0).unwrap_err();
+        let said = error.to_string();
+        assert!(
+            said.contains("start together") && said.contains(apart),
+            "{said}"
+        );
+    }
+    for unlike in ["in the evening", "14:46:15", "2011/03/11 14:46:15 CST"] {
+        for (a, b) in [(&first, &csv("E-W", unlike)), (&csv("E-W", unlike), &first)] {
+            let pair = rotate(a, b, 30.0).unwrap();
+            let warnings = &pair.first.origin().unwrap().warnings;
+            let says = |w: &String| w.contains(unlike) && w.contains("cannot be compared");
+            assert!(warnings.iter().any(says), "{unlike}: {warnings:?}");
+        }
+    }
+}
+
+/// Hours that are counted to 12 stay in their half of the day.
+#[test]
+fn starts_before_and_after_noon_are_moved() {
+    let cut = ProcessingStep::Trim(Trim::Times {
+        start: 1.0,
+        end: 1.5,
+    });
+    for (text, moved) in [
+        ("2012/05/29 11:59:59 AM", "2012/05/29 12:00:00 PM"),
+        ("2012/05/29 11:59:59 PM", "2012/05/30 12:00:00 AM"),
+        ("2012/05/29 12:59:59 PM", "2012/05/29 01:00:00 PM"),
+    ] {
+        let found = process(&csv("N-S", text), std::slice::from_ref(&cut)).unwrap();
+        assert_eq!(start(&found.accelerogram), moved);
+    }
+}

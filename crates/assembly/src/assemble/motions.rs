@@ -7,6 +7,7 @@ use pounding_catalogue::numbers::six_digits;
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::processing::{
     ProcessingStep, across_one_another, is_one_series, start_together, starts_later,
+    starts_not_compared,
 };
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, LONGEST_DELAY, Support, System};
@@ -442,6 +443,19 @@ fn delays_of_case(case: &Case, building: usize) -> Vec<f64> {
     chosen.map(|(_, delay)| *delay).collect()
 }
 
+/// The record across the row beside that of the case, in words.
+const ACROSS: &str = "that across the row";
+
+/// What is to be said of a motion whose stated start cannot be compared with that of the case.
+fn not_compared(
+    what: &str,
+    (along, record): (&Accelerogram, &Accelerogram),
+    whose: Whose,
+) -> Option<String> {
+    let said = starts_not_compared(along, record).filter(|_| whose == Whose::OfCase)?;
+    Some(format!("the record of the case and {what}: {said}"))
+}
+
 /// Motions and forces that are not in step with one another, as they were recorded or since they were processed, in
 /// words.
 fn out_of_step(
@@ -466,11 +480,13 @@ fn out_of_step(
             };
             let what = format!("that of {name}");
             told.extend(begins_apart(&what, (pair, whose), Some(&under)));
+            told.extend(not_compared(&what, (along, record), whose));
         }
     }
     if let (Some(across), Some(record)) = (&case.ground_motion.across, &further.across) {
         let pair = [own, (&*across.value, record)];
-        told.extend(begins_apart("that across the row", (pair, whose), None));
+        told.extend(begins_apart(ACROSS, (pair, whose), None));
+        told.extend(not_compared(ACROSS, (along, record), whose));
         if whose == Whose::OfCase && is_one_series(along, record) {
             told.push(
                 "the record along the row and that across it are one series of one file: the ground moves along one line between both directions; the other horizontal component of the record is chosen by `component` if it is in the same file"

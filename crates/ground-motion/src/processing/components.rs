@@ -38,8 +38,8 @@ pub struct RotatedPair {
 pub(crate) struct Together<'a> {
     /// Samples (m/s2), as many of the first as of the second.
     pub samples: [Cow<'a, [f64]>; 2],
-    /// What is to be said where one of them had ended before the other.
-    pub continued: Option<String>,
+    /// What is to be said where one of them had ended before the other, or where their starts cannot be compared.
+    pub warnings: Vec<String>,
 }
 
 /// The samples of both components, which must start together. The ground is taken to stand still
@@ -71,7 +71,10 @@ pub(crate) fn together<'a>(
     });
     Ok(Together {
         samples,
-        continued: ends_together(first, second)?,
+        warnings: starts_not_compared(first, second)
+            .into_iter()
+            .chain(ends_together(first, second)?)
+            .collect(),
     })
 }
 
@@ -164,6 +167,21 @@ pub fn starts_later(first: &Accelerogram, second: &Accelerogram) -> Option<f64> 
     let most = 0.5 * first.time_step() * (1.0 + 1.0e-6);
     let later = Starts::of(first, second)?.later;
     Some(if later.abs() > most { later } else { 0.0 })
+}
+
+/// What is to be said where both records state the time of their first sample, and the two cannot be compared.
+#[must_use]
+pub fn starts_not_compared(first: &Accelerogram, second: &Accelerogram) -> Option<String> {
+    let (a, b) = (first.origin()?, second.origin()?);
+    let [a, b] = [&a.start_time, &b.start_time].map(|text| text.trim());
+    let is_known = a == b || a.is_empty() || b.is_empty();
+    let differ = !is_known && start_times::from_to(a, b).is_none();
+    differ.then(|| {
+        let [a, b] = [a, b].map(|text| text.chars().take(48).collect::<String>());
+        format!(
+            "the times of the first samples, \"{a}\" and \"{b}\", cannot be compared with one another, and do not tell whether both start together: correct the one that is not written like `2011/03/11 14:46:15 UTC`, in our CSV `# Start: ...`"
+        )
+    })
 }
 
 /// Refuses components with first samples at different times, as those of instruments
@@ -433,13 +451,17 @@ fn combine(
     turned: [Turned; 2],
     step: StepRecord,
 ) -> Result<RotatedPair, GroundMotionError> {
-    let Together { samples, continued } = together(first, second)?;
+    let Together { samples, warnings } = together(first, second)?;
     let component = |of: &Accelerogram, w: [f64; 2], to: Turned| {
         let pairs = samples[0].iter().zip(samples[1].iter());
         let sum = pairs.map(|(a, b)| w[0] * a + w[1] * b).collect();
         let turned = of.with_samples(sum, first.time_step())?;
         let turned = turned.pointing(to.orientation).called(to.name);
-        Ok::<_, GroundMotionError>(turned.warned(continued.as_deref()))
+        Ok::<_, GroundMotionError>(
+            warnings
+                .iter()
+                .fold(turned, |of, said| of.warned(Some(said))),
+        )
     };
     let counts = [first, second].map(|of| of.samples().len() as f64);
     let step = match counts[0] == counts[1] {

@@ -20,7 +20,7 @@ pub use baseline::{Baseline, SegmentWindow};
 pub use butterworth::{Butterworth, Phase};
 pub use components::{
     RotatedPair, across_one_another, along_a_row, distinct, fault_components, is_one_series,
-    rotate, start_together, starts_apart, starts_later,
+    rotate, start_together, starts_apart, starts_later, starts_not_compared,
 };
 pub(crate) use components::{Together, at_right_angles, together};
 pub use resampling::{Interpolation, to_even_steps};

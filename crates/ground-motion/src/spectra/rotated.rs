@@ -57,7 +57,7 @@ pub fn rotated_spectrum(
     evaluation: Evaluation,
 ) -> Result<RotatedSpectrum, GroundMotionError> {
     at_right_angles(first, second)?;
-    let Together { samples, continued } = together(first, second)?;
+    let Together { samples, warnings } = together(first, second)?;
     let step = first.time_step();
     response::check(periods, damping, step)?;
     let ground = [&*samples[0], &*samples[1]];
@@ -67,7 +67,7 @@ pub fn rotated_spectrum(
         median: Vec::new(),
         maximum: Vec::new(),
         direction_of_maximum: Vec::new(),
-        warnings: continued.into_iter().collect(),
+        warnings,
     };
     for &period in periods {
         let mut peaks = if period == 0.0 {

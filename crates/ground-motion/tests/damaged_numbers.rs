@@ -763,3 +763,52 @@ fn values_that_become_zero() {
     };
     refuses(&fixed, tiny, told);
 }
+
+/// A stray zero before the digits of a value, and one that lacks the digit before its point, are refused among values
+/// that have one digit there; where all have more zeros, or none, they are read.
+#[test]
+fn digits_before_the_point_that_are_odd() {
+    let fixed: Vec<String> = (0..COUNT).map(|i| format!("{:.6}", sample(i))).collect();
+    let with_zero = |value: &str| {
+        let (before, behind) = value.split_once("0.")?;
+        (behind.len() == 6).then(|| format!("{before}01.{behind}"))
+    };
+    refuses(&fixed, with_zero, "has a zero before its digits");
+    let bare = |value: &str| {
+        let (before, behind) = value.split_once("0.")?;
+        (behind.len() == 6).then(|| format!("{before}.{behind}"))
+    };
+    refuses(&fixed, bare, "has no digit before its point");
+    let exponents = of_exponents();
+    let led = |value: &str| {
+        let (before, behind) = value.split_once('.')?;
+        let digits = before.trim_start_matches('-');
+        let sign = &before[..before.len() - digits.len()];
+        value
+            .contains('E')
+            .then(|| format!("{sign}0{digits}.{behind}"))
+    };
+    for format in ["peer_at2", "dyna", "plain_columns"] {
+        for (_, values) in damaged(&exponents, led) {
+            let said = read(format, &values).unwrap_err();
+            assert!(said.contains("has a zero before its digits"), "{said}");
+        }
+        // Writers of other forms.
+        for print in [
+            |x: f64| format!("{:+09.5}", 20.0 * x),
+            |x: f64| format!("{:08.4}", 300.0 * x),
+            |x: f64| format!("{x:.6}").replacen("0.", ".", 1),
+            |x: f64| {
+                let plain = format!("{x:.6}");
+                if x < 0.0 {
+                    plain.replacen("0.", ".", 1)
+                } else {
+                    plain
+                }
+            },
+        ] {
+            let values: Vec<String> = (0..COUNT).map(|i| print(sample(i))).collect();
+            assert_eq!(read(format, &values).unwrap().len(), COUNT, "{}", values[0]);
+        }
+    }
+}

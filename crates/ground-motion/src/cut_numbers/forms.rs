@@ -157,6 +157,7 @@ pub(crate) struct Forms {
     led_by_zero: Odd,
     /// Whether numbers without an exponent begin with the point, `.0454`.
     begin_with_point: bool,
+    whole_parts: WholeParts,
     /// Mantissas without a point of more than one digit, `79E-03`.
     long_wholes: Odd,
     /// The decimals that the layout gives to numbers without a point.
@@ -209,6 +210,53 @@ impl ListDirected {
             && !self.is_other_with_exponent
             && self.bare.kinds().all(is_of_list)
             && self.bare.kinds().any(|kind| kind.key.0 == 0)
+    }
+}
+
+/// What stands before the points of values.
+#[derive(Debug, Default)]
+struct WholeParts {
+    /// Values with one digit there, and those with a zero and another one, `01.43`.
+    of_one_digit: usize,
+    led_by_zero: Odd,
+    /// Values below 1 without a sign or with plus, and those with minus: with the zero there, `-0.43`, and without it.
+    with_zero: [usize; 2],
+    without: [Odd; 2],
+}
+
+impl WholeParts {
+    fn see(&mut self, place: Place, parts: &Parts<'_>) {
+        if parts.decimals.is_none() {
+            return;
+        }
+        let sign = usize::from(parts.mantissa.starts_with(b"-"));
+        let digits = parts.mantissa.trim_ascii();
+        let digits = digits
+            .strip_prefix(b"-")
+            .or(digits.strip_prefix(b"+"))
+            .unwrap_or(digits);
+        match digits {
+            [b'.', ..] if parts.exponent.is_none() => self.without[sign].see(place),
+            [b'0', b'0'..=b'9', ..] => self.led_by_zero.see(place),
+            [first, b'.', ..] => {
+                self.of_one_digit += 1;
+                self.with_zero[sign] += usize::from(*first == b'0' && parts.exponent.is_none());
+            }
+            _ => {}
+        }
+    }
+
+    /// The first value with a zero before its digits, of many that have none.
+    fn is_led(&self) -> Option<&Place> {
+        let odd = self.led_by_zero.of(self.of_one_digit);
+        odd.filter(|_| self.of_one_digit > MANY)
+    }
+
+    /// The first value below 1 that lacks the zero before its point, which many of its sign have.
+    fn lacks_zero(&self) -> Option<&Place> {
+        let values = self.without.iter().zip(self.with_zero);
+        let mut odd = values.filter(|(_, others)| *others > MANY);
+        odd.find_map(|(without, others)| without.of(others))
     }
 }
 
@@ -385,6 +433,7 @@ impl Forms {
         let place = Place::new(line, column, value, digits, ends_in_zero, field);
         self.exponents.see(parts.exponent, place);
         self.list.see(place, &parts);
+        self.whole_parts.see(place, &parts);
         let Some(exponent) = parts.exponent else {
             self.without.see(parts.decimals, place);
             self.begin_with_point |= parts.first_digit() == Some(b'.');
@@ -721,6 +770,20 @@ impl Forms {
                 };
                 return refused(at, message, &remedy);
             }
+        }
+        if let Some(at) = self.whole_parts.is_led() {
+            let message = format!(
+                "\"{}\" has a zero before its digits, which the other values do not have",
+                at.shown()
+            );
+            return refused(at, message, REMEDY);
+        }
+        if let Some(at) = self.whole_parts.lacks_zero() {
+            let message = format!(
+                "\"{}\" has no digit before its point, which the other values have",
+                at.shown()
+            );
+            return refused(at, message, REMEDY);
         }
         Ok(())
     }

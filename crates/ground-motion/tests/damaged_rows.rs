@@ -253,3 +253,26 @@ fn mixed_forms_are_read() {
     let text = text + "0.123456\n";
     read_bytes("f", text.as_bytes(), &options(None, Some(0.01))).unwrap();
 }
+
+/// A word for a value that is missing: a row less would make the times uneven.
+#[test]
+fn words_for_missing_values() {
+    for word in ["NA", "N/A", "null"] {
+        let row = |i: i32| match i {
+            120 => format!("1.20,{word}\n"),
+            i => format!("{:.2},{:.4}\n", 0.01 * f64::from(i), f64::from(i % 7) - 3.0),
+        };
+        let text = format!("time (s),NS (g)\n{}", (0..200).map(row).collect::<String>());
+        let error = read_bytes("f", text.as_bytes(), &options(None, None)).unwrap_err();
+        let said = error.to_string();
+        assert!(
+            said.starts_with("f:122:6: ") && said.contains(word),
+            "{said}"
+        );
+        let help = error.help().unwrap();
+        assert!(
+            help.contains("no sample may be missing") && !help.contains("remove"),
+            "{help}"
+        );
+    }
+}

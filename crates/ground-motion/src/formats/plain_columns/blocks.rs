@@ -40,8 +40,26 @@ fn of_header(source: &Source<'_>, line: &Line<'_>) -> Option<String> {
     states.then(|| "it says what a header says".to_owned())
 }
 
+/// The first word of a row of numbers that stands for one that is missing.
+fn missing_value(line: Line<'_>) -> Option<(usize, &[u8])> {
+    const WORDS: [&[u8]; 5] = [b"na", b"n/a", b"null", b"none", b"missing"];
+    let is_missing = |field: &[u8]| WORDS.iter().any(|word| field.eq_ignore_ascii_case(word));
+    let is_row = line
+        .fields()
+        .all(|(_, field)| is_missing(field) || number::parse(field).is_ok());
+    line.fields().find(|(_, field)| is_row && is_missing(field))
+}
+
 /// The error of a line of text among the rows.
 pub(super) fn text_among_numbers(source: &Source<'_>, line: Line<'_>) -> GroundMotionError {
+    if let Some((column, word)) = missing_value(line) {
+        return source.error(
+            line.number,
+            column,
+            format!("\"{}\" stands for a value that is missing", number::shown(word)),
+            "no sample may be missing: write the value there, get the record again, or put in one between those before and behind it",
+        );
+    }
     match of_header(source, &line) {
         Some(why) => several(source, line, &why),
         None => source.error(

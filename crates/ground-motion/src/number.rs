@@ -1,5 +1,7 @@
 //! Numbers as agencies print them.
 
+use crate::quantity::SeriesUnit;
+
 /// Magnitudes from which, and up to which, a value is the `1.7E+38` that stands for "missing", or
 /// another one near the largest of single precision.
 pub(crate) const MISSING: f64 = 1.0e37;
@@ -229,10 +231,36 @@ pub(crate) fn after(text: &str, key: &str) -> Option<(f64, f64)> {
 /// another key's.
 pub(crate) fn stated(text: &str, key: &str) -> Option<(f64, f64)> {
     let lower = text.to_ascii_lowercase();
+    first_in(number_behind(&lower, key)?)
+}
+
+/// What stands behind a key of a text in lower case, where that begins as a number does.
+pub(crate) fn number_behind<'t>(lower: &'t str, key: &str) -> Option<&'t str> {
     let at = lower.find(key)? + key.len();
     let rest = lower.get(at..)?.trim_start_matches([' ', '\t', '=', ':']);
-    rest.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'))
-        .then(|| first_in(rest))?
+    starts_as_number(rest).then_some(rest)
+}
+
+fn starts_as_number(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_ascii_digit() || matches!(c, '.' | '-' | '+'))
+}
+
+/// The first word of a text that begins with a number, where the word is neither one nor one with its unit: `161.78x`,
+/// `-6.x52`.
+pub(crate) fn damaged(text: &str) -> Option<&str> {
+    const UNITS: [&str; 6] = ["s", "sec", "secs", "second", "seconds", "hz"];
+    let text = text.trim_start();
+    let word = text.split([' ', '\t', ',', ';', '(', ')']).next()?;
+    let has_digit = word.bytes().any(|b| b.is_ascii_digit());
+    if !(starts_as_number(word) && has_digit) || parse(word.as_bytes()).is_ok() {
+        return None;
+    }
+    let ends = |c: char| !(c.is_ascii_digit() || matches!(c, '.' | '-' | '+'));
+    let (number, unit) = word.split_at(word.find(ends).unwrap_or(word.len()));
+    let unit = unit.trim_end_matches('.').to_ascii_lowercase();
+    let is_unit = UNITS.contains(&unit.as_str()) || SeriesUnit::parse(&unit).is_some();
+    let is_number = parse(number.as_bytes()).is_ok();
+    (!(is_number && is_unit)).then_some(word)
 }
 
 /// The time step (s) of a text such as `equally spaced at .005 sec` or `at 200 pts/sec`,
@@ -534,6 +562,33 @@ mod tests {
             11.576
         );
         assert_eq!(first_in("at 100 Samples/sec").unwrap().0, 100.0);
+    }
+
+    #[test]
+    fn numbers_of_headers_that_are_damaged() {
+        for text in [
+            "161.78x",
+            " 13.20x332 ",
+            "0.00x s",
+            "2394.x mm/s/s",
+            "-6.x52 cm/sec2",
+        ] {
+            let word = text.split_whitespace().next();
+            assert_eq!(damaged(text), word, "{text}");
+        }
+        for text in [
+            "161.78",
+            "2394. mm/s/s",
+            ".005sec.",
+            "-.200G, at",
+            "13.2cm/s2",
+            "at 5",
+            "",
+            "-",
+            "(N-S) 5x",
+        ] {
+            assert_eq!(damaged(text), None, "{text}");
+        }
     }
 
     #[test]

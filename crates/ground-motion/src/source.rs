@@ -306,6 +306,19 @@ impl<'a> Source<'a> {
         })
     }
 
+    /// The number that a text of a header begins with, with one unit of its last digit. One that is damaged is named in a
+    /// warning, and is held against nothing.
+    pub(crate) fn header_number(&self, line: usize, what: &str, text: &str) -> Option<Printed> {
+        let Some(word) = number::damaged(text) else {
+            return number::first_in(text);
+        };
+        self.warn(&format!(
+            "line {line}: {what} is \"{}\", which is not a number, and is not held against what the file holds",
+            number::shown(word.as_bytes())
+        ));
+        None
+    }
+
     /// The time step (s) of a text of a line that starts with it or with a rate.
     pub(crate) fn step_or_rate(
         &self,
@@ -504,6 +517,21 @@ impl HeaderNumbers {
         let value = self.get(index).filter(|value| *value != 0.0)?;
         let text = self.texts.get(index.checked_sub(1)?)?;
         Some((value, number::resolution(text.as_bytes())))
+    }
+
+    /// What is to be said of the first of some integers that stands there and cannot be read, for want of which something is
+    /// not known.
+    pub(crate) fn unread(&self, indices: &[usize], unknown: &str) -> Option<String> {
+        let index = indices.iter().copied().find(|index| {
+            let at = index.saturating_sub(1);
+            let is_there = self.texts.get(at).is_some_and(|text| !text.is_empty());
+            is_there && self.values.get(at).copied().flatten().is_none()
+        })?;
+        Some(format!(
+            "line {}: integer {index} of the header {}, which is not a number: {unknown} is not known",
+            self.line_of(index),
+            self.shown(index)
+        ))
     }
 
     /// Line (from 1) of number `index` (from 1).

@@ -12,6 +12,7 @@ mod contradictory_words;
 mod cosmos_instruments;
 mod cut_numbers;
 mod damaged_files;
+mod damaged_headers;
 mod damaged_numbers;
 mod damaged_rows;
 mod design_spectra;

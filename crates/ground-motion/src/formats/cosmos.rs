@@ -179,7 +179,7 @@ fn channel(
         draft.unit,
         DraftUnit::Scaled { of: "counts", .. } | DraftUnit::Counts
     );
-    draft.other_peaks = peak_in_words(&text, counts).into_iter().collect();
+    draft.other_peaks = peak_in_words(source, &text, counts).into_iter().collect();
     durations(&mut draft, &text, &reals, announcement);
     Ok(draft)
 }
@@ -671,12 +671,12 @@ fn stage_agrees(
 }
 
 /// `Max =  -6.852 cm/sec2 at 76.215 sec` on the line of the processing.
-fn peak_in_words(text: &[Line<'_>], of_counts: bool) -> Option<DraftPeak> {
+fn peak_in_words(source: &Source<'_>, text: &[Line<'_>], of_counts: bool) -> Option<DraftPeak> {
     let lines = text.iter().map(|l| (l.number, l.lower()));
     let (line, lower) = lines
         .into_iter()
         .find(|(_, lower)| lower.starts_with("processed") && lower.contains("max ="))?;
-    let value = number::stated(&lower, "max =")?;
+    let value = source.header_number(line, "Max", number::number_behind(&lower, "max =")?)?;
     let unit = unit_of_number(&lower, "max =");
     let counts = of_counts && lower.split_once("max =")?.1.contains("count");
     (unit.is_some() || counts).then_some(DraftPeak {

@@ -3,7 +3,7 @@
 
 use crate::accelerogram::Processing;
 use crate::cut_numbers::Forms;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
 use crate::error::GroundMotionError;
 use crate::formats::Format;
 use crate::formats::rows::{DecimalCommas, second_record};
@@ -16,11 +16,13 @@ use crate::text::Line;
 /// What the header says.
 #[derive(Default)]
 struct Header {
-    step: Option<f64>,
+    /// Time step (s) and its line.
+    step: Option<(f64, usize)>,
     count: Option<usize>,
-    duration: Option<f64>,
+    duration: Option<StatedDuration>,
     unit: Option<SeriesUnit>,
-    quantity: Option<Quantity>,
+    /// What DATA_TYPE says, and its line.
+    quantity: Option<(Quantity, usize)>,
     peak: Option<(f64, f64)>,
     /// Unit in its key, and its line.
     peak_unit: Option<SeriesUnit>,
@@ -86,22 +88,23 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
         false => drop(samples.pop()),
     }
     let unit = header.unit.map_or(DraftUnit::Unstated, DraftUnit::Stated);
-    if let (Some(unit), Some(quantity)) = (header.unit, header.quantity)
+    if let (Some(unit), Some((quantity, line))) = (header.unit, header.quantity)
         && unit.quantity != quantity
     {
         return Err(source.error(
-            end,
+            line,
             0,
             format!("DATA_TYPE is {quantity}, UNITS is {}", unit.symbol),
             "the header contradicts itself: get the record again",
         ));
     }
     header.peak_agrees(source, &samples)?;
-    let mut draft = Draft::new(samples, unit, (end, end + 1, lines.number()));
-    draft.times = Times::Step(header.step);
+    let of_step = header.step.map_or(end, |(_, line)| line);
+    let mut draft = Draft::new(samples, unit, (of_step, end + 1, lines.number()));
+    draft.times = Times::Step(header.step.map(|(step, _)| step));
     draft.header_count = header.count;
     draft.row = Some(row);
-    draft.header_durations = header.duration.map(Into::into).into_iter().collect();
+    draft.header_durations = header.duration.into_iter().collect();
     draft.component = header.stream;
     draft.title = format!("{}; {}", header.event, header.station);
     draft.start_time = header.start;
@@ -172,9 +175,18 @@ impl Header {
         let first = number::first_in(value);
         match key {
             "SAMPLING_INTERVAL_S" => {
-                self.step = Some(source.number(line, key.len() + 2, value.as_bytes())?);
+                let step = source.number(line, key.len() + 2, value.as_bytes())?;
+                self.step = Some((step, line.number));
             }
-            "DURATION_S" => self.duration = first.map(|n| n.0).filter(|d| *d > 0.0),
+            "DURATION_S" => {
+                let stated = source.header_number(line.number, key, value);
+                self.duration = stated
+                    .filter(|d| d.0 > 0.0)
+                    .map(|(seconds, _)| StatedDuration {
+                        seconds,
+                        line: Some(line.number),
+                    });
+            }
             "NDATA" => {
                 self.count = Some(value.parse().map_err(|_| {
                     source.error(
@@ -198,14 +210,15 @@ impl Header {
             "DATA_TYPE" => {
                 let lower = value.to_ascii_lowercase();
                 let quantity = Quantity::in_words(&lower).filter(|_| !lower.contains("spectr"));
-                self.quantity = Some(quantity.ok_or_else(|| {
+                let quantity = quantity.ok_or_else(|| {
                     source.error(
                         line.number,
                         key.len() + 2,
                         format!("DATA_TYPE is \"{value}\", which is no time history of one quantity"),
                         "give the time history of the acceleration: DATA_TYPE is ACCELERATION, VELOCITY or DISPLACEMENT there",
                     )
-                })?);
+                })?;
+                self.quantity = Some((quantity, line.number));
             }
             "STREAM" => self.stream = value.to_owned(),
             "STATION_CODE" => self.station = value.to_owned(),
@@ -217,11 +230,13 @@ impl Header {
             "BASELINE_CORRECTION" | "FILTER_TYPE" => self.take_processing(value),
             k if k.starts_with("PGA_") || k.starts_with("PGV_") || k.starts_with("PGD_") => {
                 // `PGA_CM/S^2`, whatever the unit of the samples is.
-                self.peak = first;
+                self.peak = source.header_number(line.number, key, value);
                 self.peak_unit = SeriesUnit::parse(&k["PGA_".len()..]);
                 self.peak_line = Some(line.number);
             }
-            k if k.starts_with("TIME_PG") => self.peak_time = first,
+            k if k.starts_with("TIME_PG") => {
+                self.peak_time = source.header_number(line.number, key, value);
+            }
             _ => {}
         }
         Ok(())

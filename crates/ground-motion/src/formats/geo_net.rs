@@ -252,6 +252,13 @@ fn block(
     );
     // Text counts times from the end of the leading pad.
     let pad = header.integers.count(32).unwrap_or(0) as f64 * step.unwrap_or(0.0);
+    let start = [9, 10, 19, 20, 39, 40];
+    if let Some(warning) = header
+        .integers
+        .unread(&start, "the time of the first sample")
+    {
+        source.warn(&warning);
+    }
     draft.start_time = start_of_buffer(&header.integers)
         .and_then(|start| later(&start, -pad))
         .unwrap_or_default();
@@ -259,7 +266,7 @@ fn block(
     let of_quantity = |l: &(usize, String)| l.1.trim_start().starts_with(quantity.name());
     draft.peak = lines.into_iter().find(of_quantity).and_then(|(line, l)| {
         Some(DraftPeak {
-            value: number::stated(&l, "peak")?,
+            value: source.header_number(line, "the peak", number::number_behind(&l, "peak")?)?,
             time: number::stated(&l, " at "),
             unit: unit_of_number(&l, "peak"),
             shift: pad,
@@ -269,7 +276,10 @@ fn block(
     });
     draft.other_peaks = peak_in_numbers(header, quantity, pad).into_iter().collect();
     let eleven = header.text[10].lower();
-    let printed = number::after(&eleven, "intervals of").or_else(|| number::after(&eleven, " at "));
+    let printed = match number::number_behind(&eleven, "intervals of") {
+        Some(text) => source.header_number(header.text[10].number, "the step", text),
+        None => number::after(&eleven, "intervals of").or_else(|| number::after(&eleven, " at ")),
+    };
     if let (Some(step), Some((text, digit))) = (step, printed)
         && eleven.contains("interval")
         && (step - text).abs() > digit

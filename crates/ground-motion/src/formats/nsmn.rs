@@ -266,7 +266,11 @@ impl Header {
                 // `(N-S) 13.2 (E-W) 12.1 (U-D) 9.8`
                 for part in value.split('(').skip(1) {
                     if let Some((name, rest)) = part.split_once(')')
-                        && let Some(peak) = number::first_in(&with_point(rest))
+                        && let Some(peak) = source.header_number(
+                            line.number,
+                            &format!("the peak ({})", name.trim()),
+                            &with_point(rest),
+                        )
                     {
                         self.peaks.push((name.trim().to_owned(), peak, line.number));
                     }

@@ -9,7 +9,7 @@ use crate::formats::Format;
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
-use crate::source::Source;
+use crate::source::{self, Source};
 use crate::text::{Line, Lines};
 use crate::time_column::{TimeColumn, starts_at_zero};
 use crate::unit::AccelerationUnit;
@@ -51,9 +51,24 @@ const KEYS: [&str; 18] = [
     INITIAL_DISPLACEMENT,
 ];
 
+/// Those that hold one value.
+const OF_ONE_VALUE: [&str; 9] = [
+    "Component",
+    AZIMUTH,
+    DIP,
+    START_TIME,
+    FIRST_TIME,
+    "dt",
+    SAMPLES,
+    INITIAL_VELOCITY,
+    INITIAL_DISPLACEMENT,
+];
+
 /// `# Key: value` lines that mean something.
 #[derive(Default)]
 pub(super) struct Keys {
+    /// Those of one value so far.
+    seen: source::Keys,
     title: Vec<String>,
     component: String,
     start_time: String,
@@ -254,6 +269,11 @@ impl Keys {
         // Other programs write the keys in other letters.
         let key = key.trim();
         let key = KEYS.into_iter().find(|k| k.eq_ignore_ascii_case(key));
+        if let Some(key) = key.filter(|key| OF_ONE_VALUE.contains(key))
+            && !self.seen.is_new(source, line, key, value)?
+        {
+            return Ok(());
+        }
         match key.unwrap_or_default() {
             "Event" | "Station" => self.title.push(value.to_owned()),
             "Component" => value.clone_into(&mut self.component),
@@ -318,7 +338,15 @@ impl Keys {
             }
             "dt" => {
                 let number = value.strip_suffix('s').unwrap_or(value);
-                self.step = Some((line.number, source.number(line, 0, number.as_bytes())?));
+                let step = number::parse(number.as_bytes()).map_err(|_| {
+                    source.error(
+                        line.number,
+                        0,
+                        format!("the time step \"{}\" is not a number of seconds", number::shown(value.as_bytes())),
+                        "write it as `# dt: 0.01 s`, or leave the line out: the column of times has the step",
+                    )
+                })?;
+                self.step = Some((line.number, step));
             }
             SAMPLES => {
                 let count = value.split([' ', '\t']).next().unwrap_or_default();

@@ -124,7 +124,10 @@ fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     draft.processing = kind.stage;
     draft.component = component(source, text[5], &integers)?;
     draft.title = format!("{}; {}", text[3].text().trim(), text[5].columns(0, 40));
-    draft.start_time = start_time(&integers);
+    match integers.unread(&[2, 3, 4, 5, 6, 7], "the time of the first sample") {
+        Some(warning) => draft.warnings.push(warning),
+        None => draft.start_time = start_time(&integers),
+    }
     draft.corners.0 = known(reals.positive(33));
     let line = (!kind.stale_peak).then_some(text[6]);
     peaks(&mut draft, line, &reals);

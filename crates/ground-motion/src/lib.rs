@@ -39,6 +39,7 @@ mod start_times;
 mod stated_step;
 mod station_xml;
 mod step_record;
+mod stray_commas;
 mod text;
 mod time_column;
 mod unit;

@@ -52,6 +52,7 @@ mod stated_durations;
 mod stated_in_words;
 mod stated_keys;
 mod station_xml;
+mod stray_commas;
 mod surplus_decimals;
 mod thousands;
 mod time_columns;

@@ -15,6 +15,7 @@ use crate::quantity::Quantity;
 use crate::recording::{Recording, Series};
 use crate::select;
 use crate::source::Source;
+use crate::stray_commas;
 
 mod asa;
 mod bhrc;
@@ -174,6 +175,9 @@ fn every_series(
     }
     let read = (format.read)(&source);
     let mut series = read.map_err(|error| or_cwa(&source, format, error))?;
+    if !is_binary(format) {
+        stray_commas::refuse(&source)?;
+    }
     // A line of NUL bytes may stand for one of values that are missing.
     let is_line = bytes[bytes.len() - filled..].contains(&b'\n');
     let lacks = |s: &Series| {

@@ -174,13 +174,6 @@ impl History {
         self.branch.kind
     }
 
-    /// Turning points whose loops are still open, the oldest first; laws that do
-    /// not close loops by rule keep none.
-    #[must_use]
-    pub fn open_reversals(&self) -> &[Point] {
-        &self.reversals
-    }
-
     /// What is remembered of the side with this sign.
     pub(crate) fn side(&self, side: f64) -> &Side {
         &self.sides[usize::from(side < 0.0)]

@@ -50,7 +50,7 @@ impl Model {
     /// system was made of are not known, and not kept from being replaced.
     ///
     /// # Errors
-    /// An option out of range, or a ground motion of fewer than two samples.
+    /// What [`RunOptions::check`] refuses, or a ground motion of fewer than two samples.
     pub fn of_system(system: System, options: RunOptions) -> Result<Self, Error> {
         options.check(&system)?;
         let ground = system.ground();
@@ -146,7 +146,7 @@ impl Model {
     /// Integrates otherwise than the simulation or the case file says.
     ///
     /// # Errors
-    /// An option out of range.
+    /// What [`RunOptions::check`] refuses.
     pub fn with_options(mut self, options: RunOptions) -> Result<Self, Error> {
         options.check(&self.system)?;
         self.options = options;

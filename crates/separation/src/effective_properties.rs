@@ -14,7 +14,7 @@ pub struct YieldingOscillator {
     pub period: f64,
     /// Viscous damping ratio (-).
     pub damping_ratio: f64,
-    /// Maximum displacement over yield displacement (-), at least 1.
+    /// Maximum displacement over yield displacement (-), 1 to 1000.
     pub ductility: f64,
     /// Stiffness after yield over that before (-), 0 to 1.
     pub hardening: f64,
@@ -82,7 +82,7 @@ impl EffectiveProperties {
     /// The linear oscillator that stands for a yielding one.
     ///
     /// # Errors
-    /// Period or damping that is not positive, ductility below 1, hardening outside 0 to 1.
+    /// A period that is not positive, damping or hardening outside 0 to 1, ductility outside 1 to 1000.
     pub fn apply(self, building: &YieldingOscillator) -> Result<Oscillator, SeparationError> {
         let YieldingOscillator {
             period,

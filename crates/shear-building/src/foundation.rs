@@ -442,13 +442,13 @@ impl BuildingOnFoundation {
         &self.mass
     }
 
-    /// Stiffness matrix.
+    /// Stiffness matrix (N/m; of the rotation N m, between both N).
     #[must_use]
     pub fn stiffness(&self) -> &DMatrix<f64> {
         &self.stiffness
     }
 
-    /// Damping matrix.
+    /// Damping matrix (N s/m; of the rotation N m s, between both N s).
     #[must_use]
     pub fn damping(&self) -> &DMatrix<f64> {
         &self.damping

@@ -28,7 +28,7 @@ pub enum MethodChoice {
         /// Relative tolerance of the adaptive pair (-).
         relative_tolerance: f64,
     },
-    /// Newmark with a fixed step.
+    /// Newmark (1959, J. Eng. Mech. Div. 85 (3) 67) with a fixed step.
     Newmark {
         /// Step (s).
         step: f64,
@@ -37,7 +37,7 @@ pub enum MethodChoice {
         /// Weight of the acceleration in the velocity.
         gamma: f64,
     },
-    /// HHT-alpha with a fixed step; beta and gamma follow from alpha.
+    /// HHT-alpha (Hilber, Hughes and Taylor 1977, Earthq. Eng. Struct. Dyn. 5, 283) with a fixed step; beta and gamma follow from alpha.
     HhtAlpha {
         /// Step (s).
         step: f64,
@@ -84,7 +84,7 @@ impl Default for RunOptions {
 
 impl RunOptions {
     /// Bound of the energy residual that makes a run an error: as asked, or 1e-6
-    /// for the adaptive pair and 0.05 for fixed steps, whose residual tells how
+    /// for the event-driven method and the adaptive pair, and 0.05 for fixed steps, whose residual tells how
     /// coarse the step is and, for HHT-alpha and gamma above 1/2, how much the
     /// method itself damps.
     #[must_use]
@@ -98,7 +98,9 @@ impl RunOptions {
     /// Checks the options against a system and returns the duration (s).
     ///
     /// # Errors
-    /// An option out of range, or a run of more than [`crate::MAXIMUM_STEPS`] steps.
+    /// An option out of range, a run of more than [`crate::MAXIMUM_STEPS`] steps, samples of the ground that are not finite, or
+    /// what the method does not integrate: steps too long for it to be stable, and by method contacts or elements with laws of a
+    /// kind, rigid contacts whose floors begin beyond their gap, contacts shorter than the digits of the time.
     pub fn check(&self, system: &System) -> Result<f64, TimeHistoryError> {
         require(
             system.degrees_of_freedom() > 0,

@@ -73,7 +73,7 @@ impl Approach {
 /// of the law meant, if it is known, decides whether damping is warned of.
 ///
 /// # Errors
-/// Quantities that are not positive, an exponent outside [1, 5], which impact models take.
+/// Quantities that are not positive, an exponent outside [1, 5], which impact models take, or a restitution outside (0, 1].
 pub fn duration(
     wanted: f64,
     exponent: f64,
@@ -100,7 +100,7 @@ pub fn duration(
 /// conservation. Restitution (-) and gap width (m), if known, decide on warnings.
 ///
 /// # Errors
-/// Quantities that are not positive, an exponent outside [1, 5], which impact models take.
+/// Quantities that are not positive, an exponent outside [1, 5], which impact models take, or a restitution outside (0, 1].
 pub fn penetration(
     wanted: f64,
     exponent: f64,

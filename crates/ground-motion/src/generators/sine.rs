@@ -34,7 +34,8 @@ impl Sine {
     /// The motion.
     ///
     /// # Errors
-    /// Numbers that are not positive, or a frequency from half the sampling rate on.
+    /// Amplitude, frequency or length that are not positive, a phase beyond a turn, an envelope that does not fit the length, or a
+    /// frequency from half the sampling rate on.
     pub fn generate(&self, grid: TimeGrid) -> Result<Generated, GroundMotionError> {
         positive(STEP, "amplitude", self.amplitude)?;
         positive(STEP, "length", self.length)?;

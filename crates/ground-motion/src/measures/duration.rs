@@ -97,7 +97,7 @@ impl Husid {
         Ok((after as f64 - 1.0 + fraction) * self.time_step)
     }
 
-    /// From one part of the whole to another.
+    /// From when one part of the whole (-) is reached to when another is.
     ///
     /// # Errors
     /// Parts that are not `0 < from < to <= 1`.

@@ -80,6 +80,8 @@ impl Envelope {
         (self.cap - force) / self.softening
     }
 
+    /// The force at a deformation on its side: the least of the hardening line, the falling one and the limit, and not below
+    /// what is left in the end.
     pub fn force(&self, deformation: f64) -> f64 {
         let hardening = self.start + self.hardening * deformation;
         let falling = self.cap - self.softening * deformation;

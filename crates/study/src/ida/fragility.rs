@@ -91,7 +91,7 @@ impl Fragility {
         }
     }
 
-    /// Bounds of the median, with this confidence: even in its logarithm.
+    /// Bounds of the median, in its unit, with this confidence (-): even in its logarithm.
     #[must_use]
     pub fn median_bounds(&self, confidence: f64) -> [f64; 2] {
         let reach = self.reach(confidence) * self.standard_errors[0];

@@ -46,7 +46,7 @@ impl Asce7Of2016 {
     /// The spectrum from 0.01 to 10 s as a target.
     ///
     /// # Errors
-    /// Accelerations that are not positive, TS above 2 s, or TL outside 4 to 16 s.
+    /// Accelerations that are not positive, TS outside 0.1 to 2 s, or TL outside 4 to 16 s.
     pub fn target(&self) -> Result<TargetSpectrum, GroundMotionError> {
         positive(STEP, "SDS", self.short_period)?;
         positive(STEP, "SD1", self.one_second)?;

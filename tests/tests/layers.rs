@@ -174,6 +174,22 @@ fn sources(folder: &Path, module: &[String]) -> Vec<(Vec<String>, String)> {
     found
 }
 
+/// A module with children lies in its `mod.rs`, beside them, and not above them under the name of their folder.
+#[test]
+fn modules_with_children_lie_in_mod_rs() {
+    let mut folders = vec![root().join("crates")];
+    let mut looked_at = 0;
+    while let Some(folder) = folders.pop() {
+        let beside = folder.with_extension("rs");
+        assert!(!beside.exists(), "{} and a folder", beside.display());
+        looked_at += 1;
+        let entries = std::fs::read_dir(&folder).unwrap();
+        let paths = entries.map(|entry| entry.unwrap().path());
+        folders.extend(paths.filter(|path| path.is_dir()));
+    }
+    assert!(looked_at > 150, "{looked_at}");
+}
+
 /// What several commands need lies beside `commands` or in a library.
 #[test]
 fn commands_do_not_import_one_another() {

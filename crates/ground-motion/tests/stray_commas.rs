@@ -82,3 +82,23 @@ fn commas_throughout_are_read() {
         assert_eq!(read(&text, &options), Ok(COUNT), "{between}");
     }
 }
+
+/// Several in one row, and none in lines that are passed over.
+#[test]
+fn commas_of_a_row_and_of_lines_passed_over() {
+    let options = ReadOptions {
+        unit: Some(AccelerationUnit::StandardGravity),
+        time_step: Some(0.01),
+        ..ReadOptions::default()
+    };
+    let text = rows(5, |i| format!("{:12.6}", value(i)));
+    let two = format!("{text}   0.12345    ,0.02970    ,0.12345    0.1   0.1\n");
+    let said = read(&two, &options).unwrap_err();
+    assert!(said.starts_with("f:81:14: "), "{said}");
+    let above = format!("1 ,2\n{text}");
+    let skipping = ReadOptions {
+        skip_lines: 1,
+        ..options
+    };
+    assert_eq!(read(&above, &skipping), Ok(COUNT));
+}

@@ -11,7 +11,8 @@ pub(super) enum Zone<'t> {
     Named(&'t str),
 }
 
-/// Zones (hours before UTC) by their names, where these stand for one alone.
+/// Zones (hours before UTC) by their names, where agencies that print these mean one alone: PST is that of California, which
+/// also names the time of the Philippines.
 const ZONES: [(&str, f64); 26] = [
     ("UTC", 0.0),
     ("UT", 0.0),

@@ -9,7 +9,9 @@ use crate::contact::{Contact, Contacts};
 use crate::dynamics::Segment;
 use crate::outcome::Peak;
 use crate::peaks::Peaks;
-use crate::polynomial::{Polynomial, absolute_maximum, hermite_range, maximum_above, septic};
+use crate::polynomial::{
+    Polynomial, absolute_maximum, derivative, hermite_range, maximum_above, septic, value,
+};
 use crate::propagation::{
     AffineContact, ContactSeries, Courses, Ends, NARROW, RowBlocks, SeriesTerms, padded,
 };
@@ -19,6 +21,9 @@ use crate::system::{ContactLevel, SectionPlace, System};
 /// where it only tells the place of a peak that is read off a series.
 const ALLOWED: f64 = 1.0e-10;
 const ALLOWED_BESIDE_SERIES: f64 = 1.0e-8;
+/// Error of a polynomial halfway, relative to the peak, up to which it is taken although its bound is greater: less, as it is one
+/// place that tells of all.
+const MET_HALFWAY: f64 = 1.0e-12;
 /// Corrections of the place of such a peak at most, and what is left of it.
 const CORRECTIONS: usize = 4;
 const PLACED: f64 = 1.0e-9;
@@ -80,7 +85,8 @@ enum What {
 }
 
 /// A function with derivatives at both ends, and bounds of its own.
-struct Values {
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct Values {
     start: [f64; 4],
     end: [f64; 4],
     /// Of the fourth, fifth and eighth derivative.
@@ -365,7 +371,7 @@ impl Values {
             return true;
         }
         let error = h.powi(8) / (40_320.0 * 256.0) * self.bounds[2];
-        let large = peak.max(self.start[0].abs()).max(self.end[0].abs());
+        let large = self.largest(peak);
         let allowed = match place.series {
             Some(_) => ALLOWED_BESIDE_SERIES,
             None => ALLOWED,
@@ -389,6 +395,11 @@ impl Values {
             raise(top, start + theta * h);
         }
         true
+    }
+
+    /// The greatest of its ends and of its peak so far.
+    fn largest(&self, peak: f64) -> f64 {
+        peak.max(self.start[0].abs()).max(self.end[0].abs())
     }
 
     fn polynomial(&self, h: f64) -> Polynomial {
@@ -767,6 +778,27 @@ impl Function {
         self.row.mobility.iter().map(|(b, _)| *b)
     }
 
+    /// The function over a step without contact.
+    pub(super) fn values(&self, ends: &Ends) -> Values {
+        self.row.values(ends, self.order())
+    }
+
+    /// Whether its polynomial over a step is met halfway, where the first half of the step ends, as closely as bounds ask for.
+    /// Bounds of the eighth derivative are those of the stiffest mode, which may rest.
+    pub(super) fn is_met_halfway(&self, over: &Values, first_half: &Ends, peaks: &Peaks) -> bool {
+        let met = over.polynomial(2.0 * first_half.length);
+        let there = match self.order() {
+            2 => first_half.absolute_end.each_ref(),
+            _ => [&first_half.end[0], &first_half.end[1]],
+        };
+        let [at, rate] = there.map(|x| self.row.sum(x));
+        let error = value(&met, 0.5) - at;
+        let of_slope = value(&derivative(&met), 0.5) - 2.0 * first_half.length * rate;
+        let large = over.largest(self.peak(peaks).0);
+        // What is not a number is not met.
+        error.abs() + 0.25 * of_slope.abs() <= MET_HALFWAY * large
+    }
+
     fn order(&self) -> usize {
         match self.what {
             What::Acceleration(_) | What::Accelerations(_) => 2,
@@ -888,5 +920,18 @@ impl Function {
             terms
         };
         values.take(place, h, present, terms, raise)
+    }
+
+    /// Takes its peak over a step without contact whose polynomial is exact.
+    pub(super) fn takes_exact_peak(
+        &self,
+        place: &Place<'_>,
+        (over, length): (&Values, f64),
+        peaks: &mut Peaks,
+    ) {
+        let present = self.peak(peaks);
+        let raise = |top: f64, time: f64| self.raise(peaks, top, time);
+        let no_terms = |series: &ContactSeries| series.terms_of(std::iter::empty(), false);
+        over.take(place, length, present, no_terms, raise);
     }
 }

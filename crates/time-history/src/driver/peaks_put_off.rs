@@ -4,7 +4,7 @@
 
 use super::Driver;
 use super::exact_steps::ExactSteps;
-use super::functions::{Begin, Place};
+use super::functions::{Begin, Place, Values};
 use crate::dynamics::Segment;
 use crate::propagation::{HALVINGS, part_of};
 use crate::system::System;
@@ -24,6 +24,14 @@ struct Note {
     state: usize,
 }
 
+/// A function that is looked at in a part of an interval.
+#[derive(Debug, Clone, Copy)]
+struct Open {
+    function: usize,
+    /// Over the part of twice the length in which its polynomial was not exact, if this is a half of one.
+    over: Values,
+}
+
 /// All of them.
 #[derive(Debug)]
 pub(super) struct PeaksPutOff {
@@ -37,7 +45,7 @@ pub(super) struct PeaksPutOff {
     /// Space for the states at both ends of a part of an interval, one pair for each further halving.
     inside: Vec<f64>,
     /// The functions to be looked at in it: after those of an interval those of a half of a part and so on, from these places on.
-    open: Vec<usize>,
+    open: Vec<Open>,
     open_from: Vec<usize>,
 }
 
@@ -127,7 +135,10 @@ impl Driver<'_> {
             let (functions, peaks) = (&exact.functions, &self.peaks);
             let above = |note: &&Note| note.upper > functions[note.function].peak(peaks).0;
             exact.put_off.open.clear();
-            let open = group.iter().filter(above).map(|note| note.function);
+            let open = group.iter().filter(above).map(|note| Open {
+                function: note.function,
+                over: Values::default(),
+            });
             exact.put_off.open.extend(open);
             if exact.put_off.open.is_empty() {
                 continue;
@@ -189,7 +200,8 @@ impl Driver<'_> {
         let first = put_off.open_from[depth];
         let (asked, place) = (first..open.len(), depth * 2 * *size);
         let (state, end) = inside[place..][..2 * *size].split_at_mut(*size);
-        let doubted = |b: usize| open[asked.clone()].iter().any(|f| functions[*f].is_of(b));
+        let of = |open: &[Open], b| open.iter().any(|o| functions[o.function].is_of(b));
+        let doubted = |b: usize| of(&open[asked.clone()], b);
         propagation.advance(
             (self.system, segment),
             tau,
@@ -202,25 +214,49 @@ impl Driver<'_> {
         let (u, v) = end.split_at_mut(*size / 2);
         u.copy_from_slice(&ends.end[0]);
         v.copy_from_slice(&ends.end[1]);
+        let place_in = |finest: bool| Place {
+            system: self.system,
+            segment,
+            tau,
+            contacts: &[],
+            levels,
+            series: None,
+            finest,
+        };
         let mut unsure = false;
         for k in asked.clone() {
-            let function = &functions[open[k]];
+            let number = open[k].function;
+            let function = &functions[number];
             let most = function.buildings().map(|b| propagation.halvings(which, b));
-            let now = Place {
-                system: self.system,
-                segment,
-                tau,
-                contacts: &[],
-                levels,
-                series: None,
-                finest: halvings >= most.min().unwrap_or(HALVINGS),
-            };
+            let now = place_in(halvings >= most.min().unwrap_or(HALVINGS));
             if !function.takes_peak(&now, ends, &mut self.peaks) {
                 unsure = true;
                 if halvings >= HALVINGS {
-                    open.push(open[k]);
+                    open.push(Open {
+                        function: number,
+                        over: function.values(ends),
+                    });
                 }
             }
+        }
+        if open.len() > asked.end {
+            // Where they are met halfway after all there is nothing more to look at.
+            let doubted = |b: usize| of(&open[asked.end..], b);
+            let half = (which, halvings + 1);
+            propagation.advance((self.system, segment), tau, half, state, doubted);
+            let (now, length) = (place_in(true), part_of(segment.length, halvings));
+            let mut kept = asked.end;
+            for k in asked.end..open.len() {
+                let Open { function, over } = open[k];
+                let function = &functions[function];
+                if function.is_met_halfway(&over, &propagation.ends, &self.peaks) {
+                    function.takes_exact_peak(&now, (&over, length), &mut self.peaks);
+                } else {
+                    open[kept] = open[k];
+                    kept += 1;
+                }
+            }
+            open.truncate(kept);
         }
         if open.len() > asked.end {
             let (this, below) = inside.split_at_mut(place + 2 * *size);

@@ -94,7 +94,7 @@ fn commas_of_a_row_and_of_lines_passed_over() {
     let text = rows(5, |i| format!("{:12.6}", value(i)));
     let two = format!("{text}   0.12345    ,0.02970    ,0.12345    0.1   0.1\n");
     let said = read(&two, &options).unwrap_err();
-    assert!(said.starts_with("f:81:14: "), "{said}");
+    assert!(said.starts_with("f:81:15: "), "{said}");
     let above = format!("1 ,2\n{text}");
     let skipping = ReadOptions {
         skip_lines: 1,

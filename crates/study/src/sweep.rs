@@ -501,12 +501,12 @@ fn other_version(description: &Description, options: &SweepOptions) -> Option<St
         let is_other = name.study == own.study && name.count == own.count && name != own;
         is_other.then_some(name)
     });
-    let mut studies = names.filter_map(|name| {
+    let studies = names.filter_map(|name| {
         let path = folder.join(name.result());
         let study = Label::of(&path)?.study?;
         Some((path, study))
     });
-    let mut looked_at = studies.by_ref().take(LOOKED_AT);
+    let mut looked_at = studies.take(LOOKED_AT);
     let (path, _) = looked_at.find(|(_, study)| study.sha256 != description.study_sha256)?;
     Some(format!(
         "{} is of another version of the study, and is not merged with this shard: move it away and make it again, or give each version a folder of its own",

@@ -9,7 +9,7 @@ use pounding_separation::{
     Structure, Verification, YieldingOscillator, choose_code, code_in_country, codes,
     correlation_coefficient, descriptors, find,
 };
-use pounding_shear_building::{EDGE_DISPLACEMENTS, are_level};
+use pounding_shear_building::{EDGE_DISPLACEMENTS, ShearBuilding, are_level};
 use pounding_time_history::{BuildingOutcome, Gap, System};
 
 use super::SAME;
@@ -737,38 +737,44 @@ fn correlation(
     effective: Option<EffectiveProperties>,
     records: &[RecordDemand],
 ) -> Result<f64, CheckError> {
+    // Once for all records: on soil it is sought.
+    let first = buildings.map(|b| first_mode(&place.system.buildings()[b]));
     let mut least = f64::INFINITY;
     for record in records {
-        let of = |b| oscillator(place, inputs, b, effective, &record.isolated[b]);
-        let [a, b] = buildings.map(of);
-        least = least.min(correlation_coefficient(a?, b?)?);
+        let of = |k: usize| {
+            let b = buildings[k];
+            oscillator(first[k], inputs, b, effective, &record.isolated[b])
+        };
+        least = least.min(correlation_coefficient(of(0)?, of(1)?)?);
     }
     Ok(least)
 }
 
-/// Period and damping of a building's fundamental mode along the row, effective ones if it yields or
-/// stands on isolators.
+/// Period and damping of a building's fundamental mode along the row; on soil of the mode that `check` names, with the damping
+/// of both.
+fn first_mode(building: &ShearBuilding) -> Oscillator {
+    let on_soil = building.foundation().and_then(|soil| soil.first_mode());
+    let (modes, mode) = (building.modes(), building.fundamental_mode());
+    on_soil.map_or(
+        Oscillator {
+            period: modes.period[mode],
+            damping_ratio: modes.damping_ratio[mode],
+        },
+        |damped| Oscillator {
+            period: damped.period,
+            damping_ratio: damped.damping_ratio,
+        },
+    )
+}
+
+/// The oscillator that stands for a building: its fundamental mode, or an effective one if it yields or stands on isolators.
 fn oscillator(
-    place: &GapPlace<'_>,
+    first: Oscillator,
     inputs: &Inputs<'_>,
     building: usize,
     effective: Option<EffectiveProperties>,
     isolated: &BuildingOutcome,
 ) -> Result<Oscillator, CheckError> {
-    let made = &place.system.buildings()[building];
-    let (modes, mode) = (made.modes(), made.fundamental_mode());
-    // On soil the mode that `check` names, with the damping of both.
-    let on_soil = made.foundation().and_then(|soil| soil.first_mode());
-    let first = match on_soil {
-        Some(damped) => Oscillator {
-            period: damped.period,
-            damping_ratio: damped.damping_ratio,
-        },
-        None => Oscillator {
-            period: modes.period[mode],
-            damping_ratio: modes.damping_ratio[mode],
-        },
-    };
     let isolator = isolated.isolator.as_ref();
     if let Some(isolator) = isolator.filter(|i| i.effective_period > first.period) {
         return Ok(Oscillator {

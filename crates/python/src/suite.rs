@@ -38,8 +38,13 @@ impl Suite {
         let (mut names, mut records, mut skipped) = (Vec::new(), Vec::new(), Vec::new());
         for (name, value) in given {
             if let Ok(motion) = value.cast::<Motion>() {
+                let motion = &motion.get().record;
+                let is_it = |r: &Record| matches!(r, Record::Motion(m) if Arc::ptr_eq(m, motion));
+                if records.iter().any(is_it) {
+                    return Err(wrong(CheckError::record_given_twice(&name)).into());
+                }
                 names.push(name);
-                records.push(Record::Motion(Arc::clone(&motion.get().record)));
+                records.push(Record::Motion(Arc::clone(motion)));
                 continue;
             }
             let path: PathBuf = value.extract()?;

@@ -164,6 +164,8 @@ def test_records_of_one_name_are_numbered_as_the_commands_do(tmp_path: Path) -> 
     assert list(check.demand.index) == ["motion", "motion (2)", "x"]
     with pytest.raises(pounding.CaseError, match="x.csv is given twice"):
         pounding.gap_check(path, [records[0], tmp_path / "a" / ".." / "a" / "x.csv"])
+    with pytest.raises(pounding.CaseError, match="record motion is given twice"):
+        pounding.gap_check(path, [*made, made[0]])
 
 
 def test_files_that_are_no_records_are_said_to_be_left_out(tmp_path: Path) -> None:

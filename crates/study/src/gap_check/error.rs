@@ -123,6 +123,15 @@ pub enum CheckError {
 }
 
 impl CheckError {
+    /// That of a record that would count twice.
+    #[must_use]
+    pub fn record_given_twice(name: &dyn std::fmt::Display) -> Self {
+        Self::Word {
+            message: format!("record {name} is given twice"),
+            help: Some("name each record once: it would count twice".to_owned()),
+        }
+    }
+
     /// What to do about it.
     #[must_use]
     pub fn help(&self) -> Option<String> {

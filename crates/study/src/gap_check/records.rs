@@ -372,10 +372,7 @@ pub fn given_once(files: &[PathBuf]) -> Result<(), CheckError> {
     for file in files {
         let place = file.canonicalize().unwrap_or_else(|_| file.clone());
         if seen.contains(&place) {
-            return Err(CheckError::Word {
-                message: format!("record {} is given twice", file.display()),
-                help: Some("name each record once: it would count twice".to_owned()),
-            });
+            return Err(CheckError::record_given_twice(&file.display()));
         }
         seen.push(place);
     }

@@ -1,7 +1,5 @@
 //! What an element remembers: a value shared by all laws.
 
-use crate::law::Motion;
-
 /// Maximum number of internal variables of a law.
 pub const MAXIMUM_INTERNAL_VARIABLES: usize = 2;
 
@@ -151,15 +149,6 @@ impl History {
     /// with some former content, ready for the next trial.
     pub fn commit(&mut self, candidate: &mut Self) {
         std::mem::swap(self, candidate);
-    }
-
-    /// Deformation and velocity of the last committed or accepted state.
-    #[must_use]
-    pub fn motion(&self) -> Motion {
-        Motion {
-            deformation: self.deformation,
-            velocity: self.velocity,
-        }
     }
 
     /// Internal variables of the last committed or accepted state.

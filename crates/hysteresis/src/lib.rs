@@ -28,7 +28,6 @@
 // The same bits on every machine: see clippy.toml.
 #![warn(clippy::disallowed_methods)]
 
-pub mod descriptor;
 pub mod error;
 pub mod history;
 pub mod iwan;
@@ -39,8 +38,6 @@ pub mod registry;
 
 mod bouc_wen_family;
 mod deteriorating;
-mod iwan_fall;
-mod iwan_fit;
 mod laws;
 mod masing;
 mod path;
@@ -51,6 +48,6 @@ mod substeps;
 pub use descriptor::*;
 pub use error::HysteresisError;
 pub use history::{History, MAXIMUM_INTERNAL_VARIABLES, Point};
-pub use law::*;
+pub use law::{descriptor, *};
 pub use parameters::{LawParameters, yield_deformation};
 pub use registry::{build, descriptors, find, help_among_gaps};

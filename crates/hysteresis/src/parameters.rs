@@ -1,9 +1,10 @@
 //! Parameters of a law as a user gives them, and those that several laws have.
 
 pub use pounding_catalogue::Parameters as LawParameters;
+use pounding_catalogue::{ParameterDescriptor, ParameterUnit};
 pub(crate) use pounding_catalogue::{non_negative, optional_positive, positive};
 
-use crate::descriptor::{LawDescriptor, ParameterDescriptor, ParameterUnit};
+use crate::descriptor::LawDescriptor;
 
 /// Deformation (m) at which an element of initial stiffness `stiffness` (N/m) begins to yield or
 /// slip from rest in either direction: its yield displacement, or its yield or friction force over that stiffness. `None` for

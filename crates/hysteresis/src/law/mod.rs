@@ -1,6 +1,8 @@
 //! The contract of a force-deformation law with memory.
 
-use crate::descriptor::LawDescriptor;
+pub mod descriptor;
+
+use self::descriptor::LawDescriptor;
 use crate::history::{History, MAXIMUM_INTERNAL_VARIABLES};
 
 /// Maximum number of guards that one branch watches.
@@ -13,6 +15,17 @@ pub struct Motion {
     pub deformation: f64,
     /// Rate of deformation (m/s).
     pub velocity: f64,
+}
+
+impl History {
+    /// Deformation and velocity of the last committed or accepted state.
+    #[must_use]
+    pub fn motion(&self) -> Motion {
+        Motion {
+            deformation: self.deformation,
+            velocity: self.velocity,
+        }
+    }
 }
 
 /// Force of the element and its partial derivatives.

@@ -12,12 +12,6 @@ use crate::error::HysteresisError;
 use crate::parameters::LawParameters;
 use crate::power_integral::{power, power_moment};
 
-pub use crate::iwan_fall::Fall;
-pub use crate::iwan_fit::{
-    DensityFit, FitDoubt, FitOptions, HeldParameters, MeasuredCurve, density_of_backbone,
-    fit_backbone, fit_dissipation, fit_from_many, unknowns_of_fit,
-};
-
 /// The density of sliders.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct IwanDensity {
@@ -36,7 +30,7 @@ pub struct IwanDensity {
 }
 
 /// Name under which the errors of the closed forms speak.
-pub(crate) const LAW: &str = "iwan_six_parameter";
+pub(super) const LAW: &str = "iwan_six_parameter";
 
 impl IwanDensity {
     /// The parameters of the law `iwan_six_parameter` with this density.

@@ -1,11 +1,10 @@
 //! The descriptor of a law: what it is, needs, and is worth.
 
-use pounding_catalogue::Descriptor;
 pub use pounding_catalogue::{Alias, ParameterDescriptor, ParameterUnit, Verification};
+use pounding_catalogue::{Descriptor, Parameters};
 
+use super::HysteresisLaw;
 use crate::error::HysteresisError;
-use crate::law::HysteresisLaw;
-use crate::parameters::LawParameters;
 
 /// Everything that is known of a law without running it.
 #[derive(Debug)]
@@ -38,7 +37,7 @@ pub struct LawDescriptor {
     /// Known traps and what the law does not deliver.
     pub traps: &'static [&'static str],
     /// Builds the law from checked parameters.
-    pub build: fn(&LawParameters) -> Result<Box<dyn HysteresisLaw>, HysteresisError>,
+    pub build: fn(&Parameters) -> Result<Box<dyn HysteresisLaw>, HysteresisError>,
 }
 
 impl Descriptor for LawDescriptor {
@@ -61,7 +60,7 @@ impl Descriptor for LawDescriptor {
 impl LawDescriptor {
     /// The parameters of [`LawDescriptor::example`].
     #[must_use]
-    pub fn example_parameters(&self) -> LawParameters {
-        LawParameters::from_pairs(self.example)
+    pub fn example_parameters(&self) -> Parameters {
+        Parameters::from_pairs(self.example)
     }
 }

@@ -2,8 +2,9 @@
 
 use pounding_catalogue::numbers::significant;
 
+use super::density::LAW;
+use super::measured_curve::MeasuredCurve;
 use crate::error::HysteresisError;
-use crate::iwan::{LAW, MeasuredCurve};
 
 /// Root mean square of the relative errors, of the best of all curves that never fall, up to which a fall is
 /// noise.

@@ -2,9 +2,6 @@
 
 use pounding_catalogue::DefinitionError;
 
-use crate::descriptor::{AchievedRestitution, ModelDescriptor};
-use crate::registry;
-
 /// A model that cannot be built, or a collision that cannot be computed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -53,6 +50,8 @@ pub enum GapElementError {
     Unfinished {
         /// Name of the model.
         model: &'static str,
+        /// Whether it has no damping.
+        elastic: bool,
         /// Steps taken.
         steps: usize,
         /// Time after closure (s).
@@ -84,13 +83,8 @@ impl GapElementError {
             Self::Series { .. } => "take an elastic law, linear_elastic or hertz_1882".to_owned(),
             Self::SpringTable(_) => "give borovin_2014 penetrations and forces that increase from above zero".to_owned(),
             Self::Bodies(_) => "the left body must move towards the right one; check masses and velocities with their units".to_owned(),
-            Self::Unfinished { model, .. } => {
-                let elastic = |d: &ModelDescriptor| d.achieved_restitution == AchievedRestitution::Elastic;
-                match registry::find(model).is_ok_and(elastic) {
-                    true => "stiffness, mass and speed are out of all proportion, so that the contact is over in next to no time: check their values and units; plain numbers are SI".to_owned(),
-                    false => "so much damping makes the contact creep for ever, or stiffness, mass and speed are out of all proportion: check them, damping, restitution and their units".to_owned(),
-                }
-            }
+            Self::Unfinished { elastic: true, .. } => "stiffness, mass and speed are out of all proportion, so that the contact is over in next to no time: check their values and units; plain numbers are SI".to_owned(),
+            Self::Unfinished { elastic: false, .. } => "so much damping makes the contact creep for ever, or stiffness, mass and speed are out of all proportion: check them, damping, restitution and their units".to_owned(),
         })
     }
 }

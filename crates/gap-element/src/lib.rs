@@ -5,7 +5,6 @@
 
 pub mod calibration;
 pub mod contact_stiffness;
-pub mod descriptor;
 pub mod error;
 pub mod laboratory;
 pub mod model;
@@ -18,6 +17,7 @@ mod collision;
 mod in_series;
 mod models;
 mod restitution_table;
+mod separation_rule;
 
 pub use collision::{
     Bodies, CollisionOptions, CollisionOutcome, CollisionSample, collide, collide_with,
@@ -25,6 +25,6 @@ pub use collision::{
 pub use descriptor::*;
 pub use error::GapElementError;
 pub use in_series::in_series;
-pub use model::*;
+pub use model::{descriptor, *};
 pub use parameters::ModelParameters;
 pub use restitution_table::*;

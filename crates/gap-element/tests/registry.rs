@@ -459,10 +459,14 @@ fn which_laws_divide_by_the_approach_velocity() {
 /// Elastic laws have no damping that could make a contact creep.
 #[test]
 fn what_to_do_about_a_collision_without_end() {
-    let error = |model| GapElementError::Unfinished {
-        model,
-        steps: 100_000,
-        time: 1.0e-9,
+    let error = |name| {
+        let model = registry::find(name).unwrap();
+        GapElementError::Unfinished {
+            model: model.name,
+            elastic: model.achieved_restitution == AchievedRestitution::Elastic,
+            steps: 100_000,
+            time: 1.0e-9,
+        }
     };
     for elastic in ["linear_elastic", "hertz_1882"] {
         let help = error(elastic).help().unwrap();

@@ -3,6 +3,7 @@
 use pounding_runge_kutta::{DENSE_COEFFICIENTS, Dop853};
 
 use super::{CollisionOptions, CollisionSample};
+use crate::descriptor::AchievedRestitution;
 use crate::error::GapElementError;
 use crate::model::{Collision, Direction, Force, Guard, ImpactModel, Memory, Phase, Target};
 
@@ -149,8 +150,10 @@ impl<'a> Flight<'a> {
             };
             self.step = next.min((0.5 * self.time).max(FIRST_STEP));
         }
+        let model = self.model.descriptor();
         Err(GapElementError::Unfinished {
-            model: self.model.descriptor().name,
+            model: model.name,
+            elastic: model.achieved_restitution == AchievedRestitution::Elastic,
             steps: MAXIMUM_STEPS,
             time: self.time,
         })

@@ -1,10 +1,10 @@
-//! The descriptor of an impact model: what it is, needs, and is worth.
+//! The descriptor of an impact model: what it is, needs, and is worth; parameters against it.
 
 use pounding_catalogue::Descriptor;
 pub use pounding_catalogue::{Alias, ParameterDescriptor, ParameterUnit, Verification};
 
+use super::{ImpactModel, SeparationRule};
 use crate::error::GapElementError;
-use crate::model::{ImpactModel, SeparationRule};
 use crate::parameters::ModelParameters;
 
 /// What the restitution of a free collision depends on.
@@ -147,5 +147,96 @@ impl ModelDescriptor {
     #[must_use]
     pub fn takes_restitution(&self) -> bool {
         self.parameters.iter().any(|p| p.name == "restitution")
+    }
+}
+
+impl ModelParameters {
+    /// Refuses unknown, missing and out-of-range parameters, and a separation rule that the
+    /// model does not offer.
+    pub(crate) fn check(&self, model: &'static ModelDescriptor) -> Result<(), GapElementError> {
+        match &self.spring {
+            Some(table) => self.check_spring(model, table)?,
+            None => self.parameters.check(model)?,
+        }
+        let rule = self.separation(model);
+        if !model.separation_rules.contains(&rule) {
+            return Err(GapElementError::Separation {
+                model: model.name,
+                rule: rule.name().to_owned(),
+                offered: model.separation_rules.iter().map(|r| r.name()).collect(),
+            });
+        }
+        Ok(())
+    }
+
+    /// The same with a table of a spring, whose first line stands for the stiffness.
+    fn check_spring(
+        &self,
+        model: &'static ModelDescriptor,
+        table: &[(f64, f64)],
+    ) -> Result<(), GapElementError> {
+        if !model.takes_spring_table() {
+            return Err(GapElementError::SpringTable(format!(
+                "model {} takes none",
+                model.name
+            )));
+        }
+        let given = ["stiffness", "exponent"]
+            .into_iter()
+            .find(|name| self.given(name).is_some());
+        if let Some(second) = given {
+            return Err(GapElementError::Conflict {
+                model: model.name,
+                first: "spring",
+                second,
+            });
+        }
+        let Some((penetration, force)) = table.first() else {
+            return Err(GapElementError::SpringTable("it is empty".to_owned()));
+        };
+        let mut all = self.parameters.clone();
+        let slope = force / penetration;
+        // What is wrong with the table is said where it is taken apart.
+        let slope = if slope.is_finite() && slope > 0.0 {
+            slope
+        } else {
+            1.0
+        };
+        all.values.insert("stiffness".to_owned(), slope);
+        all.check(model)?;
+        Ok(())
+    }
+
+    /// The separation rule asked for, or the model's first.
+    #[must_use]
+    pub fn separation(&self, model: &ModelDescriptor) -> SeparationRule {
+        self.separation
+            .or_else(|| model.separation_rules.first().copied())
+            .unwrap_or(SeparationRule::ZeroPenetration)
+    }
+
+    /// Exponent of the spring: as given, or the default of the model's parameter, or 1.
+    pub(crate) fn exponent(&self, model: &ModelDescriptor) -> f64 {
+        self.get(model, "exponent").unwrap_or(1.0)
+    }
+
+    /// The damping parameter itself, or from the restitution by the model's own
+    /// relation; exactly one of the two must be given.
+    pub(crate) fn damping(
+        &self,
+        model: &ModelDescriptor,
+        raw: &'static str,
+        relation: impl Fn(f64) -> f64,
+    ) -> Result<f64, GapElementError> {
+        match (self.given("restitution"), self.given(raw)) {
+            (Some(_), Some(_)) => Err(GapElementError::Conflict {
+                model: model.name,
+                first: "restitution",
+                second: raw,
+            }),
+            (Some(e), None) => Ok(relation(e)),
+            (None, Some(value)) => Ok(value),
+            (None, None) => Err(model.missing(format!("restitution or {raw}")).into()),
+        }
     }
 }

@@ -4,7 +4,10 @@
 //! contact, `v = d(delta)/dt > 0` is approach, and a positive force pushes the
 //! floors apart. The contract knows nothing of integrators or files.
 
-use crate::descriptor::ModelDescriptor;
+pub mod descriptor;
+
+use self::descriptor::ModelDescriptor;
+pub use crate::separation_rule::SeparationRule;
 
 /// Maximum number of constants that a model may fix for one collision.
 pub const MAXIMUM_CONSTANTS: usize = 4;
@@ -161,31 +164,6 @@ pub struct Transition {
     pub direction: Direction,
     /// The phase after it.
     pub target: Target,
-}
-
-/// When a contact is over.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum SeparationRule {
-    /// At zero penetration; the law may pull shortly before.
-    ZeroPenetration,
-    /// `max(0, F)`: at zero force the floors stop acting on one another
-    /// ([`Phase::Released`]), and act again as soon as the law would push; the
-    /// contact is over at zero penetration.
-    NoTension,
-    /// At zero force the floors stop acting on one another and stay so until
-    /// they approach once more or part at zero penetration.
-    NoTensionLatched,
-    /// At zero force the contact is over, and the penetration left then widens
-    /// the gap for all later impacts, as a plastic deformation would.
-    GapShift,
-}
-
-impl SeparationRule {
-    /// Whether the contact stops acting at zero force.
-    #[must_use]
-    pub fn forbids_tension(self) -> bool {
-        self != Self::ZeroPenetration
-    }
 }
 
 /// What is known of a free two-body collision without integration.

@@ -5,9 +5,9 @@ use nalgebra::DMatrix;
 
 use crate::dense::multiply;
 use crate::lateral::{LateralStiffnessError, symmetric};
-use crate::modes::{LARGE, Undamped, undamped};
 use crate::stiffness::StiffnessMatrix;
 use crate::tridiagonal::SymmetricTridiagonal;
+use crate::undamped::{LARGE, Undamped, undamped};
 
 /// How a building is damped.
 #[derive(Debug, Clone, PartialEq)]

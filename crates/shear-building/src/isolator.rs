@@ -6,7 +6,7 @@ use std::sync::Arc;
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_hysteresis::{HysteresisError, LawParameters, build, yield_deformation};
 
-use crate::building::StoreyLaw;
+use crate::storey_law::StoreyLaw;
 
 /// Isolators of a building, all of them together: its first storey, below its base slab.
 #[derive(Debug, Clone, Copy, PartialEq)]

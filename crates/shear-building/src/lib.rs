@@ -9,6 +9,7 @@
 #![warn(clippy::disallowed_methods)]
 
 mod building;
+mod building_on_foundation;
 mod column;
 mod coordinates;
 mod damping;
@@ -16,16 +17,20 @@ mod dense;
 mod elevation;
 mod error;
 mod foundation;
-mod founded;
 mod isolator;
 mod lateral;
 mod modes;
 mod names;
 mod stiffness;
+mod storey_law;
 mod tridiagonal;
 mod tridiagonal_eigen;
+mod undamped;
 
-pub use building::{ContactLine, MAXIMUM_STOREYS, ShearBuilding, StoreyLaw};
+pub use building::{
+    ContactLine, MAXIMUM_STOREYS, OVERTURNING_RATIO, OnFoundation, ShearBuilding, UPLIFT_BEGINS,
+};
+pub use building_on_foundation::{BuildingOnFoundation, CoupledMode, FixedBaseBuilding};
 pub use column::{
     ColumnEnds, ColumnError, ColumnForceRows, ColumnForces, ColumnResponse, ForcedColumnResponse,
     HitColumn, HitLine, NEAR_FLOOR,
@@ -38,11 +43,7 @@ pub use elevation::{
     ELEVATION_TOLERANCE, are_level, decimal, elevations, floor_without_partner, level_pairs,
 };
 pub use error::ShearBuildingError;
-pub use foundation::{
-    BuildingOnFoundation, CoupledMode, FixedBaseBuilding, Foundation, FoundationError, Soil,
-    SoilSprings, SpringDashpot,
-};
-pub use founded::{OVERTURNING_RATIO, OnFoundation, UPLIFT_BEGINS};
+pub use foundation::{Foundation, FoundationError, Soil, SoilSprings, SpringDashpot};
 pub use isolator::{
     Isolator, IsolatorError, IsolatorKind, IsolatorProperties, PostYield, Strength,
 };
@@ -50,6 +51,7 @@ pub use lateral::{LateralStiffness, LateralStiffnessError};
 pub use modes::Modes;
 pub use names::{NAMES, NameError, NameFault, WALL, check_names, is_name};
 pub use stiffness::StiffnessMatrix;
+pub use storey_law::StoreyLaw;
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};
 
 /// The crate whose matrices and vectors this one takes and gives, of the version that they are of.

@@ -2,11 +2,12 @@
 
 use nalgebra::DMatrix;
 
-use crate::building::ShearBuilding;
+use super::ShearBuilding;
+use crate::building_on_foundation::{BuildingOnFoundation, CoupledMode, FixedBaseBuilding};
 use crate::coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseKind, ResponseRow};
 use crate::damping::Damping;
 use crate::error::ShearBuildingError;
-use crate::foundation::{BuildingOnFoundation, CoupledMode, FixedBaseBuilding, Foundation};
+use crate::foundation::Foundation;
 
 /// The foundation of a building, and what the building would be without it.
 #[derive(Debug, Clone)]
@@ -252,9 +253,9 @@ mod tests {
     use pounding_hysteresis::{LawParameters, build};
 
     use super::*;
-    use crate::building::StoreyLaw;
     use crate::foundation::SpringDashpot;
     use crate::isolator::{Isolator, IsolatorKind};
+    use crate::storey_law::StoreyLaw;
 
     fn fixed(gravity: f64) -> ShearBuilding {
         let damping = Damping::Modal { ratios: vec![0.05] };

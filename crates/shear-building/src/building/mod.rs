@@ -1,30 +1,23 @@
 //! A shear building.
 
-use std::sync::Arc;
+mod founded;
 
 use nalgebra::DMatrix;
-use pounding_hysteresis::HysteresisLaw;
 
 use crate::column::HitLine;
 use crate::coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseRow};
 use crate::damping::{Damping, DampingMatrix};
 use crate::elevation::elevations;
 use crate::error::ShearBuildingError;
-use crate::founded::OnFoundation;
 use crate::isolator::{Isolator, IsolatorProperties};
 use crate::lateral::LateralStiffness;
-use crate::modes::{Modes, Undamped, undamped, undamped_dense};
+use crate::modes::Modes;
 use crate::stiffness::StiffnessMatrix;
+use crate::storey_law::StoreyLaw;
 use crate::tridiagonal::SymmetricTridiagonal;
+use crate::undamped::{Undamped, undamped, undamped_dense};
 
-/// A force-deformation law in the place of a storey's stiffness.
-#[derive(Debug, Clone)]
-pub struct StoreyLaw {
-    /// The law: storey shear (N) of the drift (m).
-    pub law: Arc<dyn HysteresisLaw>,
-    /// Drift (m) at which the storey begins to yield, if the law has one.
-    pub yield_drift: Option<f64>,
-}
+pub use founded::{OVERTURNING_RATIO, OnFoundation, UPLIFT_BEGINS};
 
 /// A column of a building that is hit at points with a mass, for
 /// [`ShearBuilding::with_contact_points`].

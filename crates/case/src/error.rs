@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 use std::ops::Range;
 
-use crate::types::UnreadParameter;
+use crate::located::Located;
 
 /// Something wrong in a case file, with its place and a remedy.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -117,6 +117,17 @@ impl CaseError {
         let others = std::mem::take(&mut self.others);
         std::iter::once(self).chain(others.into_vec())
     }
+}
+
+/// A parameter whose value could not be read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct UnreadParameter {
+    /// Its key.
+    pub key: Located<String>,
+    /// The impact model or law that it is given to.
+    pub model: Located<String>,
+    /// Whether that is the model of a gap.
+    pub of_gap: bool,
 }
 
 /// Errors found so far in a file, and what was not read because of them.

@@ -10,13 +10,13 @@
 
 pub mod document;
 mod error;
-mod files;
+mod located;
 mod parse;
 mod types;
 mod units;
 
-pub use error::{CaseError, Errors, MORE_FILES, is_short_of_files};
-pub use files::GivenFiles;
+pub use error::{CaseError, Errors, MORE_FILES, UnreadParameter, is_short_of_files};
+pub use located::Located;
 pub use parse::{CaseTree, ProcessSteps, ground_motion_schema, process_steps, schema};
 pub use types::*;
 pub use units::{Dimension, Quantity, UnitError, parse_degrees, parse_quantity, unit_in};

@@ -12,7 +12,7 @@ use serde::de::{self, Deserializer, SeqAccess, Visitor};
 
 use super::error::Fault;
 use super::schema::kinds_of;
-use crate::types::Located;
+use crate::located::Located;
 
 /// Names by which types ask the deserializer for more than a value.
 pub(super) mod ask {

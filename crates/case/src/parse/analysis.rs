@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::document::{Entry, Number, Optional, Positive, Signed, Table, Time};
-use crate::types::{Analysis, Located};
+use crate::located::Located;
+use crate::types::Analysis;
 
 /// Method, duration, output
 #[derive(Clone, Default, Deserialize, JsonSchema)]

@@ -20,7 +20,8 @@ use crate::document::{
     NotNegative, OneOrEach, Optional, Positive, Ratio, Reader, Signed, Stiffness, Tables, Time,
     Velocity,
 };
-use crate::types::{Building, BuildingPlaces, Damping, Isolator, Lateral, Located};
+use crate::located::Located;
+use crate::types::{Building, BuildingPlaces, Damping, Isolator, Lateral};
 
 /// A building
 #[derive(Clone, Deserialize, JsonSchema)]

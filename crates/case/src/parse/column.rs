@@ -7,7 +7,8 @@ use serde::Deserialize;
 use crate::document::{
     Entry, Field, FlexuralRigidity, Force, Mass, OneOrEach, Optional, Positive, Reader,
 };
-use crate::types::{HitColumns, Located, Side};
+use crate::located::Located;
+use crate::types::{HitColumns, Side};
 
 /// Columns that floors of the neighbour hit between floors, as one line
 #[derive(Clone, Deserialize, JsonSchema)]

@@ -13,7 +13,8 @@ use crate::document::{
     Count, Cycles, Entry, Field, Force, NotNegative, Number, Optional, Positive, Reader, Signed,
     Time, Written,
 };
-use crate::types::{FloorForce, ForceSource, Located};
+use crate::located::Located;
+use crate::types::{FloorForce, ForceSource};
 
 /// A force on a floor over time, positive to the right
 #[derive(Clone, Deserialize, JsonSchema)]

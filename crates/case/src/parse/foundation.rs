@@ -11,7 +11,8 @@ use crate::document::{
     Positive, Reader, RotationalDashpot, RotationalInertia, RotationalStiffness, Stiffness,
     Velocity,
 };
-use crate::types::{Foundation, Located, Support};
+use crate::located::Located;
+use crate::types::{Foundation, Support};
 
 /// Foundation of the building, which sways and rocks on the soil
 #[derive(Clone, Deserialize, JsonSchema)]

@@ -14,7 +14,8 @@ use crate::document::{
     Entry, Field, Force, FreeKeys, Length, NotNegative, OneOrEach, Optional, Positive, Reader,
     Signed,
 };
-use crate::types::{ContactLevel, Facing, Gap, HitColumns, Located, Side, bare_gap_width};
+use crate::located::Located;
+use crate::types::{ContactLevel, Facing, Gap, HitColumns, Side, bare_gap_width};
 
 /// A gap between neighbours, or to a rigid wall
 #[derive(Clone, Deserialize, JsonSchema)]

@@ -15,7 +15,8 @@ use crate::document::{
     Acceleration, Count, Dimensioned, Entry, Fault, Field, Length, NotNegative, Optional, Positive,
     Reader, TableOr, Time, Velocity, Written,
 };
-use crate::types::{BuildingGround, GroundMotion, Located, Rotation};
+use crate::located::Located;
+use crate::types::{BuildingGround, GroundMotion, Rotation};
 use crate::units::{Dimension, Quantity, parse_degrees};
 
 /// The recorded motion

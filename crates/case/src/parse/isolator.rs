@@ -9,7 +9,8 @@ use crate::document::{
     Dashpot, Entry, Field, Force, Length, NotNegative, Number, Optional, Positive, Reader,
     Slowness, Stiffness, Time,
 };
-use crate::types::{Isolator, IsolatorKind, Located, PostYield, Strength};
+use crate::located::Located;
+use crate::types::{Isolator, IsolatorKind, PostYield, Strength};
 
 /// Isolators under a building
 #[derive(Clone, Deserialize, JsonSchema)]

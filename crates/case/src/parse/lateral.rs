@@ -12,7 +12,8 @@ use crate::document::{
     Dimensioned, Fault, FlexuralRigidity, Force, Length, OneOrEach, Positive, Reader, Signed,
     TableOr, Written,
 };
-use crate::types::{Lateral, Located, MatrixSource};
+use crate::located::Located;
+use crate::types::{Lateral, MatrixSource};
 
 /// Rows of a matrix, or the file that holds them.
 pub(super) type MatrixValue<D> = TableOr<MatrixFile, Rows<D>>;

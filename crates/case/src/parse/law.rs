@@ -12,7 +12,8 @@ use super::{Row, joined_name, name};
 use crate::document::{
     Count, Entry, Field, FreeKeys, Length, OneOrEach, Optional, Positive, Reader,
 };
-use crate::types::{Facing, FoundationMotion, Link, Located, Side, StoreyLaw};
+use crate::located::Located;
+use crate::types::{Facing, FoundationMotion, Link, Side, StoreyLaw};
 
 /// Law of some storeys
 #[derive(Clone, Deserialize, JsonSchema)]

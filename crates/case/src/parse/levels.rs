@@ -14,7 +14,8 @@ use serde::de::{self, Deserializer, SeqAccess, Unexpected, Visitor};
 use super::Row;
 use super::column::{ColumnTables, columns};
 use crate::document::{Entry, Field, Length, OneOrEach, Optional, Positive, Reader, TableOr};
-use crate::types::{Building, Facing, HitColumns, Located, Side};
+use crate::located::Located;
+use crate::types::{Building, Facing, HitColumns, Side};
 
 /// Two neighbours.
 #[derive(Clone, Deserialize, JsonSchema)]
@@ -290,7 +291,7 @@ pub(super) fn sides(
 
 /// What keeps two sides from facing each other in the row, and whether the other
 /// order would do.
-pub(crate) fn row_problem(left: Side, right: Side, last: usize) -> Option<(&'static str, bool)> {
+pub(super) fn row_problem(left: Side, right: Side, last: usize) -> Option<(&'static str, bool)> {
     match (left, right) {
         (Side::Wall, Side::Wall) => Some(("two walls are no neighbours in the row", false)),
         (Side::Wall, Side::Building(i)) if i != 0 => Some((

@@ -10,7 +10,8 @@ use serde::Deserialize;
 
 use crate::document::{self, Entry, Field, OneOrEach, Optional, Reader, Table, Tables};
 use crate::error::{CaseError, Errors};
-use crate::types::{Analysis, Building, Case, Draft, Gap, Link, Located, Refusal};
+use crate::located::Located;
+use crate::types::{Analysis, Building, Case, Draft, Gap, Link, Refusal, read_text};
 use analysis::AnalysisTable;
 use building::BuildingTable;
 use gap::GapTable;
@@ -20,6 +21,7 @@ use separation::SeparationTable;
 
 mod analysis;
 mod building;
+mod changed;
 mod column;
 mod force;
 mod foundation;
@@ -38,10 +40,7 @@ mod separation;
 mod tree;
 
 pub use ground_motion::ground_motion_schema;
-pub(crate) use levels::row_problem;
 pub use process::{ProcessSteps, process_steps};
-pub(crate) use rule::file as rule_file;
-pub(crate) use separation::keys as separation_keys;
 pub use tree::CaseTree;
 
 /// A case of seismic pounding
@@ -76,12 +75,37 @@ pub fn schema() -> serde_json::Value {
 /// Where to see how a case file is written.
 const EXAMPLE: &str = "see the example in docs/reference/case-file.md";
 
-pub(crate) fn case(source: &str, file: &Path) -> Result<Case, Box<Refusal>> {
-    case_of(source, file, |reader| {
-        let mut tables: CaseFile = reader.read(EXAMPLE)?;
-        let row = Row::new(reader, tables.building.take());
-        Some(tables.draft(reader, file, &row))
-    })
+impl Case {
+    /// Reads a case from a file.
+    ///
+    /// # Errors
+    /// A file that cannot be read, or all that is wrong in it: the first error with the
+    /// others.
+    pub fn read(path: &Path) -> Result<Self, CaseError> {
+        let source = read_text(path, "case")?;
+        Self::parse(&source, path)
+    }
+
+    /// Reads a case from a text; `file` names it and is the base of its paths.
+    ///
+    /// # Errors
+    /// All that is wrong in it, each with line, column and remedy: the first error with the
+    /// others.
+    pub fn parse(source: &str, file: &Path) -> Result<Self, CaseError> {
+        Self::parse_or_draft(source, file).map_err(|refusal| refusal.error)
+    }
+
+    /// The same; what is wrong comes with what could be read all the same.
+    ///
+    /// # Errors
+    /// As [`Case::parse`].
+    pub fn parse_or_draft(source: &str, file: &Path) -> Result<Self, Box<Refusal>> {
+        case_of(source, file, |reader| {
+            let mut tables: CaseFile = reader.read(EXAMPLE)?;
+            let row = Row::new(reader, tables.building.take());
+            Some(tables.draft(reader, file, &row))
+        })
+    }
 }
 
 /// The case that is read from a text, unless anything is wrong with it.

@@ -2,7 +2,9 @@
 
 use super::spread;
 use crate::document::{Entry, FreeKeys, OneOrEach, Reader};
-use crate::types::{Located, Parameter, UnreadParameter};
+use crate::error::UnreadParameter;
+use crate::located::Located;
+use crate::types::Parameter;
 use crate::units::Quantity;
 
 /// One value for all places, or one for each.

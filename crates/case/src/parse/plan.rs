@@ -10,7 +10,8 @@ use crate::document::{
     Entry, Field, Length, OneOrEach, Optional, Positive, Reader, RotationalInertia, Signed,
     Stiffness,
 };
-use crate::types::{Frame, Located, Plan};
+use crate::located::Located;
+use crate::types::{Frame, Plan};
 
 /// Plan of a building with rigid floors that move along and across the row and turn
 #[derive(Clone, Deserialize, JsonSchema)]

@@ -18,7 +18,8 @@ use crate::document::{
     Signed, TableOr, Time,
 };
 use crate::error::{CaseError, Errors};
-use crate::types::{BandSource, Located};
+use crate::located::Located;
+use crate::types::BandSource;
 
 /// A text that holds nothing but steps.
 #[derive(Deserialize)]

@@ -7,7 +7,8 @@ use serde::Deserialize;
 
 use crate::document::{Entry, Field, FreeKeys, List, OneOrEach, Optional, Reader, Tables};
 use crate::error::{CaseError, Errors};
-use crate::types::{Located, RuleText, TableText};
+use crate::located::Located;
+use crate::types::{RuleText, TableText};
 use crate::units::Quantity;
 
 /// A rule of your own for the gap
@@ -104,18 +105,23 @@ struct RuleFile {
     rule: Field<Tables<RuleTable>>,
 }
 
-/// Rules of a file of their own.
-pub(crate) fn file(source: &str, file: &str) -> Result<Vec<RuleText>, CaseError> {
-    let errors = Errors::default();
-    let reader = Reader {
-        file,
-        source,
-        errors: &errors,
-    };
-    let read = reader.read::<RuleFile>("see the example in docs/reference/own-rules.md");
-    let rules = read.and_then(|file| file.rule.value());
-    let rules = rules.map(|rules| read_all(&reader, rules));
-    errors.finish(Ok(rules.unwrap_or_default()))
+impl RuleText {
+    /// Reads a file of rules, tables `[[rule]]`.
+    ///
+    /// # Errors
+    /// What is wrong in it, with its places.
+    pub fn parse_all(source: &str, file: &str) -> Result<Vec<Self>, CaseError> {
+        let errors = Errors::default();
+        let reader = Reader {
+            file,
+            source,
+            errors: &errors,
+        };
+        let read = reader.read::<RuleFile>("see the example in docs/reference/own-rules.md");
+        let rules = read.and_then(|file| file.rule.value());
+        let rules = rules.map(|rules| read_all(&reader, rules));
+        errors.finish(Ok(rules.unwrap_or_default()))
+    }
 }
 
 /// Rules that stand in a file.

@@ -13,7 +13,8 @@ use serde::Deserialize;
 use crate::document::{
     Acceleration, Fault, Kinds, Number, Positive, Ratio, Reader, TableOr, Time, Velocity,
 };
-use crate::types::{BandSource, Located, SpectrumFile, SpectrumSource, bare_acceleration};
+use crate::located::Located;
+use crate::types::{BandSource, SpectrumFile, SpectrumSource, bare_acceleration};
 
 /// Damping ratio where none is given.
 const DAMPING: f64 = 0.05;

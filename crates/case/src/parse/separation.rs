@@ -10,7 +10,8 @@ use crate::document::{
     Tables, Time,
 };
 use crate::error::{CaseError, Errors};
-use crate::types::{Located, Separation};
+use crate::located::Located;
+use crate::types::Separation;
 
 /// What provisions for the gap need to know
 #[derive(Clone, Deserialize, JsonSchema)]
@@ -147,17 +148,22 @@ impl SeparationTable {
     }
 }
 
-/// Reads the keys of `[separation]` alone, from an argument.
-pub(crate) fn keys(text: &str, buildings: usize) -> Result<Separation, CaseError> {
-    let errors = Errors::default();
-    let reader = Reader {
-        file: "--set",
-        source: text,
-        errors: &errors,
-    };
-    let table = reader.read::<SeparationTable>(
-        "write key=value as in the case file, texts in quotes, such as --set 'soil_zone=\"II\"'",
-    );
-    let read = table.map(|table| table.read(&reader, buildings));
-    errors.finish(Ok(read.unwrap_or_default()))
+impl Separation {
+    /// Reads the keys of `[separation]` from a text of their own, for so many buildings.
+    ///
+    /// # Errors
+    /// The first thing wrong in it, with its place in the text.
+    pub fn parse(text: &str, buildings: usize) -> Result<Self, CaseError> {
+        let errors = Errors::default();
+        let reader = Reader {
+            file: "--set",
+            source: text,
+            errors: &errors,
+        };
+        let table = reader.read::<SeparationTable>(
+            "write key=value as in the case file, texts in quotes, such as --set 'soil_zone=\"II\"'",
+        );
+        let read = table.map(|table| table.read(&reader, buildings));
+        errors.finish(Ok(read.unwrap_or_default()))
+    }
 }

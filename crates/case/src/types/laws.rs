@@ -1,6 +1,7 @@
 //! Laws with memory: of storeys, and of links.
 
-use super::{Located, Side};
+use super::Side;
+use crate::located::Located;
 use crate::units::Quantity;
 
 /// A force-deformation law with memory in some storeys.

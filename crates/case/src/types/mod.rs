@@ -1,6 +1,6 @@
 //! A case in SI units, with the place of what the layers above may refuse.
 
-mod changed;
+mod files;
 mod laws;
 mod rule;
 mod usual;
@@ -14,23 +14,15 @@ use pounding_ground_motion::Offset;
 use pounding_ground_motion::processing::{ProcessingStep, Scale};
 use pounding_ground_motion::spectra::design::CodeSpectrum;
 
-use crate::error::{CaseError, MORE_FILES, is_short_of_files};
-use crate::files::GivenFiles;
+use crate::error::{CaseError, MORE_FILES, UnreadParameter, is_short_of_files};
+use crate::located::Located;
 
+pub use files::GivenFiles;
 pub use laws::{FoundationMotion, Link, Parameter, StoreyLaw};
 pub use pounding_shear_building::{
     ColumnEnds, Damping, Isolator, IsolatorKind, PostYield, Soil, SpringDashpot, Strength,
 };
 pub use rule::{RuleText, TableText};
-
-/// A value and where it stands in the source (bytes).
-#[derive(Debug, Clone, PartialEq)]
-pub struct Located<T> {
-    /// Value.
-    pub value: T,
-    /// Bytes of the source.
-    pub span: Range<usize>,
-}
 
 /// A whole case.
 #[derive(Debug, Clone, PartialEq)]
@@ -74,17 +66,6 @@ pub struct Draft {
     pub unread: Vec<UnreadParameter>,
     /// Whether all was read that says how the record is to be read.
     pub motion_is_known: bool,
-}
-
-/// A parameter whose value could not be read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct UnreadParameter {
-    /// Its key.
-    pub key: Located<String>,
-    /// The impact model or law that it is given to.
-    pub model: Located<String>,
-    /// Whether that is the model of a gap.
-    pub of_gap: bool,
 }
 
 /// Why a text is no case.
@@ -711,14 +692,6 @@ impl GroundMotion {
 }
 
 impl Separation {
-    /// Reads the keys of `[separation]` from a text of their own, for so many buildings.
-    ///
-    /// # Errors
-    /// The first thing wrong in it, with its place in the text.
-    pub fn parse(text: &str, buildings: usize) -> Result<Self, CaseError> {
-        crate::parse::separation_keys(text, buildings)
-    }
-
     /// What lies outside the values that codes have, in words: a warning for each key, with what was
     /// probably meant.
     #[must_use]
@@ -907,33 +880,6 @@ pub fn decoded(name: &str, bytes: Vec<u8>) -> Result<String, CaseError> {
 }
 
 impl Case {
-    /// Reads a case from a file.
-    ///
-    /// # Errors
-    /// A file that cannot be read, or all that is wrong in it: the first error with the
-    /// others.
-    pub fn read(path: &Path) -> Result<Self, CaseError> {
-        let source = read_text(path, "case")?;
-        Self::parse(&source, path)
-    }
-
-    /// Reads a case from a text; `file` names it and is the base of its paths.
-    ///
-    /// # Errors
-    /// All that is wrong in it, each with line, column and remedy: the first error with the
-    /// others.
-    pub fn parse(source: &str, file: &Path) -> Result<Self, CaseError> {
-        Self::parse_or_draft(source, file).map_err(|refusal| refusal.error)
-    }
-
-    /// The same; what is wrong comes with what could be read all the same.
-    ///
-    /// # Errors
-    /// As [`Case::parse`].
-    pub fn parse_or_draft(source: &str, file: &Path) -> Result<Self, Box<Refusal>> {
-        crate::parse::case(source, file)
-    }
-
     /// A path of the case, relative to the folder of its file.
     #[must_use]
     pub fn resolve(&self, path: &Path) -> PathBuf {

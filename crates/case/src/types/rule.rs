@@ -3,8 +3,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::Located;
 use crate::error::CaseError;
+use crate::located::Located;
 use crate::units::Quantity;
 
 /// A rule of a user for the gap: its expression is not yet understood.
@@ -57,13 +57,5 @@ impl RuleText {
         help: Option<String>,
     ) -> CaseError {
         CaseError::new(&self.file, &self.source, span, message, help)
-    }
-
-    /// Reads a file of rules, tables `[[rule]]`.
-    ///
-    /// # Errors
-    /// What is wrong in it, with its places.
-    pub fn parse_all(source: &str, file: &str) -> Result<Vec<Self>, CaseError> {
-        crate::parse::rule_file(source, file)
     }
 }

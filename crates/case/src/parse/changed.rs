@@ -1,8 +1,8 @@
 //! What the reader of a case file refuses of gaps, asked of a case that code has changed since.
 
-use super::{Case, Gap};
+use super::levels::row_problem;
 use crate::error::CaseError;
-use crate::parse::row_problem;
+use crate::types::{Case, Gap};
 
 impl Case {
     /// Refuses gaps that no case file may have: between sides that are no neighbours, a second one between the same two, one without levels, and a level

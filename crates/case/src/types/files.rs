@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use pounding_ground_motion::responses_beside;
 
-use crate::types::{Case, GroundMotion};
+use super::{Case, GroundMotion};
 
 /// Files whose bytes are at hand, for a case that has no folder: by their paths as the case
 /// gives them.

@@ -25,24 +25,19 @@
 #![warn(clippy::disallowed_methods)]
 
 mod assemble;
-mod band;
 mod dimension;
 mod error;
-mod excitation;
 mod number_file;
 mod schema;
 mod used_parameters;
 
 pub use assemble::{
-    Assembly, assemble, assemble_sharing, assemble_under_another_record, assemble_with_record,
-    assemble_without_gaps, methods_that_take, nothing_to_move_across, parameters_of_gap,
-    parameters_of_link, parameters_of_storeys, regap,
+    Assembly, RecordFiles, assemble, assemble_sharing, assemble_under_another_record,
+    assemble_with_record, assemble_without_gaps, further_record, methods_that_take,
+    nothing_to_move_across, parameters_of_gap, parameters_of_link, parameters_of_storeys,
+    process_record, read_record, read_target, regap, scale_record, scale_target,
 };
 pub use dimension::{parameter_dimension, unknown_parameter};
 pub use error::{AssemblyError, place_of};
-pub use excitation::{
-    RecordFiles, further_record, process_record, read_record, read_target, scale_record,
-    scale_target,
-};
 pub use schema::case_schema;
 pub use used_parameters::{UsedParameter, UsedParameters};

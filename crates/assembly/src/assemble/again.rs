@@ -5,8 +5,11 @@ use pounding_case::Case;
 use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{RunOptions, System};
 
+use super::impact_models::models;
+use super::method::options;
 use super::motions::{Whose, on_their_ground};
-use super::{Assembly, Parts, models, options, unused, with_gaps};
+use super::parts::Parts;
+use super::{Assembly, unused, with_gaps};
 use crate::error::AssemblyError;
 
 /// Builds the system of a case under this motion, which is taken as it is: neither the

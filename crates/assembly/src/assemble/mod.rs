@@ -1,18 +1,27 @@
 //! Buildings, models, gaps, links and options of a case, put together.
 
 mod again;
+mod band;
 mod column;
+mod excitation;
 mod forces;
 mod foundation;
+mod impact_models;
 mod initial_motion;
 mod lateral;
 mod laws;
 mod method;
 mod motions;
+mod parts;
 mod plan;
 mod unlikely;
 
 pub use again::{assemble_with_record, assemble_without_gaps, regap};
+pub use excitation::{
+    RecordFiles, further_record, process_record, read_record, read_target, scale_record,
+    scale_target,
+};
+pub use impact_models::parameters_of_gap;
 pub use laws::{parameters_of_link, parameters_of_storeys};
 pub(crate) use method::method_names;
 pub use method::methods_that_take;
@@ -20,24 +29,19 @@ pub use motions::nothing_to_move_across;
 
 use std::sync::Arc;
 
-use pounding_case::{Building, Case, CaseError, Errors, Facing, Gap, Located, Parameter, Side};
-use pounding_catalogue::STANDARD_GRAVITY;
-use pounding_gap_element::{
-    GapElementError, ImpactModel, ModelDescriptor, ModelParameters, SeparationRule, registry,
-};
+use pounding_case::{Building, Case, CaseError, Facing, Gap, Side};
+use pounding_gap_element::ImpactModel;
 use pounding_ground_motion::Accelerogram;
-use pounding_shear_building::{ContactLine, ShearBuilding, ShearBuildingError, WALL};
+use pounding_shear_building::WALL;
 use pounding_time_history::{
     Floor, LevelMotion, RunOptions, System, TimeHistoryError, Warning, more_pairs,
 };
 
 use self::column::Hits;
-use crate::dimension::parameter_value;
 use crate::error::AssemblyError;
-use crate::excitation::{RecordFiles, accelerogram};
-use crate::used_parameters::UsedParameters;
-use method::options;
+use excitation::accelerogram;
 use motions::{Whose, on_their_ground};
+use parts::Parts;
 
 /// All that a run needs, made from a case.
 #[derive(Debug, Clone)]
@@ -164,136 +168,6 @@ fn unused(case: &Case, out_of_step: Vec<String>) -> Vec<String> {
     told
 }
 
-/// The impact model of every contact level of every gap.
-type Models = Vec<Vec<Arc<dyn ImpactModel>>>;
-
-/// What a case says of buildings, models and options.
-struct Parts {
-    buildings: Vec<Arc<ShearBuilding>>,
-    models: Models,
-    options: RunOptions,
-}
-
-/// Refuses gaps and links of buildings that the case does not have, as programs that take buildings out of it may
-/// leave them.
-fn names_its_buildings(case: &Case) -> Result<(), CaseError> {
-    let of_gaps = case.gaps.iter().map(|gap| ("gap", &gap.name, gap.between));
-    let of_links = case
-        .links
-        .iter()
-        .map(|link| ("link", &link.name, link.between));
-    let lost = of_gaps.chain(of_links).find(|(_, _, between)| {
-        let known = |side: &Side| match side {
-            Side::Building(b) => *b < case.buildings.len(),
-            Side::Wall => true,
-        };
-        !between.iter().all(known)
-    });
-    match lost {
-        None => Ok(()),
-        Some((what, name, _)) => Err(case.error(
-            0..0,
-            format!("{what} {name} joins a building that the case does not have"),
-            Some(format!("take the {what} out with its building")),
-        )),
-    }
-}
-
-impl Parts {
-    /// Makes all of it, and reports all that is wrong in it.
-    fn of(case: &Case) -> Result<Self, CaseError> {
-        Self::with_columns(case, case)
-    }
-
-    /// The same with columns that the gaps of another case, with the same buildings, let
-    /// floors hit.
-    fn with_columns(case: &Case, gaps: &Case) -> Result<Self, CaseError> {
-        names_its_buildings(case)?;
-        let errors = Errors::default();
-        let hits = errors.keep(Hits::of(gaps));
-        let points = |b: usize| {
-            hits.as_ref()
-                .map_or_else(Vec::new, |hits| hits.with_mass(b))
-        };
-        let buildings = case.buildings.iter().enumerate();
-        let buildings =
-            errors.all(buildings.map(|(i, b)| building(case, b, &points(i)).map(Arc::new)));
-        let models = errors.all(case.gaps.iter().map(|gap| models_of(case, gap)));
-        if let (Ok(models), Some(hits), false) = (&models, &hits, case.gaps.is_empty()) {
-            errors.or_default(hits.check_models(models));
-        }
-        let options = errors.all([options(case)]);
-        errors.or_default(errors.all(case.links.iter().map(|l| laws::check_link(case, l))));
-        errors.or_default(errors.all(columns_of_rigid_floors(case).into_iter().map(Err::<(), _>)));
-        let parts = buildings.and_then(|buildings| {
-            Ok(Self {
-                buildings,
-                models: models?,
-                options: options?.remove(0),
-            })
-        });
-        errors.finish(parts)
-    }
-}
-
-/// The fundamental period (s) along the row of each building of a case, as it is before anything yields.
-pub(crate) fn fundamental_periods(case: &Case) -> Result<Vec<f64>, CaseError> {
-    let buildings = Parts::of(case)?.buildings;
-    let period = |b: &Arc<ShearBuilding>| b.modes().period[b.fundamental_mode()];
-    Ok(buildings.iter().map(period).collect())
-}
-
-/// Columns that are hit beside floors that turn, or in buildings on isolators.
-fn columns_of_rigid_floors(case: &Case) -> Vec<CaseError> {
-    let mut found = Vec::new();
-    for gap in &case.gaps {
-        let Some(place) = gap.columns.iter().flatten().next() else {
-            continue;
-        };
-        for (side, own) in gap.between.iter().zip(&gap.columns) {
-            let Side::Building(b) = side else {
-                continue;
-            };
-            let building = &case.buildings[*b];
-            let what = match (&building.plan, &building.isolator, own) {
-                (Some(_), ..) => "plan",
-                (_, Some(_), Some(_)) => "isolator",
-                _ => continue,
-            };
-            let message = format!(
-                "columns cannot be hit in gap {}: building \"{}\" has `{what}`",
-                gap.name, building.name.value
-            );
-            let help = format!("remove `column`, or `{what}` of the building");
-            found.push(case.error(place.span.clone(), message, Some(help)));
-        }
-    }
-    found
-}
-
-/// The impact models of all gaps.
-fn models(case: &Case) -> Result<Models, CaseError> {
-    case.gaps.iter().map(|gap| models_of(case, gap)).collect()
-}
-
-/// The impact model of each contact level of a gap. Levels with the parameters of the first share its
-/// model; there is one for a gap whose levels are not known.
-fn models_of(case: &Case, gap: &Gap) -> Result<Vec<Arc<dyn ImpactModel>>, CaseError> {
-    let first = model(case, gap, 0)?;
-    let is_first = |place: usize| {
-        let value = |p: &Parameter, place| p.at(place).map(|given| given.value.value);
-        let mut parameters = gap.parameters.iter();
-        parameters.all(|p| value(p, place) == value(p, 0))
-    };
-    let errors = Errors::default();
-    let further = errors.all((1..gap.levels.len()).map(|place| match is_first(place) {
-        true => Ok(Arc::clone(&first)),
-        false => model(case, gap, place),
-    }));
-    let further = errors.finish(further)?;
-    Ok(std::iter::once(first).chain(further).collect())
-}
-
 /// Puts the gaps of a case between buildings that have none, and lets them go from
 /// where the case says.
 fn with_gaps(
@@ -417,153 +291,5 @@ fn released(case: &Case, system: System) -> Result<System, CaseError> {
         .map_err(|e| {
             let help = "choose initial displacements that leave every gap open".to_owned();
             case.error(span, e.to_string(), Some(help))
-        })
-}
-
-fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBuilding, CaseError> {
-    let gravity = if b.p_delta { STANDARD_GRAVITY } else { 0.0 };
-    let (name, mass, height) = (b.name.value.clone(), b.mass.clone(), b.height.clone());
-    if let Some(given) = &b.plan {
-        return plan::building(case, b, given);
-    }
-    let damping = b.damping.value.clone();
-    let made = match (&b.lateral, &b.isolator) {
-        (None, Some(isolator)) => {
-            ShearBuilding::on_isolators(name, mass, &b.stiffness, height, damping, isolator.value)
-        }
-        (None, None) => {
-            let stiffness = b.stiffness.clone();
-            ShearBuilding::under_gravity(name, mass, stiffness, height, damping, gravity)
-        }
-        (Some(lateral), _) => {
-            let stiffness = lateral::stiffness(case, b, lateral)?;
-            ShearBuilding::with_stiffness_matrix(name, mass, stiffness, height, damping, gravity)
-        }
-    };
-    let building = made.map_err(|e| {
-        let at_matrix = b.lateral.as_ref().map_or(&b.name.span, |l| &l.span);
-        let at_isolator = b.isolator.as_ref().map_or(&b.name.span, |i| &i.span);
-        let (place, help) = match &e {
-            ShearBuildingError::Unstable { .. } => (&b.name.span, Some(OVERTURNED.to_owned())),
-            ShearBuildingError::UnstableMatrix { .. } => (at_matrix, Some(OVERTURNED.to_owned())),
-            ShearBuildingError::Length { .. } => (at_matrix, e.help()),
-            ShearBuildingError::TooManyStoreys { .. } => (&b.name.span, e.help()),
-            ShearBuildingError::Value { quantity, .. } => {
-                let place = b.span_of(quantity);
-                return case.error(place, e.to_string(), Some(WITH_UNIT.to_owned()));
-            }
-            ShearBuildingError::Damping { .. } if b.lateral.is_some() => (
-                &b.damping.span,
-                Some("give ratios, such as { modal = 0.05 }".to_owned()),
-            ),
-            ShearBuildingError::Isolator { .. } => (at_isolator, e.help()),
-            _ => (&b.damping.span, e.help()),
-        };
-        case.error(place.clone(), e.to_string(), help)
-    })?;
-    let building = laws::with_storey_laws(case, b, building)?;
-    if points.is_empty() {
-        return foundation::on_foundation(case, b, building);
-    }
-    let made = building.with_contact_points(points);
-    made.map_err(|e| case.error(b.name.span.clone(), e.to_string(), None))
-}
-
-/// What to do about a mass, a stiffness or a height that cannot be.
-const WITH_UNIT: &str =
-    "correct the value, with its unit, such as \"25 t\" of a mass; plain numbers are SI";
-
-/// What to do about a building that gravity overturns.
-const OVERTURNED: &str =
-    "correct stiffness, masses and heights, with their units; `p_delta = false` leaves gravity out";
-
-/// The parameters of the impact model of a contact level of a gap, from zero.
-///
-/// # Errors
-/// As of a case that cannot be assembled.
-pub fn parameters_of_gap(
-    case: &Case,
-    gap: &Gap,
-    level: usize,
-) -> Result<UsedParameters, CaseError> {
-    let descriptor = registry::find(&gap.model.value).map_err(at_model(case, gap))?;
-    let values = values_of_model(case, gap, descriptor, level)?;
-    Ok(UsedParameters::of(descriptor, values, false))
-}
-
-fn at_model<'c>(case: &'c Case, gap: &'c Gap) -> impl Fn(GapElementError) -> CaseError + use<'c> {
-    move |e| case.error(gap.model.span.clone(), e.to_string(), e.help())
-}
-
-/// The values (SI) that are given for the model of a contact level, from zero.
-fn values_of_model(
-    case: &Case,
-    gap: &Gap,
-    descriptor: &'static ModelDescriptor,
-    level: usize,
-) -> Result<Vec<(String, f64)>, CaseError> {
-    let exponent = gap
-        .parameters
-        .iter()
-        .find(|p| p.key.value == "exponent")
-        .and_then(|p| Some(p.at(level)?.value.value));
-    let errors = Errors::default();
-    let given = gap.parameters.iter();
-    let given = given.filter_map(|p| Some((&p.key, p.at(level)?)));
-    let read = errors.all(given.map(|given| {
-        let value = parameter_value(case, descriptor, given, exponent, |e| {
-            GapElementError::from(e).help()
-        })?;
-        Ok((given.0.value.clone(), value))
-    }));
-    errors.finish(read)
-}
-
-/// The impact model of a contact level, from zero.
-fn model(case: &Case, gap: &Gap, level: usize) -> Result<Arc<dyn ImpactModel>, CaseError> {
-    let at_model = at_model(case, gap);
-    let descriptor = registry::find(&gap.model.value).map_err(&at_model)?;
-    let mut parameters = ModelParameters::default();
-    let errors = Errors::default();
-    let read = values_of_model(case, gap, descriptor, level);
-    if let Some(separation) = &gap.separation {
-        parameters.separation = errors.keep(separation_rule(case, descriptor, separation));
-    }
-    parameters.spring = gap.spring.as_ref().map(|table| table.value.clone());
-    // TOML keys are unique.
-    parameters.values = errors.finish(read)?.into_iter().collect();
-    // What is wrong with a table is said where it stands.
-    let wrong = |e: GapElementError| match (&e, &gap.spring) {
-        (GapElementError::SpringTable(_), Some(table)) => {
-            case.error(table.span.clone(), e.to_string(), e.help())
-        }
-        _ => at_model(e),
-    };
-    Ok(registry::build(descriptor.name, &parameters)
-        .map_err(wrong)?
-        .into())
-}
-
-fn separation_rule(
-    case: &Case,
-    descriptor: &'static ModelDescriptor,
-    separation: &Located<String>,
-) -> Result<SeparationRule, CaseError> {
-    SeparationRule::from_name(&separation.value)
-        .filter(|rule| descriptor.separation_rules.contains(rule))
-        .ok_or_else(|| {
-            let offered: Vec<_> = descriptor
-                .separation_rules
-                .iter()
-                .map(|r| r.name())
-                .collect();
-            case.error(
-                separation.span.clone(),
-                format!(
-                    "model {} does not offer separation \"{}\"",
-                    descriptor.name, separation.value
-                ),
-                Some(format!("it offers {}", offered.join(", "))),
-            )
         })
 }

@@ -12,10 +12,10 @@ use pounding_ground_motion::processing::{
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{GroundAcceleration, GroundMotion, LONGEST_DELAY, Support, System};
 
+use super::excitation::further_record;
 use super::forces::on_floors;
 use super::initial_motion;
 use crate::error::AssemblyError;
-use crate::excitation::further_record;
 
 /// A record as the time history takes it.
 pub(super) fn ground(accelerogram: &Accelerogram) -> GroundAcceleration {

@@ -15,11 +15,11 @@ use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, Format, GroundMotionError, Quantity, ReadOptions,
 };
 
-use crate::band::{band_of_case, band_without_case};
+use super::band::{band_of_case, band_without_case};
 use crate::error::AssemblyError;
 
 /// The ground acceleration of a case.
-pub(crate) fn accelerogram(
+pub(super) fn accelerogram(
     case: &Case,
     files: &RecordFiles,
 ) -> Result<Accelerogram, AssemblyError> {

@@ -7,7 +7,7 @@ use pounding_catalogue::numbers;
 use pounding_ground_motion::processing::BandTarget;
 use pounding_ground_motion::spectra::TargetSpectrum;
 
-use crate::assemble::fundamental_periods;
+use super::parts::fundamental_periods;
 
 /// The band (s) where there are no buildings whose periods could say another.
 const WITHOUT_BUILDINGS: (f64, f64) = (0.1, 3.0);
@@ -19,7 +19,7 @@ fn shown(period: f64) -> String {
 
 /// The band of a case: what it gives, and else what the code asks for with the fundamental
 /// periods of its buildings, within the range of the spectrum.
-pub(crate) fn band_of_case(
+pub(super) fn band_of_case(
     case: &Case,
     band: &BandSource,
     spectrum: TargetSpectrum,
@@ -85,7 +85,7 @@ pub(crate) fn band_of_case(
 }
 
 /// The band of a step that stands beside no case: what it gives, and else a fixed one.
-pub(crate) fn band_without_case(band: &BandSource, spectrum: TargetSpectrum) -> BandTarget {
+pub(super) fn band_without_case(band: &BandSource, spectrum: TargetSpectrum) -> BandTarget {
     let (from, to) = WITHOUT_BUILDINGS;
     let reason = match (band.from, band.to) {
         (Some(_), Some(_)) => String::new(),

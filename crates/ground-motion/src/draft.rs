@@ -1,25 +1,16 @@
 //! From what a reader found to a series in SI, held against the header.
 
-use crate::accelerogram::{Origin, Processing};
 use crate::direction::Orientation;
 use crate::error::{GroundMotionError, READING, bound, within};
+use crate::number::Printed;
+use crate::origin::{Origin, Processing};
 use crate::quantity::{Quantity, SeriesUnit};
-use crate::recording::{HeaderPeak, Sampling, Series, impossible_step, unusual_step};
+use crate::recording::{HeaderPeak, Sampling, Series};
 use crate::source::{Source, Used};
 use crate::start_times::is_impossible;
-use crate::time_column::not_after;
+use crate::time_column::{Times, not_after};
+use crate::time_step::{impossible_step, unusual_step};
 use crate::unit::AccelerationUnit;
-
-/// A value that a header prints, with one unit of its last digit.
-pub(crate) type Printed = (f64, f64);
-
-/// Times of samples as found.
-pub(crate) enum Times {
-    /// The step that the file states (s), if it does.
-    Step(Option<f64>),
-    /// A time for each sample (s), uneven.
-    Each(Vec<f64>),
-}
 
 /// A peak in the header: value and time, with their printed digits.
 pub(crate) struct DraftPeak {

@@ -2,6 +2,9 @@
 
 use crate::quantity::SeriesUnit;
 
+/// A value that a header prints, with one unit of its last digit.
+pub(crate) type Printed = (f64, f64);
+
 /// Magnitudes from which, and up to which, a value is the `1.7E+38` that stands for "missing", or
 /// another one near the largest of single precision.
 pub(crate) const MISSING: f64 = 1.0e37;

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use serde::Deserialize;
 
-use crate::formats::Format;
+use crate::format::Format;
 use crate::quantity::Quantity;
 use crate::unit::AccelerationUnit;
 

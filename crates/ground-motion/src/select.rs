@@ -1,9 +1,10 @@
 //! The series that excites the buildings.
 
-use crate::accelerogram::{Accelerogram, Processing};
+use crate::accelerogram::Accelerogram;
 use crate::direction::{Direction, Orientation};
 use crate::error::{GroundMotionError, bound, rounded};
 use crate::options::{Offset, ReadOptions};
+use crate::origin::Processing;
 use crate::quantity::Quantity;
 use crate::recording::{Recording, Sampling, Series, WithoutSensitivity};
 use crate::unit::AccelerationUnit;

@@ -1,8 +1,9 @@
 //! Time steps that a header states more than once.
 
-use crate::draft::{Draft, Times};
+use crate::draft::Draft;
 use crate::error::bound;
 use crate::source::Source;
+use crate::time_column::Times;
 
 /// A time step as a header states it, in seconds or as a rate.
 #[derive(Debug, Clone, Copy)]

@@ -5,7 +5,6 @@ use std::cell::OnceCell;
 use std::path::{Path, PathBuf};
 
 use roxmltree::{Document, Node, ParsingOptions};
-use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
 use crate::direction::Orientation;
@@ -67,15 +66,6 @@ pub(crate) struct Sensitivity {
     pub file: String,
     pub sha256: String,
     pub warnings: Vec<String>,
-}
-
-/// A file that gives the sensitivity of a record.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct ResponseFile {
-    /// Its path as given, or as found beside the record.
-    pub file: String,
-    /// SHA-256 of its bytes, hexadecimal.
-    pub sha256: String,
 }
 
 /// Where to look for the sensitivities of a record.
@@ -299,7 +289,7 @@ impl Read {
 impl StationFile {
     fn read(path: &Path) -> Result<Self, GroundMotionError> {
         let file = path.display().to_string();
-        crate::formats::regular(path, &file)?;
+        crate::regular_file::regular(path, &file)?;
         let refused = |what: String| GroundMotionError::Unsupported {
             file: file.clone(),
             what,

@@ -1,10 +1,17 @@
 //! Times printed beside the values.
 
-use crate::draft::Times;
 use crate::error::GroundMotionError;
 use crate::number;
 use crate::source::Source;
 use crate::text::Line;
+
+/// Times of samples as found.
+pub(crate) enum Times {
+    /// The step that the file states (s), if it does.
+    Step(Option<f64>),
+    /// A time for each sample (s), uneven.
+    Each(Vec<f64>),
+}
 
 /// A column of times as it is read.
 pub(crate) struct TimeColumn {

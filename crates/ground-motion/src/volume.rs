@@ -2,10 +2,10 @@
 //! text, 100 integers, 50 or 100 reals, blocks of data, a line that starts `/&`.
 
 use crate::direction::Direction;
-use crate::draft::{DraftPeak, Printed, StatedDuration};
+use crate::draft::{DraftPeak, StatedDuration};
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
-use crate::number;
+use crate::number::{self, Printed};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::source::{HeaderNumbers, Source};
 use crate::text::{Line, Lines};

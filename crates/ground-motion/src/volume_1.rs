@@ -1,16 +1,16 @@
 //! Volume 1, uncorrected: pairs of time and acceleration, or even steps.
 
-use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, Times, several};
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, several};
 use crate::error::{GroundMotionError, bound};
 use crate::fortran::Layout;
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::stated_step::{STEP_TOLERANCE, StatedStep, state_step};
 use crate::text::{Line, Lines};
-use crate::time_column::{PrintedDigits, even_step_of_rounded, part_ties, tied_times};
+use crate::time_column::{PrintedDigits, Times, even_step_of_rounded, part_ties, tied_times};
 use crate::volume::{ChannelHeader, end_of_channel, unit_of_number};
 
 const TEXT_LINES: usize = 13;

@@ -1,13 +1,14 @@
 //! Volume 2, corrected: acceleration, velocity and displacement of each channel.
 
-use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftUnit, ROW, Times, several};
+use crate::draft::{Draft, DraftUnit, ROW, several};
 use crate::error::GroundMotionError;
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::Quantity;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::Lines;
+use crate::time_column::Times;
 use crate::volume::{ChannelHeader, Label, end_of_channel, peak_line};
 
 const TEXT_LINES: usize = 25;

@@ -1,17 +1,18 @@
 //! Archivo Estandar de Aceleracion 2.0 (UNAM, CICESE, CENAPRED): Spanish key lines,
 //! then a column for each channel, gal.
 
-use crate::accelerogram::Processing;
 use crate::direction::Direction;
-use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration};
 use crate::error::{GroundMotionError, bound};
-use crate::formats::Format;
+use crate::format::Format;
 use crate::fortran::Layout;
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
+use crate::time_column::Times;
 
 const REMEDY: &str = "the header is not that of ASA 2.0: get the record again";
 /// Lines that a header may have; 109 in every file seen.
@@ -103,18 +104,16 @@ pub(super) static FORMAT: Format = Format {
     title: "Archivo Estandar de Aceleracion 2.0",
     source: "UNAM, CICESE and CENAPRED, Mexico",
     recognised_by: "archivo estandar de aceleracion within fifteen lines",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source
         .head()
         .take(15)
         .any(|l| plain(l).contains("ARCHIVO ESTANDAR DE ACELERACION"))
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = header(source, &mut lines)?;
     let end = lines.number();

@@ -1,16 +1,17 @@
 //! Building and Housing Research Center of Iran: the headers of Volume 1, cut at 72 columns, and
 //! accelerations at even steps.
 
-use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftUnit, StatedDuration, Times, several};
+use crate::draft::{Draft, DraftUnit, StatedDuration, several};
 use crate::error::{GroundMotionError, bound};
-use crate::formats::Format;
+use crate::format::Format;
 use crate::fortran::Layout;
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::{HeaderNumbers, Source};
 use crate::text::{Line, Lines};
+use crate::time_column::Times;
 use crate::volume::REMEDY_UNIT;
 
 const TEXT_LINES: usize = 13;
@@ -31,11 +32,9 @@ pub(super) static FORMAT: Format = Format {
     title: "Building and Housing Research Center, Iran: Volume 1",
     source: "Road, Housing and Urban Development Research Center (BHRC), Iran",
     recognised_by: "a first line that starts with * VOL and a digit",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     is_first(&source.first_line())
 }
 
@@ -45,7 +44,7 @@ fn is_first(lower: &str) -> bool {
     volume.is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut series = Vec::new();
     while let Some(first) = lines.next() {

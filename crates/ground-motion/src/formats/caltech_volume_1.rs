@@ -2,7 +2,7 @@
 //! California Volume 1: uncorrected pairs of time and acceleration.
 
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::volume_1;
@@ -12,11 +12,9 @@ pub(super) static FORMAT: Format = Format {
     title: "Volume I: uncorrected pairs of time and acceleration",
     source: "California Institute of Technology; University of Southern California",
     recognised_by: "uncorrected accelerogram data in the first line, and units are sec and within thirteen",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source
         .first_line()
         .contains("uncorrected accelerogram data")
@@ -26,6 +24,6 @@ fn matches(source: &Source<'_>) -> bool {
             .any(|l| l.lower().contains("units are sec and"))
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     volume_1::read(source)
 }

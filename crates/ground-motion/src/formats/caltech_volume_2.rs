@@ -3,7 +3,7 @@
 //! samples, and records start with the velocity of the first sample, not at rest.
 
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::volume_2;
@@ -13,11 +13,9 @@ pub(super) static FORMAT: Format = Format {
     title: "Volume II: corrected acceleration, velocity and displacement",
     source: "California Institute of Technology",
     recognised_by: "corrected accelerogram and comp in the first line, of uncorrected accelerogram data of vol in the second",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     let first = source.first_line();
     let second = source.lines().nth(1).map(|l| l.lower()).unwrap_or_default();
     first.contains("corrected accelerogram")
@@ -25,6 +23,6 @@ fn matches(source: &Source<'_>) -> bool {
         && second.contains("of uncorrected accelerogram data of vol")
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     volume_2::read(source)
 }

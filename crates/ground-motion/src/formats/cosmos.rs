@@ -1,17 +1,18 @@
 //! COSMOS 1.20: blocks that announce their count and their Fortran format; raw counts and
 //! volts by the sensitivities of recorder and sensor in the header.
 
-use crate::accelerogram::Processing;
 use crate::direction::Direction;
-use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, Times, several};
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, several};
 use crate::error::{GroundMotionError, bound};
-use crate::formats::Format;
+use crate::format::Format;
 use crate::fortran::Layout;
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::{HeaderNumbers, Source};
 use crate::text::{Line, Lines};
+use crate::time_column::Times;
 use crate::volume::unit_of_number;
 
 const TEXT_LINES: usize = 13;
@@ -24,11 +25,9 @@ pub(super) static FORMAT: Format = Format {
     title: "COSMOS 1.20: V0c, V1c and V2c",
     source: "Consortium of Organizations for Strong-Motion Observation Systems",
     recognised_by: "(Format v in the first line",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     is_first(&source.first_line())
 }
 
@@ -36,7 +35,7 @@ fn is_first(lower: &str) -> bool {
     lower.contains("(format v")
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut series = Vec::new();
     while let Some(first) = lines.next() {

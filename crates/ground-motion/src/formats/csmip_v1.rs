@@ -2,7 +2,7 @@
 //! of time and value or at even steps.
 
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::volume_1;
@@ -12,16 +12,14 @@ pub(super) static FORMAT: Format = Format {
     title: "CSMIP (CDMG, CGS) Volume 1: pairs of time and acceleration, or even steps",
     source: "California Strong Motion Instrumentation Program",
     recognised_by: "uncorrected accelerogram data in the first line",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source
         .first_line()
         .contains("uncorrected accelerogram data")
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     volume_1::read(source)
 }

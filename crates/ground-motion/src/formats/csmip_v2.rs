@@ -1,7 +1,7 @@
 //! CSMIP (CDMG, CGS) Volume 2: corrected acceleration, velocity and displacement.
 
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::volume_2;
@@ -16,11 +16,9 @@ pub(super) static FORMAT: Format = Format {
     title: "CSMIP (CDMG, CGS) Volume 2: acceleration, velocity and displacement",
     source: "California Strong Motion Instrumentation Program",
     recognised_by: "corrected accelerogram in the first line, uncorrected accelerogram data in the second",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     let first = source.first_line();
     let second = source.lines().nth(1).map(|l| l.lower()).unwrap_or_default();
     let accelerogram = second.contains("uncorrected accelerogram data");
@@ -28,7 +26,7 @@ fn matches(source: &Source<'_>) -> bool {
         || first.contains("corrected accelerogram") && accelerogram
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     if is_volume_3(&source.first_line()) {
         return Err(GroundMotionError::Unsupported {
             file: source.file.to_owned(),

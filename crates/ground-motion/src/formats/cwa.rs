@@ -1,18 +1,18 @@
 //! Free-field text of the Central Weather Administration, Taiwan: lines that start
 //! with `#`, then time and, in this order, up, north and east.
 
-use crate::accelerogram::Processing;
 use crate::cut_numbers::Forms;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Printed, StatedDuration, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration};
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::fortran::Layout;
-use crate::number;
+use crate::number::{self, Printed};
+use crate::origin::Processing;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines};
-use crate::time_column::TimeColumn;
+use crate::time_column::{TimeColumn, Times};
 
 const REMEDY: &str = "the header is not that of the agency's free-field files: get it again";
 
@@ -39,15 +39,13 @@ pub(super) static FORMAT: Format = Format {
     title: "Free-field text of the Central Weather Administration",
     source: "Central Weather Administration, Taiwan",
     recognised_by: "a first line that starts with #Earthquake Information",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source.first_line().starts_with("#earthquake information")
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = header(&mut lines);
     let end = lines.number();

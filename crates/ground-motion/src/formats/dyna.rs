@@ -1,17 +1,18 @@
 //! DYNA 1.x (ESM and ITACA of INGV, AFAD): lines `KEY: value`, then one value a
 //! line.
 
-use crate::accelerogram::Processing;
 use crate::cut_numbers::Forms;
-use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration};
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::formats::rows::{DecimalCommas, second_record};
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::{Keys, Source};
 use crate::text::Line;
+use crate::time_column::Times;
 
 /// What the header says.
 #[derive(Default)]
@@ -43,11 +44,9 @@ pub(super) static FORMAT: Format = Format {
     title: "DYNA 1.x: ESM, ITACA, AFAD",
     source: "Istituto Nazionale di Geofisica e Vulcanologia, Italy",
     recognised_by: "a first line that starts with EVENT_NAME:",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source.lines().next().is_some_and(is_first)
 }
 
@@ -55,7 +54,7 @@ fn is_first(line: Line<'_>) -> bool {
     line.lower().starts_with("event_name:")
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut header = Header::default();
     while let Some(line) = lines.peek() {

@@ -1,18 +1,19 @@
 //! GeoNet (GNS Science, New Zealand) Volume 1 and Volume 2: 26 header lines for
 //! each component, then values of eight columns without labels.
 
-use crate::accelerogram::Processing;
 use crate::direction::Direction;
-use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration};
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::fortran::Layout;
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::{HeaderNumbers, Source};
 use crate::start_times::later;
 use crate::text::{Line, Lines};
+use crate::time_column::Times;
 use crate::volume::unit_of_number;
 
 const TEXT_LINES: usize = 16;
@@ -38,11 +39,9 @@ pub(super) static FORMAT: Format = Format {
     title: "GeoNet V1A and V2A",
     source: "GNS Science, New Zealand",
     recognised_by: "GNS Science and accelerogram in the first line",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     is_first(&source.first_line())
 }
 
@@ -50,7 +49,7 @@ fn is_first(lower: &str) -> bool {
     lower.contains("gns science") && lower.contains("accelerogram")
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut series: Vec<Series> = Vec::new();
     let mut channel = 0;

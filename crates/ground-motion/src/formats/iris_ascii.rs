@@ -2,20 +2,21 @@
 //! 2020-01-01T00:00:00.000000, SLIST, FLOAT, M/S**2`, then values (SLIST) or rows of time and value
 //! (TSPAIR).
 
-use crate::accelerogram::Processing;
 use crate::cut_numbers::Forms;
-use crate::draft::{Draft, DraftUnit, Times};
+use crate::draft::{Draft, DraftUnit};
 use crate::error::{GroundMotionError, bound};
-use crate::formats::Format;
+use crate::format::Format;
 use crate::formats::rows::DecimalCommas;
 use crate::instrument;
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::row_widths::RowWidths;
 use crate::source::Source;
 use crate::start_times::apart;
 use crate::text::{Line, Lines};
+use crate::time_column::Times;
 
 const REMEDY: &str = "the line must be like `TIMESERIES NET_STA_LOC_CHA_Q, 600 samples, 100 sps, 2020-01-01T00:00:00.000000, SLIST, FLOAT, M/S**2`: get the record again";
 const REMEDY_UNIT: &str =
@@ -30,11 +31,9 @@ pub(super) static FORMAT: Format = Format {
     title: "Time series as text: SLIST and TSPAIR",
     source: "EarthScope Consortium (IRIS), United States; also written by ObsPy",
     recognised_by: "a first line that starts with TIMESERIES and has SLIST or TSPAIR",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     let first = source.first_line();
     is_header(&first) && first.split(',').any(|word| kind(word).is_some())
 }
@@ -72,7 +71,7 @@ struct Header {
     unit: DraftUnit,
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = Header::of(source, source.expect(&mut lines, "the header")?)?;
     let is_of_counts = matches!(header.unit, DraftUnit::Counts);

@@ -1,19 +1,20 @@
 //! Internet Site for European Strong-motion Data (`.cor`, `.raw`): lines
 //! `key: value`, comments, then blocks that start `->`.
 
-use crate::accelerogram::Processing;
 use crate::cut_numbers::Forms;
-use crate::draft::{Draft, DraftUnit, StatedDuration, Times};
+use crate::draft::{Draft, DraftUnit, StatedDuration};
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::formats::rows::DecimalCommas;
 use crate::fortran::Layout;
 use crate::number::{self, Bare};
+use crate::origin::Processing;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::row_widths::RowWidths;
 use crate::source::Source;
 use crate::text::{Line, Lines};
+use crate::time_column::Times;
 
 /// Columns of a number.
 const WIDTH: usize = 13;
@@ -38,11 +39,9 @@ pub(super) static FORMAT: Format = Format {
     title: "Internet Site for European Strong-motion Data",
     source: "Imperial College London and partners",
     recognised_by: "file: in the first line, and waveform code within ten",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source.first_line().contains("file:")
         && source
             .head()
@@ -50,7 +49,7 @@ fn matches(source: &Source<'_>) -> bool {
             .any(|l| l.lower().contains("waveform code"))
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut header = Header::default();
     while let Some(line) = lines.peek().filter(|l| !is_label(l)) {

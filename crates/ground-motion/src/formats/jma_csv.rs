@@ -1,23 +1,22 @@
 //! CSV of the Japan Meteorological Agency: `KEY= value` lines, `NS,EW,UD`, rows.
 
 use crate::cut_numbers::Forms;
-use crate::draft::{Draft, DraftUnit, Times};
+use crate::draft::{Draft, DraftUnit};
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::formats::rows::{not_of_format, second_record};
 use crate::number::Bare;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::Line;
+use crate::time_column::Times;
 
 pub(super) static FORMAT: Format = Format {
     name: "jma_csv",
     title: "CSV of the Japan Meteorological Agency",
     source: "Japan Meteorological Agency",
     recognised_by: "SITE CODE in the first line",
-    matches,
-    read,
 };
 
 /// Keys of which one at least stands before the names of the columns.
@@ -25,7 +24,7 @@ const KEYS: [&str; 4] = ["site", "sampling", "unit", "initial time"];
 
 const UNITS: &str = "give the record of the accelerations, whose unit is gal(cm/s/s); if the unit alone is wrong, correct the line";
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source.lines().next().is_some_and(is_first)
 }
 
@@ -39,7 +38,7 @@ fn has_names(line: Line<'_>, text: &str) -> bool {
     line.is_text() || names.all(|name| name.starts_with(|c: char| c.is_ascii_alphabetic()))
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let (mut step, mut unit, mut is_keyed) = (None, DraftUnit::Unstated, false);
     let (mut site, mut start) = (String::new(), String::new());

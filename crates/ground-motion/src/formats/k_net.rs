@@ -1,18 +1,19 @@
 //! K-NET and KiK-net ASCII (National Research Institute for Earth Science and
 //! Disaster Resilience, Japan): 17 lines `name value`, then counts, eight per line.
 
-use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Times, several};
+use crate::draft::{Draft, DraftPeak, DraftUnit, several};
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::formats::rows::second_record;
 use crate::fortran::Layout;
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::row_widths::RowWidths;
 use crate::source::{Keys, Source};
 use crate::text::{Line, in_brackets};
+use crate::time_column::Times;
 
 /// Columns of the names; the values start after them.
 const NAME: usize = 18;
@@ -45,11 +46,9 @@ pub(super) static FORMAT: Format = Format {
     title: "K-NET and KiK-net ASCII",
     source: "National Research Institute for Earth Science and Disaster Resilience, Japan",
     recognised_by: "a first line that starts with Origin Time",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source.lines().next().is_some_and(is_first)
 }
 
@@ -60,7 +59,7 @@ fn is_first(line: Line<'_>) -> bool {
     behind.is_some_and(|rest| !rest.starts_with([':', '=']))
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut header = Header::default();
     loop {

@@ -4,7 +4,7 @@
 use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftUnit};
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::number;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
@@ -19,11 +19,9 @@ pub(super) static FORMAT: Format = Format {
     title: "midas ground-motion file, sgs",
     source: "MIDAS IT",
     recognised_by: "a first line that starts with *SGS",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source.first_line().trim_start().starts_with("*sgs")
 }
 
@@ -69,7 +67,7 @@ fn time_in_seconds(
     }
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut title = String::new();
     let (mut unit, mut label) = (None, None);

@@ -3,16 +3,18 @@
 use std::io::Read;
 use std::path::Path;
 
-use pounding_catalogue::{Descriptor, Registry};
+use pounding_catalogue::Registry;
 use sha2::{Digest, Sha256};
 
 use crate::accelerogram::Accelerogram;
 use crate::direction::Direction;
 use crate::error::GroundMotionError;
+use crate::format::Format;
 use crate::integrals;
 use crate::options::ReadOptions;
 use crate::quantity::Quantity;
 use crate::recording::{Recording, Series};
+use crate::regular_file::regular;
 use crate::select;
 use crate::source::Source;
 use crate::stray_commas;
@@ -37,71 +39,90 @@ mod mini_seed_2;
 mod nsmn;
 mod peer_at2;
 mod plain_columns;
-pub(crate) mod pounding_csv;
+mod pounding_csv;
 mod rows;
 mod sac;
 mod usgs_smc;
 
-/// All formats, in the order of detection.
-static FORMATS: Registry<Format> = Registry::new(
-    &[
-        &mini_seed_2::FORMAT,
-        &sac::FORMAT,
-        &pounding_csv::FORMAT,
-        &k_net::FORMAT,
-        &jma_csv::FORMAT,
-        &dyna::FORMAT,
-        &nsmn::FORMAT,
-        &cwa::FORMAT,
-        &geo_net::FORMAT,
-        &cosmos::FORMAT,
-        &caltech_volume_1::FORMAT,
-        &caltech_volume_2::FORMAT,
-        &csmip_v1::FORMAT,
-        &csmip_v2::FORMAT,
-        &usgs_smc::FORMAT,
-        &bhrc::FORMAT,
-        &asa::FORMAT,
-        &isesd::FORMAT,
-        &peer_at2::FORMAT,
-        &midas_sgs::FORMAT,
-        &iris_ascii::FORMAT,
-        &plain_columns::FORMAT,
-    ],
-    &[],
-);
-
-/// A record format.
-#[derive(Debug)]
-#[non_exhaustive]
-pub struct Format {
-    /// Name in the case file.
-    pub name: &'static str,
-    /// A title for people.
-    pub title: &'static str,
-    /// Who defines it, or publishes records in it.
-    pub source: &'static str,
-    /// What in a file tells it from others; formats are tried in their order.
-    pub recognised_by: &'static str,
+/// The reader of a format.
+struct Reader {
+    format: &'static Format,
+    /// Whether the start of a file is of the format.
     matches: fn(&Source<'_>) -> bool,
     read: fn(&Source<'_>) -> Result<Vec<Series>, GroundMotionError>,
 }
 
-impl Descriptor for Format {
-    const KIND: &'static str = "record format";
-    const NOUN: &'static str = "format";
-
-    fn name(&self) -> &'static str {
-        self.name
+impl Reader {
+    const fn of(
+        format: &'static Format,
+        matches: fn(&Source<'_>) -> bool,
+        read: fn(&Source<'_>) -> Result<Vec<Series>, GroundMotionError>,
+    ) -> Self {
+        Self {
+            format,
+            matches,
+            read,
+        }
     }
 }
 
-/// Names are unique.
-impl PartialEq for Format {
-    fn eq(&self, other: &Self) -> bool {
-        self.name == other.name
+/// Readers of all formats, in the order of detection.
+static READERS: [Reader; 22] = [
+    Reader::of(
+        &mini_seed_2::FORMAT,
+        mini_seed_2::matches,
+        mini_seed_2::read,
+    ),
+    Reader::of(&sac::FORMAT, sac::matches, sac::read),
+    Reader::of(
+        &pounding_csv::FORMAT,
+        pounding_csv::matches,
+        pounding_csv::read,
+    ),
+    Reader::of(&k_net::FORMAT, k_net::matches, k_net::read),
+    Reader::of(&jma_csv::FORMAT, jma_csv::matches, jma_csv::read),
+    Reader::of(&dyna::FORMAT, dyna::matches, dyna::read),
+    Reader::of(&nsmn::FORMAT, nsmn::matches, nsmn::read),
+    Reader::of(&cwa::FORMAT, cwa::matches, cwa::read),
+    Reader::of(&geo_net::FORMAT, geo_net::matches, geo_net::read),
+    Reader::of(&cosmos::FORMAT, cosmos::matches, cosmos::read),
+    Reader::of(
+        &caltech_volume_1::FORMAT,
+        caltech_volume_1::matches,
+        caltech_volume_1::read,
+    ),
+    Reader::of(
+        &caltech_volume_2::FORMAT,
+        caltech_volume_2::matches,
+        caltech_volume_2::read,
+    ),
+    Reader::of(&csmip_v1::FORMAT, csmip_v1::matches, csmip_v1::read),
+    Reader::of(&csmip_v2::FORMAT, csmip_v2::matches, csmip_v2::read),
+    Reader::of(&usgs_smc::FORMAT, usgs_smc::matches, usgs_smc::read),
+    Reader::of(&bhrc::FORMAT, bhrc::matches, bhrc::read),
+    Reader::of(&asa::FORMAT, asa::matches, asa::read),
+    Reader::of(&isesd::FORMAT, isesd::matches, isesd::read),
+    Reader::of(&peer_at2::FORMAT, peer_at2::matches, peer_at2::read),
+    Reader::of(&midas_sgs::FORMAT, midas_sgs::matches, midas_sgs::read),
+    Reader::of(&iris_ascii::FORMAT, iris_ascii::matches, iris_ascii::read),
+    Reader::of(
+        &plain_columns::FORMAT,
+        plain_columns::matches,
+        plain_columns::read,
+    ),
+];
+
+/// All formats, in the order of detection.
+static ALL: [&Format; READERS.len()] = {
+    let mut all = [&plain_columns::FORMAT; READERS.len()];
+    let mut i = 0;
+    while i < all.len() {
+        all[i] = READERS[i].format;
+        i += 1;
     }
-}
+    all
+};
+static FORMATS: Registry<Format> = Registry::new(&ALL, &[]);
 
 impl Format {
     /// All formats, in the order of detection.
@@ -160,7 +181,8 @@ fn every_series(
     path: Option<&Path>,
 ) -> Result<Recording, GroundMotionError> {
     not_too_large(file, bytes.len() as u64)?;
-    let format = format_of(file, bytes, options, path)?;
+    let reader = reader_of(file, bytes, options, path)?;
+    let format = reader.format;
     let filled = filling(format, bytes);
     let source = Source::new(file, &bytes[..bytes.len() - filled], options, path);
     if filled > 0 {
@@ -173,7 +195,7 @@ fn every_series(
     if !is_binary(format) {
         source.is_text()?;
     }
-    let read = (format.read)(&source);
+    let read = (reader.read)(&source);
     let mut series = read.map_err(|error| or_cwa(&source, format, error))?;
     if !is_binary(format) {
         stray_commas::refuse(&source)?;
@@ -246,7 +268,7 @@ fn or_cwa(source: &Source<'_>, format: &Format, error: GroundMotionError) -> Gro
     let may = *format == plain_columns::FORMAT
         && source.options.format.is_none()
         && source.first_line().starts_with('#');
-    if !may || (cwa::FORMAT.read)(source).is_err() {
+    if !may || cwa::read(source).is_err() {
         return error;
     }
     source.error(
@@ -369,25 +391,27 @@ fn is_binary(format: &Format) -> bool {
     [&mini_seed_2::FORMAT, &sac::FORMAT].contains(&format)
 }
 
-/// The format that the options name, or that the start of the file shows.
-fn format_of(
+/// The reader of the format that the options name, or that the start of the file shows.
+fn reader_of(
     file: &str,
     bytes: &[u8],
     options: &ReadOptions,
     path: Option<&Path>,
-) -> Result<&'static Format, GroundMotionError> {
+) -> Result<&'static Reader, GroundMotionError> {
     let start = &bytes[..bytes.len().min(START)];
     let source = Source::new(file, start, options, path);
-    let detected = || Format::all().iter().copied().find(|f| (f.matches)(&source));
-    let format = options.format.or_else(detected);
-    if !format.is_some_and(is_binary) {
+    let reader = READERS.iter().find(|reader| match options.format {
+        Some(format) => reader.format == format,
+        None => (reader.matches)(&source),
+    });
+    if !reader.is_some_and(|reader| is_binary(reader.format)) {
         encodings::is_plain_text(file, start)?;
         encodings::is_no_alphanumeric_sac(file, start)?;
     }
-    if format.is_none() {
+    if reader.is_none() {
         encodings::has_hyphens(file, start)?;
     }
-    format.ok_or_else(|| match bytes.iter().all(u8::is_ascii_whitespace) {
+    reader.ok_or_else(|| match bytes.iter().all(u8::is_ascii_whitespace) {
         true => GroundMotionError::Empty {
             file: file.to_owned(),
         },
@@ -436,7 +460,7 @@ fn load(path: &Path, options: &ReadOptions) -> Result<(String, Vec<u8>), GroundM
     let mut bytes = Vec::with_capacity(START.min(size as usize));
     let mut start = reader.by_ref().take(START as u64);
     start.read_to_end(&mut bytes).map_err(failed)?;
-    format_of(&file, &bytes, options, Some(path))?;
+    reader_of(&file, &bytes, options, Some(path))?;
     bytes.reserve_exact((size as usize).saturating_sub(bytes.len()));
     // It may grow meanwhile.
     let mut rest = reader.take(MOST_BYTES);
@@ -457,23 +481,5 @@ fn not_too_large(file: &str, size: u64) -> Result<(), GroundMotionError> {
             MOST_BYTES >> 20
         ),
         remedy: "give the file of one record, or cut out the time and the components that are needed",
-    })
-}
-
-/// Refuses what is no regular file: a device or a pipe may never end.
-pub(crate) fn regular(path: &Path, file: &str) -> Result<(), GroundMotionError> {
-    let what = match std::fs::metadata(path) {
-        Ok(found) if found.is_file() => return Ok(()),
-        Ok(found) if found.is_dir() => "this is a folder, not a file",
-        Ok(_) => "this is no regular file",
-        Err(source) => {
-            let file = file.to_owned();
-            return Err(GroundMotionError::Io { file, source });
-        }
-    };
-    Err(GroundMotionError::Unsupported {
-        file: file.to_owned(),
-        what: what.to_owned(),
-        remedy: "give the path of a file; save what comes from a pipe or device first",
     })
 }

@@ -1,16 +1,17 @@
 //! National Strong-Motion Network of Turkey, the layout of 2017: lines `KEY : value`, a line
 //! that names the columns, then a column for each component.
 
-use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Printed, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit};
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::formats::rows::not_of_format;
-use crate::number::{self, Bare};
+use crate::number::{self, Bare, Printed};
+use crate::origin::Processing;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::{Line, Lines, in_brackets};
+use crate::time_column::Times;
 
 const REMEDY: &str =
     "the header is not that of the national network of Turkey: get the record again";
@@ -38,18 +39,16 @@ pub(super) static FORMAT: Format = Format {
     title: "National Strong-Motion Network of Turkey, 2017",
     source: "Disaster and Emergency Management Authority (AFAD), Turkey",
     recognised_by: "a first line that starts with STRONG GROUND MOTION RECORDS OF TURK",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source
         .first_line()
         .trim_start()
         .starts_with("strong ground motion records of turk")
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = Header::read(source, &mut lines)?;
     let end = lines.number();

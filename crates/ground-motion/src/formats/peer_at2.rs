@@ -2,14 +2,13 @@
 //! (displacement) in all header forms that were met: `NPTS=, DT=`, numbers first,
 //! four or seven header lines, and the free header of Peknold's El Centro.
 
-use crate::accelerogram::Processing;
 use crate::cut_numbers::Forms;
 use crate::direction::Direction;
 use crate::draft::{
     Draft, DraftPeak, DraftUnit, NamedQuantity, StatedDuration, decimated, not_applied, several,
 };
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::formats::rows::{DecimalCommas, second_record};
 use crate::fortran::Layout;
 use crate::header_keys::{
@@ -17,6 +16,7 @@ use crate::header_keys::{
     lone_rate, meaning, unit_in_words, unit_words,
 };
 use crate::number::{self, Bare};
+use crate::origin::Processing;
 use crate::quantity::{Multiple, Quantity, SeriesUnit, named_with_unit, speaks_of_spectrum};
 use crate::recording::Series;
 use crate::row_widths::RowWidths;
@@ -64,8 +64,6 @@ pub(super) static FORMAT: Format = Format {
     title: "PEER AT2, VT2 and DT2 with all header forms",
     source: "Pacific Earthquake Engineering Research Center",
     recognised_by: "a line with NPTS and DT, or points at equal spacing of",
-    matches,
-    read,
 };
 
 /// Whether a line is a comment, which this format has not: other programs write the same keys in them.
@@ -123,12 +121,12 @@ fn has_values_alone(source: &Source<'_>, (line, last): (Line<'_>, usize)) -> boo
     !names && !pairs.is_some_and(|numbers| mostly_times(&numbers, 2))
 }
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     line_of_counts(source).is_some_and(|found| has_values_alone(source, found))
         || source.lines().take(FREE_LINES).any(|l| is_spaced(&l))
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let header = header(source, &mut lines)?;
     let unit = unit(source, &header)?;

@@ -1,34 +1,24 @@
 //! Our CSV layout: `# Key: value` lines, a header `time_s,acceleration_g`, rows.
 
-use crate::accelerogram::{Origin, Processing};
 use crate::cut_numbers::Forms;
 use crate::direction::Orientation;
-use crate::draft::{Draft, DraftUnit, Times};
+use crate::draft::{Draft, DraftUnit};
 use crate::error::{GroundMotionError, bound};
-use crate::formats::Format;
+use crate::format::Format;
 use crate::number;
+use crate::origin::{Origin, Processing};
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::{self, Source};
 use crate::text::{Line, Lines};
-use crate::time_column::{TimeColumn, starts_at_zero};
+use crate::time_column::{TimeColumn, Times, starts_at_zero};
 use crate::unit::AccelerationUnit;
+use crate::writers::pounding_csv::{
+    AZIMUTH, DIP, FIRST_TIME, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, SAMPLES, START_TIME,
+};
 
 const REMEDY: &str = "the layout is in ground_motions/README.md; decimal commas need semicolons or tabs between the columns, also in the header";
 const START: &str = "time_s,acceleration_";
-/// Keys of the direction of positive values.
-pub(crate) const AZIMUTH: &str = "Azimuth";
-pub(crate) const DIP: &str = "Dip";
-/// Key of the time of the first sample.
-pub(crate) const START_TIME: &str = "Start";
-/// Key of the time of the first sample (s) in the column of times of the record that was processed.
-pub(crate) const FIRST_TIME: &str = "First time";
-/// Key of the number of samples.
-pub(crate) const SAMPLES: &str = "Samples";
-/// Keys of velocity and displacement at the first sample.
-pub(crate) const INITIAL_VELOCITY: &str = "Initial velocity";
-pub(crate) const INITIAL_DISPLACEMENT: &str = "Initial displacement";
-
 /// Keys that mean something.
 const KEYS: [&str; 18] = [
     "Event",
@@ -94,11 +84,9 @@ pub(super) static FORMAT: Format = Format {
     title: "CSV of this program: comment header, column header, time and acceleration",
     source: "ground_motions/README.md",
     recognised_by: "a column header that starts with time_s,acceleration_",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     source
         .lines()
         .find(|l| !l.bytes.starts_with(b"#") && !l.is_blank())
@@ -110,7 +98,7 @@ fn matches(source: &Source<'_>) -> bool {
         })
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut keys = Keys::default();
     let header = loop {

@@ -1,7 +1,7 @@
 //! What stands among the rows of values of a file, and is none.
 
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::source::Source;
 use crate::text::Line;
 

@@ -1,18 +1,18 @@
 //! SAC, binary: 158 words of header, then values of four bytes. Its unit is not
 //! reliable, so the user states it.
 
-use crate::accelerogram::Processing;
 use crate::direction::Orientation;
-use crate::draft::{Draft, DraftPeak, DraftUnit, Times};
+use crate::draft::{Draft, DraftPeak, DraftUnit};
 use crate::error::{GroundMotionError, bound};
-use crate::formats::Format;
+use crate::format::Format;
 use crate::instrument::may_accelerate;
+use crate::origin::Processing;
 use crate::quantity::Quantity;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::start_times::later;
 use crate::text::latin_1;
-use crate::time_column::even_step_in_single;
+use crate::time_column::{Times, even_step_in_single};
 
 const HEADER: usize = 632;
 const VERSION: usize = 76;
@@ -109,15 +109,13 @@ pub(super) static FORMAT: Format = Format {
     title: "SAC, binary, either byte order",
     source: "Seismic Analysis Code",
     recognised_by: "version 6 or 7 in word 77 of the header, in either byte order",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     words(source.bytes).is_some()
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let Some(words) = words(source.bytes) else {
         let offset = source.bytes.len().min(4 * VERSION);
         return Err(source.binary_error(offset, "no SAC header of version 6 or 7"));

@@ -2,18 +2,18 @@
 //! 50 reals, comments, then values of ten columns that touch; uncorrected records at even
 //! steps, or, where the header has no rate, as pairs of time and value.
 
-use crate::accelerogram::Processing;
 use crate::direction::Direction;
-use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, ROW, Times, several};
+use crate::draft::{Draft, DraftPeak, DraftUnit, NamedQuantity, ROW, several};
 use crate::error::{GroundMotionError, bound};
-use crate::formats::Format;
+use crate::format::Format;
 use crate::fortran::Layout;
 use crate::number;
+use crate::origin::Processing;
 use crate::quantity::{Quantity, SeriesUnit};
 use crate::recording::Series;
 use crate::source::{HeaderNumbers, Source};
 use crate::text::{Line, Lines};
-use crate::time_column::{mostly_times, part_ties, tied_times};
+use crate::time_column::{Times, mostly_times, part_ties, tied_times};
 
 const TEXT_LINES: usize = 11;
 /// Rates from which a header's rate is nonsense, as some are.
@@ -39,11 +39,9 @@ pub(super) static FORMAT: Format = Format {
     title: "SMC of the United States Geological Survey",
     source: "United States Geological Survey",
     recognised_by: "a digit and a title in capitals in the first line, and -32768 as the first integer of line 12",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     let mut lines = source.lines();
     let (Some(first), Some(second)) = (lines.next(), lines.next()) else {
         return false;
@@ -63,7 +61,7 @@ fn matches(source: &Source<'_>) -> bool {
     second.bytes.starts_with(b"*") && (known || (digit || kind == "*") && null())
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let mut lines = source.lines();
     let mut text = Vec::with_capacity(TEXT_LINES);
     for _ in 0..TEXT_LINES {

@@ -714,3 +714,10 @@ fn ends_in(text: &str, key: &str) -> bool {
     text.strip_suffix(key)
         .is_some_and(|before| !before.ends_with(|c: char| c.is_alphanumeric()))
 }
+
+/// Whether a line states a number under a key, `# dt: 0.01`, and so names no columns.
+pub(crate) fn states_number(text: &str) -> bool {
+    let lower = text.to_lowercase();
+    let stated = |entry: &Entry<'_>| meaning(entry).is_some() && entry.has_number();
+    keyed(&lower).iter().any(stated)
+}

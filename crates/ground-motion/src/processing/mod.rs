@@ -3,7 +3,6 @@
 
 mod baseline;
 mod butterworth;
-mod components;
 mod plausibility;
 mod resampling;
 mod scaling;
@@ -16,13 +15,12 @@ use crate::measures::GroundMotion;
 use crate::step_record::StepRecord;
 use crate::unit::AccelerationUnit;
 
-pub use baseline::{Baseline, SegmentWindow};
-pub use butterworth::{Butterworth, Phase};
-pub use components::{
+pub use crate::components::{
     RotatedPair, across_one_another, along_a_row, distinct, fault_components, is_one_series,
     rotate, start_together, starts_apart, starts_later, starts_not_compared,
 };
-pub(crate) use components::{Together, at_right_angles, together};
+pub use baseline::{Baseline, SegmentWindow};
+pub use butterworth::{Butterworth, Phase};
 pub use resampling::{Interpolation, to_even_steps};
 pub use scaling::{BAND_PERIODS, BandTarget, Scale, band_factor};
 pub use window::Trim;

@@ -5,8 +5,8 @@ use std::f64::consts::TAU;
 use serde::Serialize;
 
 use crate::accelerogram::{Accelerogram, Peak};
+use crate::components::{Together, at_right_angles, together};
 use crate::error::GroundMotionError;
-use crate::processing::{Together, at_right_angles, together};
 use crate::spectra::oscillator::{Oscillator, State};
 use crate::spectra::{Evaluation, response};
 

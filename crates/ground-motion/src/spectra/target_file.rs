@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::error::GroundMotionError;
-use crate::formats::regular;
+use crate::regular_file::regular;
 use crate::spectra::TargetSpectrum;
 use crate::unit::AccelerationUnit;
 

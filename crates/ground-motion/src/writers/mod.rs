@@ -3,12 +3,13 @@
 
 pub(crate) mod peer_at2;
 mod plain_columns;
-mod pounding_csv;
+pub(crate) mod pounding_csv;
 
-use crate::accelerogram::{Accelerogram, Processing};
+use crate::accelerogram::Accelerogram;
 use crate::direction::Orientation;
 use crate::error::GroundMotionError;
 use crate::number::MISSING;
+use crate::origin::Processing;
 use crate::quantity::Quantity;
 use crate::recording::{Sampling, Series};
 use crate::unit::AccelerationUnit;

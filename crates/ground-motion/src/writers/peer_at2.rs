@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use crate::accelerogram::Processing;
+use crate::origin::Processing;
 use crate::quantity::Quantity;
 use crate::unit::AccelerationUnit;
 use crate::writers::{Written, line};

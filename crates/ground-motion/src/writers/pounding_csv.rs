@@ -2,12 +2,22 @@
 
 use std::fmt::Write as _;
 
-use crate::accelerogram::Processing;
 use crate::error::GroundMotionError;
-use crate::formats::pounding_csv::{
-    AZIMUTH, DIP, FIRST_TIME, INITIAL_DISPLACEMENT, INITIAL_VELOCITY, SAMPLES, START_TIME,
-};
+use crate::origin::Processing;
 use crate::writers::{Written, acceleration_only, line, number, readable, time};
+
+/// Keys of the direction of positive values.
+pub(crate) const AZIMUTH: &str = "Azimuth";
+pub(crate) const DIP: &str = "Dip";
+/// Key of the time of the first sample.
+pub(crate) const START_TIME: &str = "Start";
+/// Key of the time of the first sample (s) in the column of times of the record that was processed.
+pub(crate) const FIRST_TIME: &str = "First time";
+/// Key of the number of samples.
+pub(crate) const SAMPLES: &str = "Samples";
+/// Keys of velocity and displacement at the first sample.
+pub(crate) const INITIAL_VELOCITY: &str = "Initial velocity";
+pub(crate) const INITIAL_DISPLACEMENT: &str = "Initial displacement";
 
 /// The text of a file in our CSV layout: a comment header that says where the motion
 /// came from and what was done to it, a column header, times (s) and accelerations

@@ -2,14 +2,16 @@
 //! integers, floats, Steim-1 or Steim-2. Counts: the sensitivity is in the
 //! station's metadata, not in the file; StationXML beside it, or named by the user, gives it.
 
-use crate::accelerogram::Processing;
-use crate::draft::{Draft, DraftUnit, Times};
+use crate::draft::{Draft, DraftUnit};
 use crate::error::{GroundMotionError, bound};
-use crate::formats::Format;
+use crate::format::Format;
 use crate::instrument;
+use crate::origin::Processing;
+use crate::origin::ResponseFile;
 use crate::recording::{Series, WithoutSensitivity};
 use crate::source::Source;
-use crate::station_xml::{ResponseFile, Responses, Sensitivity};
+use crate::station_xml::{Responses, Sensitivity};
+use crate::time_column::Times;
 
 mod record;
 mod steim;
@@ -24,15 +26,13 @@ pub(super) static FORMAT: Format = Format {
     title: "miniSEED 2 with integers, floats, Steim-1 or Steim-2; counts",
     source: "Federation of Digital Seismograph Networks, SEED manual 2.4, chapter 8 and appendix B",
     recognised_by: "a sequence number of six digits, then D, R, Q or M",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     record::is_start(source.bytes)
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let (mut records, mut emptied) = (Vec::new(), Vec::new());
     let mut at = 0;
     while at < source.bytes.len() && !is_filled_up(source, at) {

@@ -1,19 +1,19 @@
 //! Columns by name: the times, the components, and what is passed over.
 
+use super::column_name::Role;
 use super::counter::Counter;
-use super::header::{self, Role};
+use super::header;
 use super::names;
 use super::survey::{Survey, nearly_times};
 use super::thousands::Thousands;
 use super::{Header, OTHERS, Said, ends_within_a_number, rows};
 use crate::cut_numbers::Forms;
-use crate::draft::Times;
 use crate::error::GroundMotionError;
 use crate::quantity::SeriesUnit;
 use crate::recording::Series;
 use crate::source::Source;
 use crate::text::Line;
-use crate::time_column::TimeColumn;
+use crate::time_column::{TimeColumn, Times};
 
 /// Columns by name, as they stand in the rows.
 pub(super) struct Columns {

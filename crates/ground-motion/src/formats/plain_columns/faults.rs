@@ -1,6 +1,7 @@
 //! Why a line that names columns is not the header of an acceleration.
 
-use super::header::{Cells, Kind, Role, divided, kind, quantity, role};
+use super::column_name::{Kind, Role, divided, kind, quantity, role};
+use super::header::Cells;
 use super::names::{
     ACCELERATION, TIME, are_of_spectrum, has_factor, is_abscissa, is_channel, is_component,
     is_of_no_motion, is_spectral, motion, motion_unit, plain, time_unit, unquoted,

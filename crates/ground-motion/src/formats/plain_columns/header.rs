@@ -1,30 +1,18 @@
 //! Names and units of columns in the line before the rows: `time (s),acceleration (m/s2)`,
 //! `t [s];a [g]`, `time_s acceleration_g`.
 
+use super::OTHERS;
+use super::column_name::{Kind, Role, divided_at_brackets, is_quantity, kind, quantity, role};
 use super::names::{
-    ACCELERATION, COUNTER, FOREIGN, LONG, PROSE, TIME, are_of_spectrum, before_unit, has_factor,
-    is_channel, is_component, is_spectral, is_time, motion, motion_unit, plain, time_unit,
-    unquoted,
+    ACCELERATION, COUNTER, PROSE, TIME, are_of_spectrum, bare_unit, before_unit, is_channel,
+    motion_unit, plain, time_unit, unquoted,
 };
-use super::two_units::{has_another_unit, has_two};
-use super::{OTHERS, stated};
+use super::stated_unit::has_unit;
 use crate::error::GroundMotionError;
 use crate::fortran::Layout;
-use crate::header_keys::{Entry, keyed};
-use crate::quantity::{Quantity, SeriesUnit, is_of_no_record};
+use crate::header_keys::{Entry, keyed, states_number};
 use crate::source::Source;
 use crate::text::Line;
-
-/// What a column holds.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) enum Role {
-    /// Times; one of their unit (s).
-    Time(f64),
-    /// Accelerations with their name and, if it stands there, their unit.
-    Acceleration(String, Option<SeriesUnit>),
-    /// Velocities, displacements, row numbers: passed over.
-    Other,
-}
 
 /// A header that names every column.
 #[derive(Debug, Clone, PartialEq)]
@@ -231,18 +219,6 @@ pub(super) fn separator_of_rows(separator: Option<char>, row: &Line<'_>) -> Opti
     row.bytes.contains(&byte).then_some(byte)
 }
 
-/// What a cell of a line that names a column of times says.
-pub(super) enum Kind {
-    /// Understood as it stands.
-    Known(Role),
-    /// An acceleration by its name, without a unit.
-    Component,
-    /// Something else than motion.
-    Foreign,
-    /// A name of which nothing is known.
-    Unknown,
-}
-
 impl Cells {
     fn parse(&self) -> Option<Header> {
         // `Acceleration Time Series (g)` names no three columns.
@@ -434,8 +410,7 @@ impl Cells {
 
     /// The same names with units that stand in the line below them.
     fn with_units(&self, below: &Self) -> Option<Self> {
-        let has_keys =
-            |cells: &&Self| stated::has_number(&cells.text) || stated::has_unit(&cells.text);
+        let has_keys = |cells: &&Self| states_number(&cells.text) || has_unit(&cells.text);
         if [self, below].iter().any(has_keys) {
             return None;
         }
@@ -507,8 +482,8 @@ impl Cells {
             }
             _ => false,
         };
-        let has_number = stated::has_number(&self.text) || is_parted && has_value() || is_pair();
-        stated::has_unit(&self.text) || has_number && !self.names.iter().any(accelerates)
+        let has_number = states_number(&self.text) || is_parted && has_value() || is_pair();
+        has_unit(&self.text) || has_number && !self.names.iter().any(accelerates)
     }
 
     /// Whether the cells name the columns of rows without saying that one has the times: `NS EW
@@ -541,85 +516,6 @@ impl Cells {
         };
         self.names.iter().map(name).collect::<Vec<_>>().join(",")
     }
-}
-
-/// A unit without quotes and brackets around it.
-pub(super) fn bare_unit(text: &str) -> String {
-    let unit = unquoted(text);
-    let inner = unit
-        .strip_prefix(['(', '['])
-        .and_then(|u| u.strip_suffix([')', ']']));
-    inner.unwrap_or(unit).trim().to_owned()
-}
-
-/// What a cell of a header says; `None`: a unit that is not known, which is an error of its own.
-pub(super) fn kind(cell: &str) -> Option<Kind> {
-    let cell = unquoted(cell);
-    let whole = plain(cell);
-    if cell.is_empty() || whole.starts_with("unnamed:") {
-        return Some(Kind::Known(Role::Other));
-    }
-    if is_spectral(cell) {
-        return Some(Kind::Foreign);
-    }
-    if let Some(role) = role(cell) {
-        return Some(Kind::Known(role));
-    }
-    // By how much the values would have to be divided, or in which unit they are, is not known.
-    if has_factor(cell) || has_two(cell) {
-        return None;
-    }
-    if is_channel(&whole) {
-        return Some(Kind::Component);
-    }
-    let known = is_quantity;
-    if let Some((name, _)) = cell.split_once(['(', '[']) {
-        let name = plain(name);
-        return (!known(&name) && !is_channel(&name)).then_some(Kind::Foreign);
-    }
-    let word = |of: &dyn Fn(&str) -> bool| {
-        whole
-            .split(|c: char| !c.is_alphabetic())
-            .filter(|w| !w.is_empty())
-            .any(of)
-    };
-    if word(&|w| FOREIGN.contains(&w)) {
-        return Some(Kind::Foreign);
-    }
-    let first = whole.split([' ', '-']).next().unwrap_or_default();
-    if known(first) && whole != first {
-        // `acc_furlongs` has a unit, `Acc roof` a name.
-        return match cell.contains('_') || !ACCELERATION.contains(&first) {
-            true => None,
-            false => Some(Kind::Component),
-        };
-    }
-    Some(match is_component(first) {
-        true => Kind::Component,
-        false => Kind::Unknown,
-    })
-}
-
-/// The unit of acceleration that the name of a column has in brackets or behind it, also where
-/// the name is not understood: `Acc. (cm/s2) filtered`.
-pub(super) fn unit_beside(cell: &str) -> Option<SeriesUnit> {
-    let cell = unquoted(cell);
-    let (name, rest) = cell
-        .split_once(['(', '['])
-        .or_else(|| cell.split_once('_'))?;
-    let known = plain(name);
-    let first = known.split([' ', '-', '.']).next().unwrap_or_default();
-    if !(ACCELERATION.contains(&first) || is_channel(&known)) {
-        return None;
-    }
-    let (unit, behind) = match rest.find([')', ']']) {
-        Some(end) => rest.split_at(end),
-        None => (rest.rsplit('_').find(|u| motion_unit(u).is_some())?, ""),
-    };
-    let counts = name.contains(|c: char| c.is_ascii_digit()) && !is_channel(&known)
-        || behind.contains(|c: char| c.is_ascii_digit());
-    let unit = motion_unit(unit).filter(|unit| unit.quantity == Quantity::Acceleration)?;
-    (!counts).then_some(unit)
 }
 
 /// Refuses a layout that takes for an acceleration what the header says to be none, or that exchanges the
@@ -679,84 +575,6 @@ pub(super) fn layout_agrees(
     Ok(())
 }
 
-/// Whether a name in lower case is that of times, accelerations, velocities or displacements.
-fn is_quantity(known: &str) -> bool {
-    TIME.contains(&known) || ACCELERATION.contains(&known) || motion(known).is_some()
-}
-
-/// What stands in the brackets of a cell.
-fn divided_at_brackets(cell: &str) -> Option<String> {
-    let (_, rest) = unquoted(cell).split_once(['(', '['])?;
-    Some(rest.trim_end_matches([')', ']']).to_owned())
-}
-
-/// Name, in lower case, and unit of a cell that has both.
-pub(super) fn divided(cell: &str) -> Option<(String, String)> {
-    let cell = cell.trim().trim_matches(['"', '\'']).trim();
-    if let Some((name, rest)) = cell.split_once(['(', '[']) {
-        let unit = without_remark(rest).strip_suffix([')', ']'])?;
-        return Some((plain(name.trim_end_matches('/')), unit.trim().to_owned()));
-    }
-    let (name, unit) = cell
-        .split_once(" in ")
-        .or_else(|| cell.split_once(['_', ' ', '/']))?;
-    let unit = unit.trim();
-    let known = plain(name);
-    let takes = |names: &[&str]| names.contains(&known.as_str());
-    let may = takes(&LONG) || motion(&known).is_some() || is_component(&known);
-    (may && !unit.is_empty()).then(|| (known, unit.to_owned()))
-}
-
-/// Words of what was done to the values of a column, which say nothing of their unit.
-const PROCESSING: [&str; 15] = [
-    "and",
-    "band",
-    "bandpass",
-    "base",
-    "baseline",
-    "corrected",
-    "detrended",
-    "filtered",
-    "line",
-    "pass",
-    "processed",
-    "raw",
-    "uncorrected",
-    "unfiltered",
-    "unprocessed",
-];
-
-/// What stands behind the first bracket of a name, without what it says of its sign or its processing:
-/// `cm/s2) (+ is upward)`, `g] (baseline corrected)`.
-fn without_remark(rest: &str) -> &str {
-    const ENDS: [char; 2] = [')', ']'];
-    if let Some(end) = rest.find(ENDS)
-        && let Some(remark) = rest[end + 1..].trim_start().strip_prefix(['(', '['])
-        && let Some(remark) = remark.strip_suffix(ENDS)
-    {
-        let remark = remark.to_lowercase();
-        let mut words = remark.split([' ', '-', ',']).filter(|w| !w.is_empty());
-        if !remark.is_empty() && words.all(|word| PROCESSING.contains(&word)) {
-            return &rest[..=end];
-        }
-    }
-    let sign = rest.find(") (+").or_else(|| rest.find("] (+"));
-    match sign {
-        Some(at) if rest.ends_with(')') => &rest[..=at],
-        _ => rest,
-    }
-}
-
-/// What a column of velocities or displacements holds, by its unit or else by its name.
-pub(super) fn quantity(cell: &str) -> Option<Quantity> {
-    if role(cell) != Some(Role::Other) {
-        return None;
-    }
-    let (known, unit) = divided(cell).unwrap_or_else(|| (plain(cell), String::new()));
-    let by_unit = motion_unit(&unit).map(|unit| unit.quantity);
-    by_unit.or_else(|| motion(&known))
-}
-
 /// Names between blanks; a unit in brackets belongs to the name before it.
 fn words(text: &str) -> Vec<String> {
     let mut words: Vec<String> = Vec::new();
@@ -775,90 +593,11 @@ fn words(text: &str) -> Vec<String> {
     words
 }
 
-pub(super) fn role(cell: &str) -> Option<Role> {
-    let cell = unquoted(cell);
-    if is_spectral(cell) {
-        return None;
-    }
-    let named = |name: &str, unit: &str| of_unit(&plain(name), name.trim(), unit);
-    // `a/g (-)` is a number.
-    let cell = cell
-        .strip_suffix("(-)")
-        .or(cell.strip_suffix("[-]"))
-        .map_or(cell, str::trim_end);
-    if let Some((name, rest)) = cell.split_once(['(', '[']) {
-        let unit = without_remark(rest).strip_suffix([')', ']'])?;
-        if motion_unit(unit).is_some_and(|unit| has_another_unit(name, unit)) {
-            return None;
-        }
-        // `a/(m/s2)`, as standards on quantities write.
-        return named(name.trim_end_matches('/'), unit);
-    }
-    let whole = plain(cell);
-    if is_time(&whole) {
-        return Some(Role::Time(1.0));
-    }
-    if ACCELERATION.contains(&whole.as_str()) {
-        return Some(Role::Acceleration(cell.to_owned(), None));
-    }
-    if motion(&whole).is_some() || COUNTER.contains(&whole.as_str()) {
-        return Some(Role::Other);
-    }
-    if let Some((name, unit)) = cell.split_once(" in ") {
-        return named(name, unit);
-    }
-    // `Time - s`, `Acceleration, g` in one cell.
-    let apart = cell.rsplit_once(" - ").or_else(|| cell.rsplit_once(','));
-    if let Some(found) = apart.and_then(|(name, unit)| {
-        let named_so = is_quantity(&plain(name));
-        named(name, unit.trim()).filter(|_| named_so)
-    }) {
-        return Some(found);
-    }
-    cell.match_indices(['_', ' ', '/'])
-        .find_map(|(at, divider)| {
-            let (name, unit) = (&cell[..at], &cell[at + 1..]);
-            let known = plain(name);
-            let takes = |names: &[&str]| names.contains(&known.as_str());
-            let may = takes(&LONG)
-                || motion(&known).is_some()
-                || is_component(&known)
-                || divider == "/" && takes(&ACCELERATION);
-            if may { named(name, unit) } else { None }
-        })
-}
-
-/// A name with its unit: both must mean the same quantity.
-fn of_unit(known: &str, name: &str, unit: &str) -> Option<Role> {
-    if is_time(known) {
-        return time_unit(unit).map(Role::Time);
-    }
-    let unit = motion_unit(unit)?;
-    let accelerates = unit.quantity == Quantity::Acceleration;
-    if ACCELERATION.contains(&known) {
-        return accelerates.then(|| Role::Acceleration(name.to_owned(), Some(unit)));
-    }
-    if motion(known).is_some() {
-        // `d (g)` is no displacement, `v (g)` may be the vertical component.
-        return match accelerates {
-            true if known == "v" => Some(Role::Acceleration(name.to_owned(), Some(unit))),
-            true => None,
-            false => Some(Role::Other),
-        };
-    }
-    // A component or channel by its own name.
-    match accelerates {
-        true if has_factor(name) => None,
-        true if known.split(' ').any(is_of_no_record) => None,
-        true => Some(Role::Acceleration(name.to_owned(), Some(unit))),
-        false => Some(Role::Other),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     #![allow(clippy::unwrap_used)]
     use super::*;
+    use crate::quantity::SeriesUnit;
 
     fn of(text: &str) -> Option<Vec<Role>> {
         let line = Line {

@@ -4,18 +4,19 @@
 //! the columns with their units.
 
 use crate::cut_numbers::Forms;
-use crate::draft::{Draft, DraftUnit, Times};
+use crate::draft::{Draft, DraftUnit};
 use crate::error::GroundMotionError;
-use crate::formats::Format;
+use crate::format::Format;
 use crate::fortran::Layout;
 use crate::header_keys::{Entry, keyed, meaning};
 use crate::recording::Series;
 use crate::row_widths;
 use crate::source::Source;
 use crate::text::Line;
-use crate::time_column::mostly_times;
+use crate::time_column::{Times, mostly_times};
 
 mod blocks;
+mod column_name;
 mod columns;
 mod counter;
 mod decimal;
@@ -23,15 +24,17 @@ mod faults;
 mod header;
 mod names;
 mod stated;
+mod stated_unit;
 mod survey;
 mod thousands;
 mod titles;
 mod two_units;
 
+use column_name::{Role, unit_beside};
 use columns::{Columns, columns};
 use counter::Counter;
 use faults::Fault;
-use header::{Header, Role};
+use header::Header;
 use stated::{Stated, is_history};
 use survey::{Arrangement, Head, Survey};
 use thousands::Thousands;
@@ -294,18 +297,16 @@ pub(super) static FORMAT: Format = Format {
     title: "Numbers: one or more columns, values along the rows, Fortran formats",
     source: "whoever wrote the file",
     recognised_by: "rows of numbers alone after any lines of text",
-    matches,
-    read,
 };
 
-fn matches(source: &Source<'_>) -> bool {
+pub(super) fn matches(source: &Source<'_>) -> bool {
     let mut first = rows(source).take(30).peekable();
     // Bars may part numbers without blanks, `0.00|0.01`.
     let cells = |f: &[u8]| f.split(|b| *b == b'|').all(looks_numeric);
     first.peek().is_some() && first.all(|l| l.fields().all(|(_, f)| cells(f)))
 }
 
-fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
+pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError> {
     let bare = decimal::without_quotes(source);
     let outer = source;
     let source = &Source::new(outer.file, &bare, outer.options, outer.path);
@@ -375,7 +376,7 @@ fn agrees_with_names(
             continue;
         }
         let names = cells.names.iter().filter(|name| !is_key(name));
-        for unit in names.filter_map(|n| header::unit_beside(n)) {
+        for unit in names.filter_map(|n| unit_beside(n)) {
             stated.agrees(source, unit, &cells.text)?;
             if let Some(given) = source.options.unit.filter(|given| !unit.is(*given)) {
                 return Err(GroundMotionError::Contradiction {

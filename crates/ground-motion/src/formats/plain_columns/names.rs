@@ -398,6 +398,15 @@ pub(super) fn unquoted(cell: &str) -> &str {
     cell.trim().trim_matches(['"', '\'']).trim()
 }
 
+/// A unit without quotes and brackets around it.
+pub(super) fn bare_unit(text: &str) -> String {
+    let unit = unquoted(text);
+    let inner = unit
+        .strip_prefix(['(', '['])
+        .and_then(|u| u.strip_suffix([')', ']']));
+    inner.unwrap_or(unit).trim().to_owned()
+}
+
 /// Whether a column is what the ordinates of a spectrum stand over.
 pub(super) fn is_abscissa(name: &str) -> bool {
     is_spectral(name)

@@ -1,6 +1,7 @@
 //! Titles that speak of a velocity or a displacement above values that are taken for accelerations.
 
-use super::header::{Cells, Role, role};
+use super::column_name::{Role, role};
+use super::header::Cells;
 use super::names::is_component;
 use crate::quantity::{Quantity, of_something_else};
 

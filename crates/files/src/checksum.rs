@@ -12,7 +12,7 @@ use std::path::Path;
 
 use sha2::{Digest, Sha256};
 
-use crate::{input, label};
+use crate::{input, label_line};
 
 /// Start of the line; the number is the version of its form.
 const START: &[u8] = b"pounding-sha256:1 ";
@@ -205,8 +205,8 @@ fn ending(content: &mut (impl Read + Seek)) -> Result<Option<([u8; LENGTH], u64)
 fn labelled(content: &mut (impl Read + Seek), end: u64) -> io::Result<bool> {
     content.seek(SeekFrom::Start(end))?;
     let mut rest = Vec::new();
-    content.take(label::LONGEST).read_to_end(&mut rest)?;
-    let text = rest.strip_prefix(label::START.as_bytes());
+    content.take(label_line::LONGEST).read_to_end(&mut rest)?;
+    let text = rest.strip_prefix(label_line::START.as_bytes());
     let line = text.and_then(|text| text.strip_suffix(b"\n"));
     Ok(line.is_some_and(|line| !line.contains(&b'\n')))
 }
@@ -344,7 +344,7 @@ mod tests {
             assert!(told.contains(word), "{told}");
         }
         // What was written with a label was written with a checksum.
-        let label = [label::START.as_bytes(), b"text\n"].concat();
+        let label = [label_line::START.as_bytes(), b"text\n"].concat();
         let cut = found(&[&whole[..], &label].concat());
         assert!(matches!(cut, Err(ChecksumError::Removed)), "{cut:?}");
         let mut other = content(700);

@@ -8,12 +8,9 @@ use std::fs::File;
 use std::io::{self, Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
+use crate::label_line::LONGEST;
+pub use crate::label_line::START;
 use crate::{checksum, input};
-
-/// Start of the line, in a line of its own; the number is the version of its form.
-pub const START: &str = "\npounding-label:1 ";
-/// Bytes of the longest line.
-pub(crate) const LONGEST: u64 = 1 << 16;
 
 /// Appends a label to a file that is finished and closed, and has no checksum yet.
 ///

@@ -11,6 +11,7 @@ pub mod checksum;
 mod file_use;
 pub mod input;
 pub mod label;
+mod label_line;
 mod lock_file;
 mod part_file;
 

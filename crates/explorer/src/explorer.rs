@@ -1,4 +1,4 @@
-//! A case, its files, and what is asked of them.
+//! A case and its files, ready for what is asked of them.
 
 use std::path::Path;
 
@@ -10,15 +10,14 @@ use pounding_ground_motion::{Accelerogram, Quantity, read_all_bytes};
 use pounding_study::edited::{Change, edited};
 use pounding_study::faults;
 use pounding_study::gap_check::wrong_rules;
+use pounding_time_history::BuildingOutcome;
 use serde_json::{Value, json};
 use wasm_bindgen::prelude::wasm_bindgen;
 
 use crate::answer::Answer;
-use crate::controls;
 use crate::fault::Refused;
 use crate::limits;
-use crate::request::{Changed, Request, changes};
-use crate::requests::{calibrate, run, sweep, widths};
+use crate::request::{Changed, changes};
 
 /// A case, the files that it names, and what was computed of them before.
 #[wasm_bindgen]
@@ -32,7 +31,7 @@ pub struct Explorer {
     /// The record as it was read, unscaled, under these changes of how it is read.
     record: Option<(Vec<Change>, Accelerogram)>,
     /// What the last sweep was made of.
-    pub(crate) swept: Option<sweep::Swept>,
+    pub(crate) swept: Option<Swept>,
 }
 
 /// A changed case, ready to run.
@@ -42,6 +41,14 @@ pub(crate) struct Prepared {
     pub case: Case,
     /// The system, its options and the record.
     pub assembly: Assembly,
+}
+
+/// A case of which several widths were asked, one request after another.
+#[derive(Debug)]
+pub(crate) struct Swept {
+    pub text: String,
+    pub assembly: Assembly,
+    pub isolated: Vec<BuildingOutcome>,
 }
 
 #[wasm_bindgen]
@@ -57,66 +64,10 @@ impl Explorer {
         }));
         Self::default()
     }
-
-    /// Answers a request, a JSON text with the bytes that belong to it. The text says what to `do`:
-    ///
-    /// - `file`: keep the bytes as the file `name`; of a record with several components, their
-    ///   names are in the answer;
-    /// - `rules`: take the bytes as a file of rules for the gap, of this `name`, in the place of
-    ///   those before; no bytes for none;
-    /// - `open`: take the bytes as the case of this `name`;
-    /// - `controls`: say what can be moved in the case;
-    /// - `run`: run it, with at most so many `frames` of its motion;
-    /// - `widths`: the widths that records, codes and combination rules ask for;
-    /// - `calibrate`: the parameters with which `model` is like the model of `gap`;
-    /// - `sweep`: runs at `widths` (m) of `gap`, with what happens in it, or of all gaps together.
-    ///
-    /// All but the first three take `changes` of the case, each `{path, value}`, `{absent}` (the path
-    /// of what is left out), `{gap, keys}` or `{record}`; nothing of them is kept. What is wrong is an answer too, see [`Answer::text`].
-    #[must_use]
-    pub fn answer(&mut self, request: &str, bytes: &[u8]) -> Answer {
-        let length = request.len().saturating_add(bytes.len());
-        let answer = limits::request(length)
-            .and_then(|()| {
-                let wrong =
-                    |why: serde_json::Error| Refused::new(format!("no request: {why}"), None);
-                serde_json::from_str(request).map_err(wrong)
-            })
-            .and_then(|request| self.answered(request, bytes));
-        answer.unwrap_or_else(Answer::from)
-    }
 }
 
 impl Explorer {
-    fn answered(&mut self, request: Request, bytes: &[u8]) -> Result<Answer, Refused> {
-        match request {
-            Request::File { name } => self.keep(&name, bytes),
-            Request::Rules { name } => self.take_rules(&name, bytes),
-            Request::Open { name } => self.open(&name, bytes),
-            Request::Controls { changes } => {
-                let prepared = self.prepared(&changes)?;
-                Ok(controls::answer(&prepared))
-            }
-            Request::Run { changes, frames } => run::answer(&self.prepared(&changes)?, frames),
-            Request::Widths { changes } => {
-                let prepared = self.prepared(&changes)?;
-                let separation = self.separation(&prepared.case)?;
-                widths::answer(prepared, &separation)
-            }
-            Request::Calibrate {
-                changes,
-                gap,
-                model,
-            } => calibrate::answer(self.prepared(&changes)?, gap, &model),
-            Request::Sweep {
-                changes,
-                gap,
-                widths,
-            } => sweep::answer(self, &changes, gap, &widths),
-        }
-    }
-
-    fn keep(&mut self, name: &str, bytes: &[u8]) -> Result<Answer, Refused> {
+    pub(crate) fn keep(&mut self, name: &str, bytes: &[u8]) -> Result<Answer, Refused> {
         let others = self.files.lengths().filter(|(n, _)| *n != Path::new(name));
         let before: usize = others.map(|(_, length)| length).sum();
         if before.saturating_add(bytes.len()) > limits::MOST_BYTES {
@@ -137,7 +88,7 @@ impl Explorer {
         Ok(answer)
     }
 
-    fn take_rules(&mut self, name: &str, bytes: &[u8]) -> Result<Answer, Refused> {
+    pub(crate) fn take_rules(&mut self, name: &str, bytes: &[u8]) -> Result<Answer, Refused> {
         limits::text(bytes)?;
         let text = decoded(name, bytes.to_vec()).map_err(|e| Refused::of_case(e, ""))?;
         let rules = match text.is_empty() {
@@ -159,7 +110,7 @@ impl Explorer {
     }
 
     /// What provisions need to know: of the case, and rules beside it.
-    fn separation(&self, case: &Case) -> Result<Separation, Refused> {
+    pub(crate) fn separation(&self, case: &Case) -> Result<Separation, Refused> {
         let separation = case.separation.clone().overridden_by(Separation {
             rules: self.rules.clone(),
             ..Separation::default()
@@ -170,7 +121,7 @@ impl Explorer {
         }
     }
 
-    fn open(&mut self, name: &str, bytes: &[u8]) -> Result<Answer, Refused> {
+    pub(crate) fn open(&mut self, name: &str, bytes: &[u8]) -> Result<Prepared, Refused> {
         limits::text(bytes)?;
         let source = decoded(name, bytes.to_vec()).map_err(|e| Refused::of_case(e, ""))?;
         let before = (
@@ -178,15 +129,11 @@ impl Explorer {
             std::mem::replace(&mut self.source, source),
         );
         self.forget();
-        match self.prepared(&[]) {
-            Ok(prepared) => Ok(controls::answer(&prepared)),
-            Err(refused) => {
-                // What was open stays open.
-                (self.name, self.source) = before;
-                self.forget();
-                Err(refused)
-            }
-        }
+        self.prepared(&[]).inspect_err(|_| {
+            // What was open stays open.
+            (self.name, self.source) = before;
+            self.forget();
+        })
     }
 
     fn forget(&mut self) {

@@ -1,24 +1,15 @@
 //! Runs at several widths.
 
-use pounding_assembly::Assembly;
 use pounding_study::gap_check::{GapRun, GapSweep, SweepRun, at_width, collapsed_building};
 use pounding_time_history::{BuildingOutcome, Recorder, isolated_demand};
 use serde_json::json;
 
 use super::deadline::Deadline;
 use crate::answer::Answer;
-use crate::explorer::Explorer;
+use crate::explorer::{Explorer, Swept};
 use crate::fault::Refused;
 use crate::limits::MOST_WIDTHS;
 use crate::request::Changed;
-
-/// A case of which several widths were asked, one request after another.
-#[derive(Debug)]
-pub(crate) struct Swept {
-    text: String,
-    assembly: Assembly,
-    isolated: Vec<BuildingOutcome>,
-}
 
 /// Runs at as many of the widths as there is time for; of the others another request may ask.
 pub(crate) fn answer(

@@ -19,15 +19,10 @@ use pyo3::types::PyDict;
 
 use crate::errors::Problem;
 use crate::motion::{Motion, ReadFrom};
-use crate::values::text_of;
+use crate::values::{here, json, text_of};
 
 /// Name in messages of a case that was made of a dict.
 const MADE: &str = "<dict>";
-
-/// A path as it is meant now: the working folder may be another one when it is used.
-pub fn here(path: PathBuf) -> PathBuf {
-    std::path::absolute(&path).unwrap_or(path)
-}
 
 /// A case: buildings, gaps, ground motion and analysis.
 #[pyclass(frozen, name = "Case", module = "pounding._native")]
@@ -255,12 +250,6 @@ fn told(motion: &Motion, name: &str) -> String {
 pub fn under_motion(case: &Case, motion: &Accelerogram) -> Result<Assembly, AssemblyError> {
     let processed = process_record(case, motion.clone())?;
     assemble_with_record(case, &scale_record(case, processed)?)
-}
-
-/// A value as JSON.
-pub fn json(value: &impl serde::Serialize) -> Result<String, Problem> {
-    serde_json::to_string(value)
-        .map_err(|e| Failure::computation(format!("no JSON: {e}"), None).into())
 }
 
 /// Adds the classes of this file.

@@ -11,10 +11,10 @@ use pounding_study::floor_spectra::{
 use pounding_time_history::System;
 use pyo3::prelude::*;
 
-use crate::case::{PyCase, json};
+use crate::case::PyCase;
 use crate::errors::Problem;
 use crate::suite::Suite;
-use crate::values::quantity;
+use crate::values::{json, quantity};
 use crate::watch::watched;
 
 /// Progress is told in parts of this.

@@ -12,9 +12,8 @@ use pounding_gap_element::{
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::case::json;
 use crate::errors::Problem;
-use crate::values::{above_zero, optional, quantity};
+use crate::values::{above_zero, json, optional, quantity};
 
 /// Descriptors of all impact models, or of one, as JSON: what `pounding models --json` prints.
 #[pyfunction]

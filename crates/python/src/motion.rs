@@ -16,9 +16,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::case::{here, json};
 use crate::errors::Problem;
-use crate::values::{above_zero, quantity};
+use crate::values::{above_zero, here, json, quantity};
 use crate::watch::watched;
 
 /// Dimension of a sensitivity, counts per m/s2.

@@ -23,8 +23,9 @@ use pyo3::exceptions::PyKeyError;
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyDict};
 
-use crate::case::{PyCase, json};
+use crate::case::PyCase;
 use crate::errors::{Problem, warn};
+use crate::values::json;
 use crate::watch::{Stop, Watch, watched};
 
 /// Thousandths of a run, for its progress.

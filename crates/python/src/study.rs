@@ -24,10 +24,10 @@ use pounding_study::{
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-use crate::case::{PyCase, json};
+use crate::case::PyCase;
 use crate::errors::{Problem, warn};
 use crate::suite::Suite;
-use crate::values::{optional, quantity, text_of};
+use crate::values::{json, optional, quantity, text_of};
 use crate::watch::{Watch, watched};
 
 /// How long a finished run waits at most until it is stored.

@@ -1,4 +1,6 @@
-//! Dicts of Python as the TOML text of a case.
+//! Values of Python and ours: dicts as the TOML text of a case, arguments, paths, and answers as JSON.
+
+use std::path::PathBuf;
 
 use pounding_case::document::{AboveZero, Within};
 use pounding_case::{Dimension, Quantity, parse_quantity};
@@ -203,6 +205,17 @@ pub fn optional(
     wanted: Dimension,
 ) -> PyResult<Option<f64>> {
     value.map(|value| quantity(value, name, wanted)).transpose()
+}
+
+/// A path as it is meant now: the working folder may be another one when it is used.
+pub fn here(path: PathBuf) -> PathBuf {
+    std::path::absolute(&path).unwrap_or(path)
+}
+
+/// A value as JSON.
+pub fn json(value: &impl serde::Serialize) -> Result<String, Problem> {
+    serde_json::to_string(value)
+        .map_err(|e| Failure::computation(format!("no JSON: {e}"), None).into())
 }
 
 /// A value of a kind that no case has.

@@ -7,8 +7,6 @@ use pounding_gap_element::contact_stiffness::ContactStiffnessError;
 use pounding_ground_motion::GroundMotionError;
 use pounding_hysteresis::HysteresisError;
 
-use crate::structures::EnteredError;
-
 /// A published result that could not be computed, in the words of the crate that computes it.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -59,6 +57,20 @@ pub enum VerificationError {
         /// Impacts of the run.
         impacts: usize,
     },
+}
+
+/// What is wrong with a file of published numbers.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[error("{file}, line {line}: {problem}")]
+pub struct EnteredError {
+    /// File.
+    pub file: String,
+    /// Line, from 1.
+    pub line: usize,
+    /// What is wrong.
+    pub problem: String,
+    /// What to do about it.
+    pub help: String,
 }
 
 impl VerificationError {

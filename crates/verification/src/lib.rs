@@ -25,9 +25,9 @@ mod zhou_2012;
 
 pub use borovin_2014::borovin_2014;
 pub use comparison::{Cell, Comparison, Line, Part, Report, Value, Verdict, holds};
-pub use error::VerificationError;
+pub use error::{EnteredError, VerificationError};
 pub use iwan::iwan;
 pub use papi_toopchi_2022::papi_toopchi_2022;
 pub use restitution::restitution;
-pub use structures::{Entered, EnteredError, Structures, TEMPLATE};
+pub use structures::{Entered, Structures, TEMPLATE};
 pub use zhou_2012::zhou_2012;

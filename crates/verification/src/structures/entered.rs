@@ -10,7 +10,7 @@ use toml::Spanned;
 use super::case_file::{CaseFile, case_file, run_of_user};
 use super::quantity::{as_printed, digits};
 use crate::comparison::{Comparison, Line, Part, Verdict, nothing, power, text};
-use crate::error::VerificationError;
+use crate::error::{EnteredError, VerificationError};
 
 /// The file that a user fills in, and what stands in the program while nobody did.
 pub const TEMPLATE: &str = include_str!("../../cases/entered/published.toml");
@@ -23,20 +23,6 @@ pub struct Entered {
     /// The file, for messages and as the base of its paths; `None` is the template.
     file: Option<PathBuf>,
     entries: Vec<Entry>,
-}
-
-/// What is wrong with a file of published numbers.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("{file}, line {line}: {problem}")]
-pub struct EnteredError {
-    /// File.
-    pub file: String,
-    /// Line, from 1.
-    pub line: usize,
-    /// What is wrong.
-    pub problem: String,
-    /// What to do about it.
-    pub help: String,
 }
 
 #[derive(Debug, Clone, Deserialize)]

@@ -15,7 +15,7 @@ mod siconos;
 use crate::comparison::Part;
 use crate::error::VerificationError;
 
-pub use entered::{Entered, EnteredError, TEMPLATE};
+pub use entered::{Entered, TEMPLATE};
 
 /// A source of published structures.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

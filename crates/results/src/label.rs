@@ -4,11 +4,9 @@
 use std::io::Read;
 use std::path::Path;
 
-use pounding_files::checksum::hexadecimal;
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 
-use crate::study::{Description, MOST_SHARDS, Part, numbers, ranges};
+use crate::part::{MOST_SHARDS, Part, numbers};
 
 /// What a result holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -21,7 +19,7 @@ pub enum Kind {
 
 impl Kind {
     const RUN: &str = "run";
-    const STUDY: &str = "study";
+    pub(crate) const STUDY: &str = "study";
 }
 
 impl std::fmt::Display for Kind {
@@ -63,15 +61,6 @@ pub struct OfStudy {
 /// The label of the result of a run.
 pub(crate) fn of_run(file: &str) -> String {
     json!({"result": Kind::RUN, "file": file}).to_string()
-}
-
-/// The label of the result of a study.
-pub(crate) fn of_study(d: &Description, file: &str) -> String {
-    json!({
-        "result": Kind::STUDY, "file": file, "study_sha256": d.study_sha256,
-        "text_sha256": hexadecimal(&Sha256::digest(&d.study)), "shards": ranges(d.part.shards()), "of": d.part.count(), "build": d.build,
-    })
-    .to_string()
 }
 
 impl Label {

@@ -12,6 +12,7 @@ pub mod dimension_scales;
 mod hdf5_file;
 mod inputs;
 mod label;
+mod part;
 mod run;
 pub mod study;
 mod values;

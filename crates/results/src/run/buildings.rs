@@ -3,7 +3,7 @@
 use hdf5::{Dataset, Group};
 use pounding_time_history::{IsolatorOutcome, Peak, StoreyPeaks, System};
 
-use super::datasets::{series, single};
+use super::datasets::{series, single, without};
 use super::tables::{Content, Tables};
 use super::{Result, RunEnding, elements, share_time};
 use crate::attributes::text;
@@ -269,12 +269,4 @@ fn isolators(
         }
     }
     Ok(())
-}
-
-/// What long names of peaks say of the run that they are of.
-pub(super) fn without(prefix: &str) -> &'static str {
-    match prefix {
-        "" => "",
-        _ => " without gaps and links",
-    }
 }

@@ -86,3 +86,11 @@ pub(super) fn labels(
     text(&data, "long_name", long_name)?;
     Ok(data)
 }
+
+/// What long names of peaks say of the run that they are of.
+pub(super) fn without(prefix: &str) -> &'static str {
+    match prefix {
+        "" => "",
+        _ => " without gaps and links",
+    }
+}

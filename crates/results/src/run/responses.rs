@@ -5,8 +5,7 @@ use hdf5::{Dataset, Group};
 use pounding_time_history::{Gap, LevelOutcome, NamedPeak, Peak, System};
 
 use super::Result;
-use super::buildings::without;
-use super::datasets::{series, single};
+use super::datasets::{series, single, without};
 use super::tables::{Content, Tables};
 use crate::dimension_scales;
 

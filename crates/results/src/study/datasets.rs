@@ -2,14 +2,18 @@
 
 use std::ops::Range;
 
-use hdf5::types::{TypeDescriptor, VarLenUnicode};
+use hdf5::types::{FixedAscii, TypeDescriptor, VarLenUnicode};
 use hdf5::{Dataset, File, Group, H5Type, Result};
 use serde_json::json;
 
-use super::writing::{BLOCK, Id};
 use super::{Axis, Description, Place, ranges};
 use crate::attributes::{self, text, unicode};
 use crate::dimension_scales::attach;
+
+/// Rows of a block, and of a chunk of the file: hundreds of kilobytes before compression.
+pub(super) const BLOCK: usize = 1024;
+/// Characters of a run's identity.
+pub(super) type Id = FixedAscii<32>;
 
 /// Root attribute of a result with some quantities alone: their names.
 pub(super) const CHOSEN_QUANTITIES: &str = "quantities";

@@ -4,18 +4,17 @@
 mod datasets;
 mod error;
 mod layout;
-mod part;
 mod reading;
 mod row;
 mod shards;
 mod writing;
 
+pub use crate::part::{MOST_SHARDS, Part, numbers, ranges};
 pub use error::StudyFileError;
 pub use layout::{
     Axis, COLUMN_SHEAR, IsolatedQuantities, IsolatedRun, LEVEL_QUANTITIES, Layout, LevelQuantity,
     OPENING, Place, Quantity, RESPONSES, Response, is_result, isolated_peaks, quantity_names,
 };
-pub use part::{MOST_SHARDS, Part, numbers, ranges};
 pub use reading::ResultReader;
 pub use row::{Ending, ID, Row, Value};
 pub use shards::{Fault, MergeOptions, Shards, Survey, survey};

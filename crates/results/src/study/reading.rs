@@ -8,8 +8,7 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type};
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
 
-use super::datasets::{CHOSEN_QUANTITIES, FLOAT32, MERGED_SHARDS, NUMBERS};
-use super::writing::Id;
+use super::datasets::{CHOSEN_QUANTITIES, FLOAT32, Id, MERGED_SHARDS, NUMBERS};
 use super::{
     Axis, Coordinate, Description, Ending, IsolatedQuantities, Layout, Part, Place, Row,
     StudyFileError, Value, isolated_peaks, numbers,

@@ -2,24 +2,22 @@
 
 use std::path::{Path, PathBuf};
 
-use hdf5::types::FixedAscii;
 use hdf5::{Dataset, File, H5Type};
 use ndarray::{ArrayView1, ArrayView2};
 use pounding_files::checksum::{append, hexadecimal};
 use pounding_files::{PartFile, PlaceTaken};
+use serde_json::json;
+use sha2::{Digest, Sha256};
 
 use super::datasets::{
-    Axes, coordinates, dataset, describe, failures, labels, places, quantities, root, states,
+    Axes, BLOCK, Id, coordinates, dataset, describe, failures, labels, places, quantities, root,
+    states,
 };
-use super::{Description, Row, StudyFileError, Value};
+use super::{Description, Row, StudyFileError, Value, ranges};
 use crate::attributes::unicode;
 use crate::dimension_scales::make_scale;
-use crate::{hdf5_file, label, reason_of};
-
-/// Rows of a block, and of a chunk of the file: hundreds of kilobytes before compression.
-pub(super) const BLOCK: usize = 1024;
-/// Characters of a run's identity.
-pub(super) type Id = FixedAscii<32>;
+use crate::label::Kind;
+use crate::{hdf5_file, reason_of};
 
 type Result<T> = hdf5::Result<T>;
 
@@ -57,7 +55,7 @@ impl ResultWriter {
     ) -> std::result::Result<Self, StudyFileError> {
         let mut writer = Self {
             path: path.to_owned(),
-            label: label::of_study(description, ""),
+            label: label(description, ""),
             open: None,
             part: None,
         };
@@ -74,7 +72,7 @@ impl ResultWriter {
     #[must_use]
     pub fn of_study_file(mut self, description: &Description, study: &Path) -> Self {
         let file = pounding_files::label::seen_from_here(study);
-        self.label = label::of_study(description, &file);
+        self.label = label(description, &file);
         self
     }
 
@@ -124,6 +122,15 @@ impl ResultWriter {
                 Err(e) => self.failed(&e),
             })
     }
+}
+
+/// The label of the result of a study.
+fn label(d: &Description, file: &str) -> String {
+    json!({
+        "result": Kind::STUDY, "file": file, "study_sha256": d.study_sha256,
+        "text_sha256": hexadecimal(&Sha256::digest(&d.study)), "shards": ranges(d.part.shards()), "of": d.part.count(), "build": d.build,
+    })
+    .to_string()
 }
 
 impl Open {

@@ -15,7 +15,7 @@ use serde_json::{Deserializer, Value, json};
 use sha2::{Digest, Sha256};
 use thiserror::Error;
 
-use crate::page::{self, Inputs, Picture};
+use crate::chart::{Chart, Plot};
 
 /// Value of `schema` in every file of an answer.
 pub const SCHEMA: &str = "pounding answer";
@@ -59,6 +59,49 @@ pub struct Answered {
     pub answer: Value,
     /// What it draws.
     pub figures: Vec<Picture>,
+}
+
+/// A picture of a page, and what it shows in words.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+pub struct Picture {
+    /// What it is called, by which a page finds the place of it.
+    pub(crate) name: String,
+    /// For those who do not see it.
+    pub(crate) words: String,
+    /// What is drawn.
+    pub(crate) plots: Vec<Plot>,
+}
+
+impl Picture {
+    /// A chart that is as wide as a page.
+    #[must_use]
+    pub fn of(name: &str, words: &str, chart: Chart) -> Self {
+        Self {
+            name: name.to_owned(),
+            words: words.to_owned(),
+            plots: chart.plots,
+        }
+    }
+
+    /// Whether it can be drawn: one that stands in a file may hold anything.
+    pub(crate) fn is_drawable(&self) -> bool {
+        Chart::of_page(self.plots.clone()).is_drawable()
+    }
+}
+
+/// What a page says of its inputs beside the answer.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Inputs {
+    /// Title of the case or study.
+    pub title: String,
+    /// Below the title: command, file, version.
+    pub origin: Vec<String>,
+    /// What the user should know, beside warnings in the answer itself.
+    pub warnings: Vec<String>,
+    /// Names and values, such as hashes.
+    pub facts: Vec<(String, String)>,
+    /// Headings and texts of files that were read.
+    pub listings: Vec<(String, String)>,
 }
 
 /// Why a file of an answer cannot be used.
@@ -152,17 +195,6 @@ impl AnswerFileError {
 const WHICH: &str = "give what `pounding gap`, `compare` or `motion info` writes with --output FILE.json, or the .h5 file of a run or study";
 
 impl Answered {
-    /// The page.
-    #[must_use]
-    pub fn page(&self) -> String {
-        let (answer, figures, inputs) = (&self.answer, &self.figures, &self.inputs);
-        match self.command {
-            AnsweredCommand::Gap => page::gap(answer, figures, inputs),
-            AnsweredCommand::Compare => page::comparison(answer, figures, inputs),
-            AnsweredCommand::MotionInfo => page::motion(answer, figures, inputs),
-        }
-    }
-
     /// The text of its file.
     #[must_use]
     pub fn text(&self) -> String {

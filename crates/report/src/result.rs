@@ -226,6 +226,21 @@ impl GapResult {
         impacts.sort_by(|a, b| size(b).total_cmp(&size(a)));
         impacts
     }
+
+    /// The governing level: that with the hardest impact, or without impacts that which comes closest.
+    #[must_use]
+    pub fn governing_level(&self) -> Option<usize> {
+        let hardest = self.hardest_first().first().map(|i| i.level as usize - 1);
+        let closest = || {
+            let nearest = |l: &usize| {
+                self.penetration
+                    .column(*l)
+                    .fold(f64::NEG_INFINITY, f64::max)
+            };
+            (0..self.levels.len()).max_by(|a, b| nearest(a).total_cmp(&nearest(b)))
+        };
+        hardest.or_else(closest)
+    }
 }
 
 /// One link.

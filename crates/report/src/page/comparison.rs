@@ -6,8 +6,9 @@ use serde_json::Value;
 
 use super::answer::{Answer, in_parentheses, spoken, unit_of};
 use super::html::{named, note, section, sentences, warnings};
-use super::studies::{Inputs, Picture, collapsed, pictures, rows};
+use super::studies::{collapsed, pictures, rows};
 use super::table::Column;
+use crate::answer_file::{Inputs, Picture};
 
 /// Quantities side by side in a table of values.
 const BESIDE: usize = 8;

@@ -7,8 +7,9 @@ use serde_json::Value;
 
 use super::answer::Answer;
 use super::html::{named, note, section, section_of, sentences, warnings};
-use super::studies::{Inputs, Picture, collapsed, pictures, rows};
+use super::studies::{collapsed, pictures, rows};
 use super::table::Column;
+use crate::answer_file::{Inputs, Picture};
 
 /// Name of the picture of the widths that were tried; all others are of the records.
 const WIDTHS: &str = "widths";

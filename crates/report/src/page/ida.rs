@@ -7,8 +7,9 @@ use serde_json::Value;
 use super::answer::{Answer, in_parentheses, spoken, unit_of};
 use super::html::{named, note, section, section_of, sentences, warnings};
 use super::numbers::figures;
-use super::studies::{Inputs, Picture, pictures, rows};
+use super::studies::{pictures, rows};
 use super::table::Column;
+use crate::answer_file::{Inputs, Picture};
 
 /// Demands side by side in a table.
 const BESIDE: usize = 4;

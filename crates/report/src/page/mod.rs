@@ -2,6 +2,7 @@
 //! They need no other file and no network, and print.
 
 mod answer;
+mod answered;
 mod comparison;
 mod document;
 mod gap;
@@ -16,6 +17,7 @@ mod sweep;
 mod sweep_answer;
 mod table;
 
+pub use crate::answer_file::{Inputs, Picture};
 pub use comparison::comparison;
 pub use document::{Document, MARK, Script};
 pub use gap::{COLLAPSE_AT_WIDTHS, gap};
@@ -25,6 +27,5 @@ pub use motion::motion;
 pub(crate) use numbers::figures_that_suffice;
 pub use run::page as run;
 pub use sentence::Sentence;
-pub use studies::{Inputs, Picture};
 pub use sweep::sweep;
 pub use sweep_answer::{Maximum, SweepAnswer};

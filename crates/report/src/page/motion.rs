@@ -6,8 +6,9 @@ use serde_json::Value;
 
 use super::answer::Answer;
 use super::html::{named, note, section, sentences, warnings};
-use super::studies::{Inputs, Picture, pictures};
+use super::studies::pictures;
 use super::table::Column;
+use crate::answer_file::{Inputs, Picture};
 
 /// Measures: words with unit, path below `measures`.
 const MEASURES: [(&str, &str); 21] = [

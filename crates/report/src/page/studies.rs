@@ -1,11 +1,10 @@
 //! What pages of commands with many runs have in common.
 
-use serde::{Deserialize, Serialize};
-
 use super::answer::Answer;
 use super::document::{Document, listing};
 use super::html::{figure, named, section};
 use super::table::facts;
+use crate::answer_file::{Inputs, Picture};
 use crate::chart::{Chart, Plot};
 
 /// Height of a figure (pt) that a sheet has room for below a heading, and what a plot takes beside its
@@ -13,28 +12,7 @@ use crate::chart::{Chart, Plot};
 const HIGHEST: f64 = 560.0;
 const AROUND: f64 = 55.0;
 
-/// A picture of a page, and what it shows in words.
-#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
-pub struct Picture {
-    /// What it is called, by which a page finds the place of it.
-    pub(super) name: String,
-    /// For those who do not see it.
-    words: String,
-    /// What is drawn.
-    plots: Vec<Plot>,
-}
-
 impl Picture {
-    /// A chart that is as wide as a page.
-    #[must_use]
-    pub fn of(name: &str, words: &str, chart: Chart) -> Self {
-        Self {
-            name: name.to_owned(),
-            words: words.to_owned(),
-            plots: chart.plots,
-        }
-    }
-
     /// Its figures: plots that fit below one another stand in one.
     fn figures(&self) -> String {
         let mut parts: Vec<Vec<Plot>> = Vec::new();
@@ -61,26 +39,6 @@ impl Picture {
         });
         parts.collect()
     }
-
-    /// Whether it can be drawn: one that stands in a file may hold anything.
-    pub(crate) fn is_drawable(&self) -> bool {
-        Chart::of_page(self.plots.clone()).is_drawable()
-    }
-}
-
-/// What a page says of its inputs beside the answer.
-#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Inputs {
-    /// Title of the case or study.
-    pub title: String,
-    /// Below the title: command, file, version.
-    pub origin: Vec<String>,
-    /// What the user should know, beside warnings in the answer itself.
-    pub warnings: Vec<String>,
-    /// Names and values, such as hashes.
-    pub facts: Vec<(String, String)>,
-    /// Headings and texts of files that were read.
-    pub listings: Vec<(String, String)>,
 }
 
 impl Inputs {

@@ -9,7 +9,7 @@ use super::packed::{Kind, packed};
 use super::row::row as row_of;
 use super::series;
 use crate::page::document::Script;
-use crate::page::html::{escaped, turns};
+use crate::page::html::escaped;
 use crate::result::{BuildingResult, GapResult, ImpactResult, RunResult};
 
 /// Characters that displacements take at most on a page.
@@ -323,7 +323,7 @@ fn data(result: &RunResult, scene: &Scene, (instant, magnification): (Instant, f
     };
     let named = |c: &usize| {
         let (gap, level) = scene.contacts[*c].place;
-        (*c, name(result, gap, level))
+        (*c, series::name(result, gap, level))
     };
     let place_of =
         &|place: (usize, usize)| shown.iter().position(|c| scene.contacts[*c].place == place);
@@ -358,19 +358,6 @@ fn data(result: &RunResult, scene: &Scene, (instant, magnification): (Instant, f
         },
         "series": series::all(result, place_of),
     })
-}
-
-/// A level with its gap, where there are several.
-pub(super) fn name(result: &RunResult, gap: usize, level: usize) -> String {
-    let label = &result.gaps[gap].levels[level].label;
-    match result.gaps.len() {
-        1 => format!("level {label}"),
-        _ => match &result.gaps[gap].name {
-            // In texts without elements signs set it apart.
-            name if turns(name) => format!("\u{2068}{name}\u{2069}, level {label}"),
-            name => format!("{name}, level {label}"),
-        },
-    }
 }
 
 /// Output times that the animation has, and how displacements are written: all of them if

@@ -145,7 +145,7 @@ fn steps(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
 
 /// Opening of the level that is hit hardest, or comes closest, and all impacts.
 pub(super) fn gap(result: &RunResult, gap: &GapResult) -> Outcome {
-    let Some(level) = governing_level(gap) else {
+    let Some(level) = gap.governing_level() else {
         return Ok(String::new());
     };
     let opening = gap.penetration.column(level).map(|d| -1.0e3 * d);
@@ -251,16 +251,6 @@ fn stems(
     levels
         .map(|l| curve(words::level(&gap.levels[l]), &|i| i.level == l as u64 + 1))
         .collect()
-}
-
-/// The governing level: that with the hardest impact, or without impacts that which comes closest.
-pub(super) fn governing_level(gap: &GapResult) -> Option<usize> {
-    let hardest = gap.hardest_first().first().map(|i| i.level as usize - 1);
-    let closest = || {
-        let nearest = |l: &usize| gap.penetration.column(*l).fold(f64::NEG_INFINITY, f64::max);
-        (0..gap.levels.len()).max_by(|a, b| nearest(a).total_cmp(&nearest(b)))
-    };
-    hardest.or_else(closest)
 }
 
 /// Energies over time.

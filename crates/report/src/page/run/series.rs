@@ -2,9 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::animation::name;
-use super::figures::governing_level;
 use super::packed::{Kind, packed};
+use crate::page::html::turns;
 use crate::result::{GapResult, RunResult};
 
 /// Points of all curves on a page at most.
@@ -25,7 +24,7 @@ pub(super) fn all(
     let kept = |(around, parts): (usize, usize)| -> Vec<Vec<usize>> {
         let rows = levels.iter().map(|(g, l)| {
             let gap = &result.gaps[*g];
-            let governs = governing_level(gap) == Some(*l);
+            let governs = gap.governing_level() == Some(*l);
             // Where there is not room for all, the governing levels have the whole motion.
             let parts = if governs || parts == PARTS { parts } else { 16 };
             rows(result, (gap, *l), (around, parts))
@@ -68,12 +67,25 @@ pub(super) fn all(
     curves.map(curve).collect()
 }
 
+/// A level with its gap, where there are several.
+pub(super) fn name(result: &RunResult, gap: usize, level: usize) -> String {
+    let label = &result.gaps[gap].levels[level].label;
+    match result.gaps.len() {
+        1 => format!("level {label}"),
+        _ => match &result.gaps[gap].name {
+            // In texts without elements signs set it apart.
+            name if turns(name) => format!("\u{2068}{name}\u{2069}, level {label}"),
+            name => format!("{name}, level {label}"),
+        },
+    }
+}
+
 /// Gaps and levels whose curves are wanted, the most wanted first.
 fn levels(result: &RunResult) -> Vec<(usize, usize)> {
     let of_gaps = result.gaps.iter().enumerate();
     let mut levels: Vec<(bool, f64, (usize, usize))> = of_gaps
         .flat_map(|(g, gap)| {
-            let governing = governing_level(gap);
+            let governing = gap.governing_level();
             (0..gap.levels.len()).filter_map(move |l| {
                 let here = gap.impacts.iter().filter(|i| i.level == l as u64 + 1);
                 let hit = here.clone().next().is_some();

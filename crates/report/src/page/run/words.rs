@@ -1,6 +1,5 @@
 //! The answers in sentences.
 
-use super::figures::governing_level;
 use super::tables::direction;
 use crate::page::html::{named, number, sentences, warnings};
 use crate::page::numbers::{all_figures, figures, percent, ratio as times};
@@ -113,7 +112,7 @@ fn beyond_capacity(gap: &GapResult) -> Option<String> {
 
 /// How hard the floors on both sides of a gap hit.
 fn hit(gap: &GapResult) -> Option<String> {
-    let level = governing_level(gap)?;
+    let level = gap.governing_level()?;
     let name = named(&gap.name);
     let path = format!("gap/{}", gap.name);
     let at = |l: usize| named(&self::level(&gap.levels[l]));

@@ -1,11 +1,8 @@
 //! Editions of codes: what they are called, where they hold, and from when to when.
 
 use std::fmt;
-use std::str::FromStr;
 
 use chrono::NaiveDate;
-
-use crate::error::SeparationError;
 
 /// A code in one edition.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -100,26 +97,13 @@ impl Edition {
 
 /// A day of the Gregorian calendar.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Date(NaiveDate);
+pub struct Date(pub(crate) NaiveDate);
 
 impl Date {
     /// Today in universal time.
     #[must_use]
     pub fn today() -> Self {
         Self(chrono::Utc::now().date_naive())
-    }
-}
-
-impl FromStr for Date {
-    type Err = SeparationError;
-    fn from_str(text: &str) -> Result<Self, SeparationError> {
-        let wrong = || SeparationError::NoDate {
-            text: text.to_owned(),
-        };
-        // The parser alone would take `2018-3-22`, and years of five digits.
-        let shape = text.len() == 10 && text.is_ascii();
-        let date = NaiveDate::parse_from_str(text, "%Y-%m-%d").map_err(|_| wrong())?;
-        if shape { Ok(Self(date)) } else { Err(wrong()) }
     }
 }
 
@@ -163,25 +147,6 @@ mod tests {
                 (in_old, in_new, in_year),
                 "{date}"
             );
-        }
-    }
-
-    #[test]
-    fn dates_are_years_months_days() {
-        assert_eq!(
-            "2024-02-29".parse::<Date>().unwrap().to_string(),
-            "2024-02-29"
-        );
-        for wrong in [
-            "2023-02-29",
-            "2024-2-29",
-            "29.2.2024",
-            "2024",
-            "",
-            "12024-01-01",
-            "today",
-        ] {
-            assert!(wrong.parse::<Date>().is_err(), "{wrong}");
         }
     }
 }

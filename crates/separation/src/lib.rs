@@ -12,10 +12,12 @@
 // The same bits on every machine: see clippy.toml.
 #![warn(clippy::disallowed_methods)]
 
+mod application;
 mod assumptions;
 mod codes;
 mod combination;
 mod country;
+mod date;
 mod descriptor;
 mod edition;
 mod edition_choice;
@@ -27,6 +29,7 @@ mod provision;
 mod provisions;
 mod registry;
 mod remedy;
+mod rule;
 mod status;
 mod suite_rule;
 mod worked_example;

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::descriptor::Rule;
+use crate::rule::Rule;
 
 /// How far a provision may be trusted.
 #[derive(Debug, Clone, Copy)]

@@ -4,7 +4,6 @@ use pounding_catalogue::numbers::rounded_up;
 
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
-use crate::remedy;
 
 /// One number that went into a gap.
 #[derive(Debug, Clone, PartialEq)]
@@ -75,15 +74,20 @@ impl Requirement {
 #[derive(Debug)]
 pub(crate) struct Working {
     provision: String,
+    /// What to do where it does not apply, beside a wall or between buildings, but rules that were
+    /// tried.
+    remedy: Remedy,
     factors: Vec<Factor>,
 }
 
+type Remedy = fn(&str, bool, &[&str]) -> String;
 type Number = Result<f64, SeparationError>;
 
 impl Working {
-    pub(crate) fn new(provision: &str) -> Self {
+    pub(crate) fn new(provision: &str, remedy: Remedy) -> Self {
         Self {
             provision: provision.to_owned(),
+            remedy,
             factors: Vec::new(),
         }
     }
@@ -152,7 +156,7 @@ impl Working {
         SeparationError::NotApplicable {
             provision: self.provision.clone(),
             reason: reason.into(),
-            remedy: remedy::where_it_does_not_apply(&self.provision, false, &[]),
+            remedy: (self.remedy)(&self.provision, false, &[]),
         }
     }
 
@@ -161,7 +165,7 @@ impl Working {
         SeparationError::NotApplicable {
             provision: self.provision.clone(),
             reason: "it needs a building on either side".to_owned(),
-            remedy: remedy::where_it_does_not_apply(&self.provision, true, &[]),
+            remedy: (self.remedy)(&self.provision, true, &[]),
         }
     }
 

@@ -8,9 +8,10 @@ use cel::common::ast::{CallExpr, Expr, IdedExpr, LiteralValue, SourceInfo, opera
 use cel::parser::{ParseErrors, Parser};
 
 use super::OwnRule;
+use super::kind::Kind;
 use super::names::{self, Named};
 use super::table::Table;
-use super::tree::{Function, Kind, Node, Operator, Part};
+use super::tree::{Function, Node, Operator, Part};
 use crate::inputs::StructuralSystem;
 use pounding_case::{CaseError, Dimension, Located, RuleText};
 use pounding_catalogue::suggestion;

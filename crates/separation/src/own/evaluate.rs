@@ -147,7 +147,7 @@ impl<'g> Evaluation<'g> {
                 return Err(self.refused(part, "the value is not finite"));
             }
             let unit = match part.kind {
-                super::tree::Kind::Number(dimension) => unit(dimension),
+                super::kind::Kind::Number(dimension) => unit(dimension),
                 _ => "-",
             };
             self.working.note(name.clone(), number, unit);

@@ -2,6 +2,7 @@
 
 mod compile;
 mod evaluate;
+mod kind;
 mod names;
 mod table;
 mod tree;
@@ -15,6 +16,7 @@ use crate::assumptions::Assumptions;
 use crate::descriptor::Place;
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
+use crate::remedy::where_it_does_not_apply;
 use crate::working::{Requirement, Working};
 use evaluate::Given;
 use table::Table;
@@ -169,7 +171,7 @@ impl OwnRule {
         structure: &Structure,
         site: &Site,
     ) -> Result<Requirement, SeparationError> {
-        let mut working = Working::new(self.name());
+        let mut working = Working::new(self.name(), where_it_does_not_apply);
         if self.text.between {
             return Err(working.needs_a_neighbour());
         }
@@ -184,7 +186,7 @@ impl OwnRule {
     /// # Errors
     /// An input that is missing, or an expression that has no value for these inputs.
     pub fn between(&self, situation: &Situation) -> Result<Requirement, SeparationError> {
-        let mut working = Working::new(self.name());
+        let mut working = Working::new(self.name(), where_it_does_not_apply);
         let site = &situation.site;
         if self.text.between {
             let width = evaluate::width(self, &Given::Both(situation), &mut working)?;
@@ -208,6 +210,6 @@ impl OwnRule {
 pub fn arithmetic(expression: &str) -> Result<f64, String> {
     let rule = compile::numbers(expression).map_err(|e| e.to_string())?;
     let situation = Situation::default();
-    let mut working = Working::new("arithmetic");
+    let mut working = Working::new("arithmetic", where_it_does_not_apply);
     evaluate::width(&rule, &Given::Both(&situation), &mut working).map_err(|e| e.to_string())
 }

@@ -2,7 +2,7 @@
 
 use pounding_case::Dimension;
 
-use super::tree::Kind;
+use super::kind::Kind;
 use crate::inputs::Input;
 
 /// What a name stands for, of a building or of the site.

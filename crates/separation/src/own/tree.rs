@@ -3,22 +3,9 @@
 use std::ops::Range;
 
 use cel::common::ast::operators;
-use pounding_case::Dimension;
 
+use super::kind::Kind;
 use super::names::Named;
-
-/// What a part of an expression is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) enum Kind {
-    /// A quantity of a dimension.
-    Number(Dimension),
-    /// A zero that is written out, which is one of any dimension.
-    Zero,
-    /// True or false.
-    Truth,
-    /// A word.
-    Word,
-}
 
 /// A part of an expression, with its place in the text.
 #[derive(Debug, Clone)]

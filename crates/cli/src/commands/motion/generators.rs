@@ -4,14 +4,14 @@ use std::f64::consts::TAU;
 
 use pounding_case::{Dimension, bare_acceleration, bare_ground_velocity};
 use pounding_ground_motion::generators::{
-    Boore2003, CloughPenzien1975, Diminution, FaultMechanism, Generated, KanaiTajimi1960,
+    Boore2003, CloughPenzien1975, Diminution, Envelope, FaultMechanism, Generated, KanaiTajimi1960,
     MakrisRoussos2000, MavroeidisPapageorgiou2003, PulseType, RezaeianDerKiureghian2010,
-    RezaeianDerKiureghianScenario, Ricker1953, Sine, StationaryMotion,
+    RezaeianDerKiureghianScenario, Ricker1953, Sine, StationaryMotion, TimeGrid,
 };
 
-use super::synth::{envelope, grid};
+use super::words::Words;
 use crate::arguments::{
-    BooreArguments, CloughPenzienArguments, GroundArguments, KanaiTajimiArguments,
+    BooreArguments, CloughPenzienArguments, GridArguments, GroundArguments, KanaiTajimiArguments,
     MakrisRoussosArguments, MavroeidisPapageorgiouArguments, MechanismWord, PulseWord,
     RezaeianDerKiureghianArguments, RickerArguments, SineArguments, frequency, is_bare, value,
 };
@@ -81,6 +81,74 @@ fn ground_velocity(text: &str, name: &str) -> Result<f64, Failure> {
         warn(&question);
     }
     Ok(found)
+}
+
+/// Time step and duration.
+fn grid(arguments: &GridArguments) -> Result<TimeGrid, Failure> {
+    Ok(TimeGrid {
+        time_step: match &arguments.time_step {
+            Some(text) => value(text, "time-step", Dimension::TIME)?,
+            None => TimeGrid::USUAL_TIME_STEP,
+        },
+        duration: value(&arguments.duration, "duration", Dimension::TIME)?,
+    })
+}
+
+/// An envelope from its words.
+fn envelope(text: &str) -> Result<Envelope, Failure> {
+    let words = Words::of("envelope", text)?;
+    let time = |key| words.value(key, Dimension::TIME);
+    let rate = |key| words.value(key, Dimension::FREQUENCY);
+    let (known, envelope): (&[&str], _) = match words.word {
+        "constant" => (&[], Envelope::Constant),
+        "half_sine" => (&[], Envelope::HalfSine),
+        "ramped" => (
+            &["rise", "fall"],
+            Envelope::Ramped {
+                rise: time("rise")?,
+                fall: time("fall")?,
+            },
+        ),
+        "decay" => (
+            &["rate"],
+            Envelope::Decay {
+                rate: rate("rate")?,
+            },
+        ),
+        "jennings_housner_tsai_1968" => (
+            &["rise", "strong_end", "decay"],
+            Envelope::JenningsHousnerTsai1968 {
+                rise: time("rise")?,
+                strong_end: time("strong_end")?,
+                decay: rate("decay")?,
+            },
+        ),
+        "saragoni_hart_1974" => (
+            &["power", "rate"],
+            Envelope::SaragoniHart1974 {
+                power: words.value("power", Dimension::NUMBER)?,
+                rate: rate("rate")?,
+            },
+        ),
+        "shinozuka_sato_1967" => (
+            &["slow", "fast"],
+            Envelope::ShinozukaSato1967 {
+                slow: rate("slow")?,
+                fast: rate("fast")?,
+            },
+        ),
+        other => {
+            return Err(Failure::input(
+                format!("--envelope: \"{other}\" is not known"),
+                Some(
+                    "known: constant, half_sine, ramped, decay, jennings_housner_tsai_1968, saragoni_hart_1974, shinozuka_sato_1967"
+                        .to_owned(),
+                ),
+            ));
+        }
+    };
+    words.only(known)?;
+    Ok(envelope)
 }
 
 /// A sine.

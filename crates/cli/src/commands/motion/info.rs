@@ -7,13 +7,13 @@ use pounding_catalogue::wording::counted;
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
 use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
 use pounding_ground_motion::{
-    Accelerogram, Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
+    Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
 };
 use pounding_report::page::Picture;
 use pounding_report::pictures::motion::{Named, histories, over_period};
 use pounding_report::{Answered, AnsweredCommand, Chart, Curve, Panel};
 
-use super::info_output::{Files, as_text, comma_separated};
+use super::info_output::{Files, Shown, ShownFile, as_text, comma_separated};
 use super::reading;
 use crate::arguments::InfoArguments;
 use crate::arguments::value;
@@ -29,24 +29,6 @@ const PERIODS: (f64, f64, usize) = (0.02, 5.0, 200);
 const NAMED: usize = 5;
 /// Damping of spectra on the page (-).
 const DAMPING: f64 = 0.05;
-
-/// One series with its measures.
-pub struct Shown {
-    /// As in the file.
-    pub series: Series,
-    /// As excitation, for accelerations.
-    pub record: Option<Accelerogram>,
-    /// Its measures; none for other quantities and for records of zeros.
-    pub measures: Option<IntensityMeasures>,
-}
-
-/// One file.
-pub struct ShownFile {
-    /// Its name.
-    pub file: String,
-    /// Its series, in the order of the file.
-    pub series: Vec<Shown>,
-}
 
 /// Shows every series of the files.
 pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {

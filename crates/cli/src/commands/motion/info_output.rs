@@ -10,9 +10,26 @@ use pounding_ground_motion::{
 };
 use serde::Serialize;
 
-use super::info::{Shown, ShownFile};
 use super::measures::rows;
 use crate::tables::new_long_table;
+
+/// One series with its measures.
+pub struct Shown {
+    /// As in the file.
+    pub series: Series,
+    /// As excitation, for accelerations.
+    pub record: Option<Accelerogram>,
+    /// Its measures; none for other quantities and for records of zeros.
+    pub measures: Option<IntensityMeasures>,
+}
+
+/// One file.
+pub struct ShownFile {
+    /// Its name.
+    pub file: String,
+    /// Its series, in the order of the file.
+    pub series: Vec<Shown>,
+}
 
 /// Tables of each file.
 pub fn as_text(files: &[ShownFile]) -> String {

@@ -11,6 +11,7 @@ mod process;
 mod reading;
 mod spectrum;
 mod spectrum_of_code;
+mod spectrum_places;
 mod spectrum_tables;
 mod synth;
 mod words;

@@ -9,7 +9,7 @@ use pounding_report::pictures::motion;
 use serde::Serialize;
 
 use super::code::{code_spectrum, warn_of_parameters};
-use super::spectrum;
+use super::spectrum_places::places;
 use crate::arguments::{SpectrumArguments, list, once};
 use crate::failure::Failure;
 use crate::output::{pretty, print};
@@ -129,7 +129,7 @@ fn periods(
 ) -> Result<(Vec<f64>, Vec<f64>), Failure> {
     let range = (0.01, 4.0);
     let default = (range.0, range.1, ROWS);
-    let shown = spectrum::places(arguments, default, Dimension::TIME)?;
+    let shown = places(arguments, default, Dimension::TIME)?;
     if arguments.at.is_some() || arguments.count.is_some() {
         return Ok((shown.clone(), shown));
     }

@@ -20,8 +20,7 @@ use pounding_results::{ResponsesTooLarge, WriteError};
 use pounding_time_history::TimeHistoryError;
 use pounding_verification::VerificationError;
 
-use crate::interruption::EXIT_CODE;
-use crate::{excerpt, plot, terminal};
+use crate::{excerpt, exit_code, terminal};
 
 /// Errors of one input that are shown: more help nobody.
 const MOST_SHOWN: usize = 20;
@@ -49,13 +48,13 @@ impl Failure {
     /// Prints the failure and returns the exit code.
     pub(crate) fn report(self) -> u8 {
         let (reports, code) = match self {
-            Self::No => return 1,
+            Self::No => return exit_code::NO,
             Self::Reported(code) => return code,
-            Self::Input(report) => (vec![report], 2),
-            Self::Inputs(reports) => (reports, 2),
-            Self::Computation(report) => (vec![report], 3),
-            Self::Output(report) => (vec![report], 4),
-            Self::Interrupted(report) => (vec![report], EXIT_CODE),
+            Self::Input(report) => (vec![report], exit_code::INPUT),
+            Self::Inputs(reports) => (reports, exit_code::INPUT),
+            Self::Computation(report) => (vec![report], exit_code::COMPUTATION),
+            Self::Output(report) => (vec![report], exit_code::OUTPUT),
+            Self::Interrupted(report) => (vec![report], exit_code::INTERRUPTED),
         };
         let mut text = String::new();
         for report in reports.iter().take(MOST_SHOWN) {
@@ -139,6 +138,11 @@ impl Failure {
             PlaceTaken::help,
         );
         Self::Output(plain(format!("cannot write {what}: {error}"), Some(help)))
+    }
+
+    /// A picture that could not be drawn.
+    pub(crate) fn not_drawn(error: &impl std::error::Error) -> Self {
+        Self::output(&std::io::Error::other(error.to_string()), "the picture")
     }
 
     /// A computation that came to no result.
@@ -297,7 +301,7 @@ impl From<DocumentationError> for Failure {
         match error {
             DocumentationError::Model(error) => error.into(),
             DocumentationError::Law(error) => error.into(),
-            error => plot::not_drawn(&error),
+            error => Self::not_drawn(&error),
         }
     }
 }

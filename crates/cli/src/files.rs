@@ -17,10 +17,10 @@ use pounding_study::gap_check::{self, CheckError};
 use pounding_study::{RECORDS_FOLDER, ShardName, is_shard_of_check, written_by_hand};
 
 use crate::arguments::InputPath;
+use crate::command_words::is_child;
 use crate::failure::Failure;
 use crate::heartbeat;
 use crate::output::note;
-use crate::separate::is_child;
 
 /// Names the part files of an output that a killed process has left behind. They stay: on a
 /// file system that several machines share, another one may write them.

@@ -8,8 +8,8 @@ use pounding_files::{ELSEWHERE, PartFile, not_own};
 use pounding_study::{Progress, ShardName, SweepReport};
 use serde::{Deserialize, Serialize};
 
+use crate::command_words::this_command;
 use crate::failure::Failure;
-use crate::interruption::this_command;
 
 /// Time between two beats of a shard that runs.
 const BETWEEN: Duration = Duration::from_secs(10);

@@ -3,24 +3,21 @@
 //!
 //! A sweep stores the runs that have finished first; everything else ends at once. Either
 //! way no file is left half-written, none that stood before is lost, and the exit code is
-//! [`EXIT_CODE`]. A second signal does not wait for anything, unless it comes within
-//! [a second](TOGETHER): batch systems and shells send the same wish to several processes, which
-//! hand it on.
+//! [`INTERRUPTED`](exit_code::INTERRUPTED). A second signal does not wait for anything, unless it
+//! comes within [a second](TOGETHER): batch systems and shells send the same wish to several
+//! processes, which hand it on.
 
-use std::ffi::OsStr;
 use std::io::Write;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, PoisonError};
 #[cfg(unix)]
 use std::time::{Duration, Instant};
 
-use crate::failure::Failure;
 #[cfg(unix)]
-use crate::separate::{OUT_OF_PROCESSOR_TIME, is_child};
-use crate::separate::{end_child, is_mark_of_child};
-
-/// Exit code of a command that was interrupted.
-pub const EXIT_CODE: u8 = 5;
+use crate::command_words::is_child;
+use crate::exit_code;
+use crate::failure::Failure;
+use crate::separate::end_child;
 
 /// Signals that follow the first so soon belong to it. Storing takes a small part of this time.
 #[cfg(unix)]
@@ -72,7 +69,7 @@ pub fn listen() -> Result<(), Failure> {
             for signal in signals.forever() {
                 if signal == SIGXCPU && is_child() {
                     pounding_files::remove_part_files();
-                    signal_hook::low_level::exit(OUT_OF_PROCESSOR_TIME);
+                    signal_hook::low_level::exit(exit_code::OUT_OF_PROCESSOR_TIME);
                 }
                 received();
             }
@@ -146,7 +143,7 @@ pub fn leave(done: &str) -> ! {
     let _ = std::io::stderr()
         .lock()
         .write_all(crate::terminal::shown(&text).as_bytes());
-    end_with(EXIT_CODE)
+    end_with(exit_code::INTERRUPTED)
 }
 
 /// Ends the process without what libraries do at its end: other threads are still in them.
@@ -155,48 +152,4 @@ pub fn end_with(code: u8) -> ! {
     signal_hook::low_level::exit(i32::from(code));
     #[cfg(not(unix))]
     std::process::exit(i32::from(code))
-}
-
-/// A word that a shell takes as it is.
-pub fn quoted(text: &str) -> String {
-    let plain = |c: char| c.is_ascii_alphanumeric() || "._-/".contains(c);
-    if !text.is_empty() && text.chars().all(plain) {
-        return text.to_owned();
-    }
-    format!("'{}'", text.replace('\'', "'\\''"))
-}
-
-/// This command as it was given, with `--resume`.
-pub fn this_command_resumed() -> String {
-    shell_line(&resumed(this_command()))
-}
-
-/// The words of a command, with `--resume`.
-pub fn resumed(mut words: Vec<String>) -> Vec<String> {
-    let at = end_of_options(&words);
-    if !words[..at].iter().any(|word| word == "--resume") {
-        words.insert(at, "--resume".to_owned());
-    }
-    words
-}
-
-/// Where the words of a command take one more option: before `--`, behind which all are names.
-pub fn end_of_options<W: AsRef<OsStr>>(words: &[W]) -> usize {
-    let mut words = words.iter();
-    let all = words.len();
-    words.position(|word| word.as_ref() == "--").unwrap_or(all)
-}
-
-/// The words of this command.
-pub fn this_command() -> Vec<String> {
-    let words = std::env::args_os().filter(|word| !is_mark_of_child(word));
-    words
-        .map(|word| word.to_string_lossy().into_owned())
-        .collect()
-}
-
-/// Words as a shell takes them.
-pub fn shell_line<W: AsRef<str>>(words: &[W]) -> String {
-    let quoted: Vec<String> = words.iter().map(|word| quoted(word.as_ref())).collect();
-    quoted.join(" ")
 }

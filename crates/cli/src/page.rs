@@ -138,7 +138,7 @@ pub fn write_run(result: &RunResult, path: &Path, output: &Path) -> Result<(), F
 /// A result that cannot be read or drawn.
 pub fn failed(e: ReportError) -> Failure {
     match e {
-        ReportError::Figure { .. } => plot::not_drawn(&e),
+        ReportError::Figure { .. } => Failure::not_drawn(&e),
         _ => Failure::input(e.to_string(), e.help()),
     }
 }

@@ -18,7 +18,7 @@ pub fn write_drawn(path: &Path, picture: Chart, size: &FigureArguments) -> Resul
     let picture = picture.of_width(size.millimetres()).svg();
     let ending = path.extension().unwrap_or_default().to_string_lossy();
     let format = PictureFormat::of_ending(&ending).unwrap_or(PictureFormat::Svg);
-    let made = format.of(&picture).map_err(|e| not_drawn(&e))?;
+    let made = format.of(&picture).map_err(|e| Failure::not_drawn(&e))?;
     say_without_glyph(made.without_glyph);
     pounding_files::write(path, &made.bytes)
         .map_err(|e| Failure::output(&e, &path.display().to_string()))
@@ -46,13 +46,8 @@ fn say_without_glyph(characters: BTreeSet<char>) {
 pub fn of_motion(picture: Result<Chart, ReportError>) -> Result<Chart, Failure> {
     picture.map_err(|e| match e {
         ReportError::Motion(error) => error.into(),
-        error => not_drawn(&error),
+        error => Failure::not_drawn(&error),
     })
-}
-
-/// A picture that could not be drawn.
-pub fn not_drawn(e: &impl std::error::Error) -> Failure {
-    Failure::output(&std::io::Error::other(e.to_string()), "the picture")
 }
 
 /// Writes a text file, whole or not at all.

@@ -20,11 +20,10 @@ use pounding_files::{FileUse, remove_left_by};
 use pounding_results::watch::{Watcher, watch};
 
 use crate::arguments::ColorChoice;
+use crate::command_words::{OPTION_OF_CHILD, end_of_options};
+use crate::exit_code::{self, OUT_OF_PROCESSOR_TIME, OWN_CODES, RUNS_ARE_LEFT};
 use crate::failure::Failure;
-use crate::interruption::end_of_options;
 
-/// The hidden option that tells the child that it is one.
-pub const OPTION: &str = "read-in-this-process";
 /// How the line begins by which a child tells the number of the file that it reads.
 const MARK: &[u8] = b"\0reads ";
 /// Time that a command takes at most where processor time has no limits, and what is added for
@@ -44,13 +43,6 @@ const PROCESSOR_TIME: u64 = 2;
 const MEMORY: u64 = 4 << 30;
 #[cfg(unix)]
 const MEMORY_PER_BYTE: u64 = 16;
-/// How a child ends that has reached the limit: what it listens to says so by a signal.
-pub const OUT_OF_PROCESSOR_TIME: i32 = 9;
-/// How a child ends that was to read the result of a study, and finds runs that are to be made.
-pub const RUNS_ARE_LEFT: u8 = 6;
-/// Exit codes that say what they say everywhere, and that one; a panic has another.
-const OWN_CODES: std::ops::RangeInclusive<i32> = 0..=6;
-
 /// Files that this process reads for another one, in the order of its arguments.
 static FILES: OnceLock<Vec<PathBuf>> = OnceLock::new();
 /// The program that a child is, where it is not the file of this process.
@@ -154,7 +146,10 @@ pub fn by_child(
     let given: Vec<OsString> = std::env::args_os().skip(1).collect();
     let (options, names) = given.split_at(end_of_options(&given));
     let mut command = Command::new(program);
-    command.args(options).arg(format!("--{OPTION}")).args(more);
+    command
+        .args(options)
+        .arg(format!("--{OPTION_OF_CHILD}"))
+        .args(more);
     // Its errors are shown by this process, as the terminal of this one can.
     let colored = |a: &OsString| a.to_string_lossy().starts_with("--color");
     if !given.iter().any(colored) && ColorChoice::Auto.is_on(std::io::stderr().is_terminal()) {
@@ -208,9 +203,9 @@ impl Answer {
             None => (words, None),
         };
         match self.code {
-            3 => Failure::computation(message, help),
-            4 => Failure::unwritten(message, help),
-            5 => Failure::interrupted(message, help),
+            exit_code::COMPUTATION => Failure::computation(message, help),
+            exit_code::OUTPUT => Failure::unwritten(message, help),
+            exit_code::INTERRUPTED => Failure::interrupted(message, help),
             _ => Failure::input(message, help),
         }
     }
@@ -228,7 +223,7 @@ pub fn answered(
     used: &FileUse,
 ) -> Result<Answer, Failure> {
     let mut command = Command::new(program);
-    command.args(arguments).arg(format!("--{OPTION}"));
+    command.args(arguments).arg(format!("--{OPTION_OF_CHILD}"));
     command.env("NO_COLOR", "1").stdout(Stdio::piped());
     let ended = ended(&mut command, files, used);
     let ended = ended.map_err(no_process)?;
@@ -252,11 +247,11 @@ fn ended(
     let how = match ending {
         Ending::Exit(status) => match (status.code(), limited_memory()) {
             // What is told of a file as if it were damaged, or none of ours.
-            (Some(2), Some(limit)) => {
+            (Some(code), Some(limit)) if code == i32::from(exit_code::INPUT) => {
                 let mut said = said;
                 said.extend_from_slice(format!("note: {limit}: {MORE_MEMORY}\n").as_bytes());
                 return Ok(Ok(Answer {
-                    code: 3,
+                    code: exit_code::COMPUTATION,
                     printed,
                     said,
                 }));
@@ -302,17 +297,6 @@ fn unmarked(said: &[u8]) -> (Vec<u8>, Option<usize>) {
 pub fn warnings(files: &[PathBuf]) -> Vec<String> {
     let warning = |file: &PathBuf| format!("{} {ABSENT}", file.display());
     files.iter().map(warning).collect()
-}
-
-/// Whether this process reads for another one, which says what there is to say.
-pub fn is_child() -> bool {
-    std::env::args_os().any(|word| is_mark_of_child(&word))
-}
-
-/// Whether a word of a command tells a child that it is one: no part of what was asked for.
-pub fn is_mark_of_child(word: &std::ffi::OsStr) -> bool {
-    word.to_str()
-        .is_some_and(|word| word.strip_prefix("--") == Some(OPTION))
 }
 
 /// Has the child of this process end, before this one does.

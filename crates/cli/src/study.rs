@@ -18,13 +18,15 @@ use serde::Serialize;
 use sha2::{Digest, Sha256};
 
 use crate::arguments::{RunningArguments, ShardArguments, value};
+use crate::command_words::{is_child, shell_line, this_command, this_command_resumed};
+use crate::exit_code::RUNS_ARE_LEFT;
 use crate::failure::Failure;
 use crate::files::{Replaced, name_left_over, no_result_comes, reads_too};
 use crate::heartbeat::{Heartbeat, State};
 use crate::interruption;
 use crate::output::note;
 use crate::progress::{Progress, Unit};
-use crate::separate::{RUNS_ARE_LEFT, Reading, is_child, reading};
+use crate::separate::{Reading, reading};
 use crate::tables::warning_lines;
 
 /// The shard that arguments name; `None` for the whole study. The only shard of a study is one as any
@@ -203,7 +205,7 @@ pub fn run(
     into: Option<&Path>,
 ) -> Result<SweepReport, Failure> {
     // Until the folder of the finished runs is there, there is nothing to go on with.
-    interruption::resume_with(interruption::shell_line(&interruption::this_command()));
+    interruption::resume_with(shell_line(&this_command()));
     let mut begun = false;
     let name = ShardName::of_study_file(&study.file, options.shard);
     let mut heartbeat = match into.map(|folder| Heartbeat::begin(folder, &name)) {
@@ -218,7 +220,7 @@ pub fn run(
             interruption::end_with(RUNS_ARE_LEFT);
         }
         if !std::mem::replace(&mut begun, true) {
-            interruption::resume_with(interruption::this_command_resumed());
+            interruption::resume_with(this_command_resumed());
         }
         show(&progress, now);
         if let Some(heartbeat) = &mut heartbeat {

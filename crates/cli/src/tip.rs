@@ -6,7 +6,7 @@ use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue};
 use clap::{Arg, Command};
 
-use crate::interruption::shell_line;
+use crate::command_words::shell_line;
 
 /// The error with a tip that works where a value that begins with a dash stands behind its option: the
 /// parser takes it for an option, and its own tip, two dashes, is for names of files.

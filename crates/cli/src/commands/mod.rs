@@ -24,10 +24,10 @@ use clap::CommandFactory;
 use pounding_files::FileUse;
 
 use crate::arguments::{Arguments, Command, ImpactCommand, SchemaOf};
+use crate::command_words::is_child;
 use crate::failure::Failure;
 use crate::files::name_left_over;
 use crate::output::{pretty, print, print_as_it_is};
-use crate::separate::is_child;
 
 /// Carries a command out. `files` are those of its arguments, held against one another
 /// already; a command that reads or writes more adds them and checks again.

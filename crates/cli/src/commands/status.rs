@@ -15,11 +15,11 @@ use pounding_study::{ShardName, default_result_of, ranges};
 use serde::Serialize;
 
 use crate::arguments::{StatusArguments, value};
+use crate::command_words::{resumed, shell_line};
 use crate::deal::is_shard;
 use crate::failure::Failure;
 use crate::files::name_left_over_in;
 use crate::heartbeat::{Beat, State, damaged, read, told};
-use crate::interruption::{resumed, shell_line};
 use crate::output::{note, pretty, print, print_as_it_is};
 use crate::plan::{path_word, program};
 use crate::progress::time;

@@ -10,7 +10,7 @@ pub fn script(plan: &Plan) -> String {
     let text = |value: &dyn std::fmt::Display| json!(value.to_string()).to_string();
     let again = format!(
         "python THIS_SCRIPT ADDRESS \"$({})\"",
-        crate::interruption::shell_line(&plan.unfinished)
+        crate::command_words::shell_line(&plan.unfinished)
     );
     let time = plan
         .time

@@ -1,7 +1,7 @@
 //! An array of tasks for HyperQueue.
 
 use super::Plan;
-use crate::interruption::{quoted, shell_line};
+use crate::command_words::{quoted, shell_line};
 
 /// The script that submits, waits and merges.
 pub fn script(plan: &Plan) -> String {

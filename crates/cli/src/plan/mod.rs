@@ -13,9 +13,9 @@ use pounding_study::{Study, Value, default_result, refuse_name_of_shard, writabl
 use serde::Serialize;
 
 use crate::arguments::{PlanArguments, RunningArguments, Scheduler, time_limit};
+use crate::command_words::{quoted, shell_line};
 use crate::failure::Failure;
 use crate::files::{have_a_place, reads_too};
-use crate::interruption::{quoted, shell_line};
 use crate::output::{note, pretty, print, print_as_it_is};
 use crate::study::{name, table_has_a_place};
 

@@ -1,7 +1,7 @@
 //! All shards on one machine, by a shell and xargs.
 
 use super::Plan;
-use crate::interruption::{quoted, shell_line};
+use crate::command_words::{quoted, shell_line};
 
 /// The script that runs and merges.
 pub fn script(plan: &Plan) -> String {

@@ -1,10 +1,10 @@
 //! An array of tasks for Slurm, and a job that merges.
 
 use super::Plan;
-use crate::interruption::{quoted, shell_line};
+use crate::command_words::{quoted, shell_line};
 
 /// Exit code of a task that is to go on where it is: see `commands.md`.
-const RESUME: u8 = crate::interruption::EXIT_CODE;
+const RESUME: u8 = crate::exit_code::INTERRUPTED;
 /// Time before the limit at which a task stores what has finished (s).
 const BEFORE_LIMIT: u32 = 60;
 /// How often a task that reaches its time limit is put back into the queue.

@@ -16,9 +16,9 @@ use pounding_study::{
 };
 
 use crate::arguments::IdaArguments;
+use crate::command_words::quoted;
 use crate::failure::Failure;
 use crate::files::{have_a_place, reads_too};
-use crate::interruption::quoted;
 use crate::output::{comma_separated, pretty, print, warn};
 use crate::plan::{self, Planned, path_word};
 use crate::progress::{Progress, Unit, threads};

@@ -2,9 +2,11 @@
 //! the gap's own law meets.
 
 mod models;
+mod reference_collision;
 mod stiffness;
 
-pub use models::{CalibratedModel, OwnLaw, ReferenceCollision, RestitutionRule, calibrated};
+pub use models::{CalibratedModel, RestitutionRule, calibrated};
+pub use reference_collision::{OwnLaw, ReferenceCollision};
 pub use stiffness::StiffnessRule;
 
 use pounding_case::Case;

@@ -6,10 +6,11 @@ use pounding_case::Gap;
 use pounding_catalogue::Parameters;
 use pounding_catalogue::numbers::{all_digits, six_digits};
 use pounding_gap_element::{
-    AchievedRestitution, Bodies, CollisionOutcome, GapElementError, ImpactModel, ModelDescriptor,
-    ModelParameters, ParameterUnit, SeparationRule, collide, registry,
+    AchievedRestitution, GapElementError, ImpactModel, ModelDescriptor, ModelParameters,
+    ParameterUnit, SeparationRule, registry,
 };
 
+use super::reference_collision::{CRUSHED, OwnLaw, ReferenceCollision, collision};
 use super::stiffness::{StiffnessRule, stiffness};
 use crate::gap_check::CheckError;
 
@@ -31,38 +32,6 @@ impl RestitutionRule {
             Self::Exact => "exact",
         }
     }
-}
-
-/// The law that a gap has in the case.
-#[derive(Debug, Clone, PartialEq)]
-pub struct OwnLaw {
-    /// Name of its model, whatever alias the case has.
-    pub model: &'static str,
-    /// All its parameters (SI).
-    pub parameters: ModelParameters,
-    /// Whether models are asked for its restitution, so that it is compared as it is in the case.
-    pub gives_restitution: bool,
-}
-
-/// The free collision of two floors that models are calibrated in.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ReferenceCollision {
-    /// Approach velocity (m/s).
-    pub approach_velocity: f64,
-    /// Whether that is the maximum of the other gaps, as the gap's own law meets none in it.
-    pub of_other_gaps: bool,
-    /// Effective mass (kg).
-    pub effective_mass: f64,
-    /// Stiffness of the gap's own law (N/m^n).
-    pub stiffness: f64,
-    /// Exponent of the gap's own law (-).
-    pub exponent: f64,
-    /// Restitution that all models are asked for (-).
-    pub restitution: f64,
-    /// When contacts end, where the case says so of the gap: for all models that offer it.
-    pub separation: Option<SeparationRule>,
-    /// The gap's own law.
-    pub own: Option<OwnLaw>,
 }
 
 /// A model ready for one gap.
@@ -104,41 +73,6 @@ fn achieved(
     }
     Ok(collision(model, reference)?.restitution)
 }
-
-/// The free collision, integrated.
-fn collision(
-    model: &dyn ImpactModel,
-    reference: &ReferenceCollision,
-) -> Result<CollisionOutcome, GapElementError> {
-    // A body against a wall has its own mass as effective mass.
-    let bodies = Bodies {
-        mass_left: reference.effective_mass,
-        mass_right: None,
-        velocity_left: reference.approach_velocity,
-        velocity_right: 0.0,
-    };
-    collide(model, &bodies)
-}
-
-/// The collision of the gap's own law without damping, where that is no power of the penetration
-/// alone: with a branch for what is crushed.
-pub(super) fn crushed(
-    reference: &ReferenceCollision,
-) -> Result<Option<CollisionOutcome>, GapElementError> {
-    let own = reference.own.as_ref();
-    let Some(own) = own.filter(|own| own.parameters.given(CRUSHED[0]).is_some()) else {
-        return Ok(None);
-    };
-    let mut parameters = own.parameters.clone();
-    parameters.values.remove("restitution");
-    let undamped = ("damping_factor".to_owned(), 0.0);
-    parameters.values.extend([undamped]);
-    let model = registry::build(own.model, &parameters)?;
-    collision(model.as_ref(), reference).map(Some)
-}
-
-/// Parameters of an example that belong to its stiffness, and make no sense beside another.
-const CRUSHED: [&str; 2] = ["crush_penetration", "crush_stiffness"];
 
 /// What damping is given by, instead of a restitution.
 const RAW_DAMPING: [&str; 3] = ["damping_factor", "damping_ratio", "friction"];
@@ -478,13 +412,7 @@ mod tests {
                 "{name}"
             );
             let exact = calibrated(descriptor, &from, rules(RestitutionRule::Exact)).unwrap();
-            let bodies = Bodies {
-                mass_left: from.effective_mass,
-                mass_right: None,
-                velocity_left: from.approach_velocity,
-                velocity_right: 0.0,
-            };
-            let collided = collide(exact.model.as_ref(), &bodies).unwrap();
+            let collided = collision(exact.model.as_ref(), &from).unwrap();
             assert!((collided.restitution - 0.65).abs() < 1.0e-6, "{name}");
         }
     }

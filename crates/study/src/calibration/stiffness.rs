@@ -4,7 +4,7 @@ use pounding_gap_element::contact_stiffness::{
     Approach, ContactStiffnessError, duration, penetration,
 };
 
-use super::models::{ReferenceCollision, crushed};
+use super::reference_collision::{ReferenceCollision, crushed};
 
 /// How the stiffness of a law follows from that of the gap's own. Laws of one exponent
 /// have one stiffness; between exponents a reference collision decides.

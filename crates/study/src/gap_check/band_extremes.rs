@@ -5,8 +5,8 @@ use pounding_ground_motion::processing::BAND_PERIODS;
 use pounding_ground_motion::spectra::logarithmic_periods;
 
 use super::error::CheckError;
+use super::record_spectra::{mean, of_records, wrong};
 use super::records::CaseUnderRecord;
-use super::spectra::{mean, of_records, wrong};
 
 /// Steps of the grid in the bandwidth of an oscillator, which is twice its damping ratio: as far
 /// apart, relative to the period, are those that one motion excites apart.

@@ -10,6 +10,7 @@ mod demand;
 mod error;
 mod lower_roof;
 mod parallel;
+mod record_spectra;
 mod records;
 mod repeated;
 mod required;
@@ -19,6 +20,7 @@ mod suite;
 mod suite_spectrum;
 mod sweep;
 mod systems;
+mod warnings;
 
 pub use code_answer::{CodeAnswer, LevelAnswer, OwnershipAnswer};
 pub use codes::{
@@ -53,12 +55,12 @@ pub(crate) use demand::levels;
 #[cfg(feature = "results")]
 pub(crate) use parallel::in_parallel;
 pub(crate) use parallel::{Ending, runs_in_parallel};
-pub(crate) use records::warnings;
-#[cfg(feature = "results")]
-pub(crate) use records::{across_of_another, on_grounds_of_their_own};
-#[cfg(feature = "results")]
-pub(crate) use records::{of_each_record, of_reading, said_in_reading};
 pub use systems::rebuilt;
+pub(crate) use warnings::warnings;
+#[cfg(feature = "results")]
+pub(crate) use warnings::{
+    across_of_another, of_each_record, of_reading, on_grounds_of_their_own, said_in_reading,
+};
 
 use pounding_case::{Case, Separation};
 use pounding_time_history::{LevelOutcome, NamedPeak};
@@ -374,7 +376,7 @@ pub fn gap_check_dealt(
         gaps.push(report);
         roofs.extend(lower_roof::left_out(&place));
     }
-    let at_the_end = records::greatest_at_the_end(records, &demands);
+    let at_the_end = warnings::greatest_at_the_end(records, &demands);
     let sweep = swept.map(|asked| {
         let tell = |done, _| progress(records.len() + done, total);
         let identity = || identity("gap", asked, case, records);

@@ -7,8 +7,8 @@ use pounding_separation::SpectrumCondition;
 use super::SAME;
 use super::band_extremes::Band;
 use super::error::CheckError;
+use super::record_spectra::wrong;
 use super::records::CaseUnderRecord;
-use super::spectra::wrong;
 
 /// Damping ratio of the spectra that codes compare (-).
 const DAMPING: f64 = 0.05;

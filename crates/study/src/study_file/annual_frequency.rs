@@ -7,8 +7,8 @@ use pounding_case::{Dimension, Quantity};
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use super::hazard_file::PER_YEAR;
-
+/// Units of a mean annual frequency, also of a column of a table.
+pub(super) const PER_YEAR: [&str; 6] = ["1/year", "1/yr", "1/a", "per_year", "year^-1", "yr^-1"];
 /// Further ways in which a text of a number says that it is one a year.
 const FURTHER: [&str; 5] = ["per year", "per yr", "/year", "/yr", "/a"];
 

@@ -4,7 +4,7 @@ use pounding_case::{Dimension, bare_acceleration, bare_gap_width, bare_ground_ve
 use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::numbers::six_digits;
 
-use super::ida::DemandKind;
+use super::demand_kind::DemandKind;
 use super::intensity::IntensityMeasure;
 use super::values::Values;
 

@@ -10,7 +10,7 @@ use pounding_ground_motion::distributions::{normal_distribution, normal_quantile
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::values::lacks;
+use super::keys::lacks;
 
 /// How a random number is distributed, possibly between bounds.
 #[derive(Debug, Clone, PartialEq)]

@@ -8,7 +8,8 @@ use pounding_case::{Dimension, parse_quantity, read_regular_text};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 
 use super::IntensityMeasure;
-use super::ida::HAZARD_NUMBERS;
+use super::annual_frequency::PER_YEAR;
+use super::hazard_curve::HAZARD_NUMBERS;
 
 /// Message, with file and line, and remedy.
 pub(super) type Refusal = (String, String);
@@ -39,7 +40,6 @@ const ANNUAL: [&str; 5] = [
     "mafe",
 ];
 const FREQUENCY: [&str; 3] = ["frequency", "rate", "lambda"];
-pub(super) const PER_YEAR: [&str; 6] = ["1/year", "1/yr", "1/a", "per_year", "year^-1", "yr^-1"];
 
 /// Part by which a period in a header may differ from that of the study: it is rounded.
 const PERIOD_TOLERANCE: f64 = 0.01;

@@ -9,9 +9,7 @@ use pounding_case::document::{
     AboveZero, Amount, Entry, Fault, Field, FromZero, List, Number, OneOrEach, Optional, Reader,
     TableOr, Within, Written,
 };
-use pounding_case::{
-    Building, ContactLevel, Dimension, FoundationMotion, Gap, Link, Located, Support,
-};
+use pounding_case::{ContactLevel, Dimension, FoundationMotion, Gap, Link, Located};
 use pounding_catalogue::wording::one_line;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
@@ -19,183 +17,11 @@ use serde::de::{Deserializer, SeqAccess, Visitor};
 
 use super::annual_frequency::AnnualFrequency;
 use super::context::{Context, LawOfStorey};
-use super::values::{Numbers, Values, Whole, all, not_both};
+use super::demand_kind::{DemandKind, OfBuilding};
+use super::hazard_curve::HazardCurve;
+use super::keys::not_both;
+use super::values::{Numbers, Values, Whole, all};
 use super::{IntensityMeasure, bare_numbers, hazard_file};
-use crate::error::StudyError;
-
-/// A demand whose exceedance is asked for.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(
-    rename = "demand",
-    rename_all = "snake_case",
-    expecting = "a text in quotes"
-)]
-pub enum DemandKind {
-    /// Maximum floor displacement (m).
-    Displacement,
-    /// Maximum drift ratio (-).
-    DriftRatio,
-    /// Maximum storey shear (N).
-    StoreyShear,
-    /// Maximum absolute floor acceleration (m/s2).
-    AccelerationAbsolute,
-    /// Maximum ductility of storeys with a yield force (-).
-    Ductility,
-    /// Magnitude of the residual drift ratio of storeys with a law (-).
-    ResidualDriftRatio,
-    /// Maximum overturning moment at the base of a building with a stiffness matrix or a
-    /// foundation (N m).
-    BaseMoment,
-    /// Maximum displacement of a foundation relative to the ground (m).
-    FoundationSway,
-    /// Maximum rotation of a foundation (rad).
-    FoundationRotation,
-    /// Maximum force of the sway spring below a foundation (N).
-    FoundationShear,
-    /// Maximum moment of the rocking spring below a foundation (N m).
-    FoundationMoment,
-    /// Maximum moment on a foundation over half of weight times length (-).
-    OverturningRatio,
-    /// Maximum rotation of a floor that turns in plan (rad).
-    Rotation,
-    /// Maximum displacement along the row of both ends of a floor that turns in plan (m).
-    EdgeDisplacement,
-    /// Maximum displacement across the row of a floor that turns in plan (m).
-    DisplacementAcross,
-    /// Maximum absolute acceleration across the row of a floor that turns in plan (m/s2).
-    AccelerationAcross,
-    /// Maximum contact force (N).
-    ContactForce,
-    /// Maximum shear of columns that are hit (N).
-    ColumnShear,
-    /// Maximum opening of joints with a seat, beyond their width at rest (m).
-    Opening,
-    /// Maximum force of links between floors or displacements of foundations (N).
-    LinkForce,
-    /// Maximum deformation of such links (m).
-    LinkDeformation,
-    /// Maximum impulse of one impact (N s).
-    Impulse,
-    /// Number of impacts.
-    Impacts,
-    /// Maximum relative displacement of the isolated buildings (m).
-    IsolatedDemand,
-}
-
-impl DemandKind {
-    /// What it is called, and which buildings have it, of a demand that belongs to the building
-    /// as a whole.
-    fn of_building(self) -> Option<OfBuilding> {
-        type Has = fn(&Building) -> bool;
-        let (name, has, of): (_, Has, _) = match self {
-            Self::BaseMoment => (
-                "the base moment",
-                |b| b.lateral.is_some() || b.foundation.is_some() || b.plan.is_some(),
-                "on a foundation, with a plan or with a stiffness matrix",
-            ),
-            Self::FoundationSway | Self::FoundationShear => (
-                "sway",
-                |b| support(b).is_some_and(Support::sways),
-                "with a foundation that sways",
-            ),
-            Self::FoundationRotation | Self::FoundationMoment => (
-                "rotation",
-                |b| support(b).is_some_and(Support::rocks),
-                "with a foundation that rocks",
-            ),
-            Self::OverturningRatio => (
-                "the overturning ratio",
-                |b| {
-                    let foundation = b.foundation.as_ref();
-                    foundation.is_some_and(|f| f.value.length.is_some())
-                },
-                "with a foundation whose length is known",
-            ),
-            _ => return None,
-        };
-        Some(OfBuilding { name, has, of })
-    }
-
-    /// Whether it belongs to the contact levels of gaps.
-    fn of_levels(self) -> bool {
-        matches!(
-            self,
-            Self::ContactForce
-                | Self::ColumnShear
-                | Self::Opening
-                | Self::Impulse
-                | Self::Impacts
-                | Self::IsolatedDemand
-        )
-    }
-
-    /// Whether it belongs to the levels of links.
-    fn of_links(self) -> bool {
-        matches!(self, Self::LinkForce | Self::LinkDeformation)
-    }
-
-    /// Whether only storeys with a law have it.
-    fn of_laws(self) -> bool {
-        matches!(self, Self::Ductility | Self::ResidualDriftRatio)
-    }
-
-    /// Whether only floors that turn in plan have it.
-    fn of_floors_that_turn(self) -> bool {
-        matches!(
-            self,
-            Self::Rotation
-                | Self::EdgeDisplacement
-                | Self::DisplacementAcross
-                | Self::AccelerationAcross
-        )
-    }
-
-    /// Dimension of its values.
-    #[must_use]
-    pub fn dimension(self) -> Dimension {
-        match self {
-            Self::Displacement
-            | Self::IsolatedDemand
-            | Self::Opening
-            | Self::LinkDeformation
-            | Self::FoundationSway
-            | Self::EdgeDisplacement
-            | Self::DisplacementAcross => Dimension::LENGTH,
-            Self::DriftRatio
-            | Self::Ductility
-            | Self::ResidualDriftRatio
-            | Self::Impacts
-            | Self::FoundationRotation
-            | Self::Rotation
-            | Self::OverturningRatio => Dimension::NUMBER,
-            Self::StoreyShear
-            | Self::ContactForce
-            | Self::FoundationShear
-            | Self::ColumnShear
-            | Self::LinkForce => Dimension::FORCE,
-            Self::AccelerationAbsolute | Self::AccelerationAcross => Dimension::ACCELERATION,
-            // Of a moment, as of an energy.
-            Self::BaseMoment | Self::FoundationMoment => Dimension::ENERGY,
-            Self::Impulse => Dimension {
-                mass: 1.0,
-                length: 1.0,
-                time: -1.0,
-            },
-        }
-    }
-}
-
-/// A demand that belongs to a building as a whole.
-struct OfBuilding {
-    name: &'static str,
-    has: fn(&Building) -> bool,
-    /// Which buildings have it, in words.
-    of: &'static str,
-}
-
-fn support(building: &Building) -> Option<&Support> {
-    Some(&building.foundation.as_ref()?.value.support)
-}
 
 /// A state that counts as reached when a demand exceeds a value.
 #[derive(Debug, Clone, PartialEq)]
@@ -213,14 +39,6 @@ pub struct Limit {
     pub link: Option<String>,
     /// Value that it exceeds (SI).
     pub exceeds: f64,
-}
-
-/// Mean annual frequencies with which intensities are exceeded, falling with the
-/// intensity; a power law between its points.
-#[derive(Debug, Clone, PartialEq)]
-pub struct HazardCurve {
-    /// Intensity (SI) and mean annual frequency (1/year), intensities rising.
-    pub points: Vec<(f64, f64)>,
 }
 
 /// The part `[ida]` of a study.
@@ -922,46 +740,4 @@ fn hazard_curve(
     let (span, name) = places.into_iter().nth(point).unwrap_or(whole);
     reader.errors.record(wrong(span, &(name + reason)));
     None
-}
-
-/// Intensities (SI) and frequencies (1/year) of a hazard curve.
-pub(super) const HAZARD_NUMBERS: std::ops::RangeInclusive<f64> = 1.0e-100..=1.0e100;
-
-impl HazardCurve {
-    /// A curve through these points.
-    ///
-    /// # Errors
-    /// Fewer than two points, values that are not positive or outside 1e-100 to 1e100, intensities that do not rise
-    /// or frequencies that do not fall.
-    pub fn new(points: Vec<(f64, f64)>) -> Result<Self, StudyError> {
-        match Self::fault(&points) {
-            None => Ok(Self { points }),
-            Some((_, reason)) => Err(StudyError::Evaluation {
-                what: "hazard curve",
-                reason: reason.to_owned(),
-            }),
-        }
-    }
-
-    /// The first point (from zero) that no curve goes through after those before it, and why.
-    fn fault(points: &[(f64, f64)]) -> Option<(usize, &'static str)> {
-        if points.len() < 2 {
-            return Some((points.len(), "it has fewer than two points"));
-        }
-        let sound = |(a, b): &(f64, f64)| *a > 0.0 && *b > 0.0 && a.is_finite() && b.is_finite();
-        if let Some(point) = points.iter().position(|p| !sound(p)) {
-            return Some((point, "intensities and frequencies must be above zero"));
-        }
-        // Power laws of more extreme points leave the range of numbers.
-        let usual = |(a, b): &(f64, f64)| [a, b].into_iter().all(|x| HAZARD_NUMBERS.contains(x));
-        if let Some(point) = points.iter().position(|p| !usual(p)) {
-            return Some((
-                point,
-                "intensities and frequencies must be from 1e-100 to 1e100",
-            ));
-        }
-        let mut pairs = points.windows(2);
-        let turned = pairs.position(|p| !(p[0].0 < p[1].0 && p[0].1 > p[1].1))?;
-        Some((turned + 1, "intensities must rise and frequencies fall"))
-    }
 }

@@ -12,7 +12,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::context::Context;
-use super::values::{all, not_both};
+use super::keys::not_both;
+use super::values::all;
 use crate::error::StudyError;
 
 /// What is held at a value by scaling a record. Every measure grows in proportion to the

@@ -3,11 +3,14 @@
 mod annual_frequency;
 mod bare_numbers;
 mod context;
+mod demand_kind;
 mod distribution;
 mod files;
+mod hazard_curve;
 mod hazard_file;
 mod ida;
 mod intensity;
+mod keys;
 mod read;
 mod readings;
 mod records;
@@ -19,9 +22,11 @@ mod varied_entry;
 
 use std::path::{Path as FilePath, PathBuf};
 
+pub use demand_kind::DemandKind;
 pub use distribution::Distribution;
+pub use hazard_curve::HazardCurve;
 pub use hazard_file::hazard_schema;
-pub use ida::{DemandKind, HazardCurve, IdaSettings, Limit};
+pub use ida::{IdaSettings, Limit};
 pub(crate) use ida::{POUNDING, pounding_at};
 pub use intensity::IntensityMeasure;
 pub use pounding_results::study::Value;

@@ -22,8 +22,9 @@ use crate::faults::{parse_case, with_all};
 
 use super::context::{Base, Context, LawOfStorey};
 use super::ida::IdaTable;
+use super::keys::lacks;
 use super::readings::readings;
-use super::values::{MOST_OF_CHUNK, MOST_RUNS, Whole, all, lacks};
+use super::values::{MOST_OF_CHUNK, MOST_RUNS, Whole, all};
 use super::variables::VariableTable;
 use super::{
     IntensityMeasure, Readings, RecordSource, Study, Target, Values, Variable, records, rows,

@@ -9,6 +9,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{Deserialize, Deserializer, Error as _};
 
 use super::distribution::Distribution;
+use super::keys::{Place, lacks, not_both};
 
 /// How a range is divided.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, serde::Deserialize, JsonSchema)]
@@ -279,34 +280,6 @@ impl Numbers {
 pub(super) fn all<T>(values: impl IntoIterator<Item = Option<T>>) -> Option<Vec<T>> {
     let values: Vec<_> = values.into_iter().collect();
     values.into_iter().collect()
-}
-
-/// Refuses a table in which a key is missing.
-pub(super) fn lacks<T>(
-    reader: &Reader<'_>,
-    table: &str,
-    span: Range<usize>,
-    key: &str,
-) -> Option<T> {
-    let message = format!("{table} has no `{key}`");
-    reader.refuse(span, message, format!("add `{key} = ...`"))
-}
-
-/// A key and where its value stands, if it is given.
-pub(super) type Place<'k> = (&'k str, Option<Range<usize>>);
-
-/// Refuses a table that has both keys, which exclude one another.
-pub(super) fn not_both(
-    reader: &Reader<'_>,
-    table: &str,
-    (a, first): Place<'_>,
-    (b, second): Place<'_>,
-) -> Option<()> {
-    let Some((_, second)) = first.zip(second) else {
-        return Some(());
-    };
-    let message = format!("{table} has `{a}` and `{b}`, which exclude one another");
-    reader.refuse(second, message, "remove one of them")
 }
 
 /// A dimension as the attribute `units` of a result has it, such as `kg m-0.5 s-2`.

@@ -4,11 +4,11 @@ use pounding_assembly::{AssemblyError, further_record};
 use pounding_case::{Case, GroundMotion};
 use pounding_ground_motion::processing::Scale;
 
-use crate::case_text::{Edit, Path, apply, entry, with_motion};
+use crate::case_text::{Edit, Path, apply, entry, with_motion, written};
 use crate::error::StudyError;
 use crate::runs::{
     FurtherFactors, Runner, factor, factors_of_further, further_motions, intensity_of_case, motion,
-    wanted, written,
+    wanted,
 };
 use crate::study_file::{RecordKind, Study};
 

@@ -58,6 +58,16 @@ impl Edit {
     }
 }
 
+/// A number as it stands in the case of a run.
+pub(crate) fn written(x: f64) -> String {
+    // Counts must stay whole numbers; all else is read back to the same bits.
+    if x.fract() == 0.0 && x.abs() < 1e15 {
+        format!("{x:.0}")
+    } else {
+        format!("{x:e}")
+    }
+}
+
 /// A path that leads nowhere: why, and what to do.
 pub(crate) type Lost = (String, String);
 

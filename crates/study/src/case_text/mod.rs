@@ -12,7 +12,7 @@ mod variant;
 
 pub(crate) use edits::{
     Edit, Entry, KEPT, Lost, apply, building_names, entry, of_impact_model, places_of_keys,
-    root_key, with_model, with_motion, without,
+    root_key, with_model, with_motion, without, written,
 };
 pub(crate) use identity::{Lines, canonical};
 pub(crate) use path::Path;

@@ -2,7 +2,9 @@
 
 mod cache;
 mod engine;
+mod motion;
 mod motions;
+mod named_files;
 mod proportion;
 mod runner;
 mod shared_records;
@@ -10,8 +12,8 @@ mod structures;
 mod varied;
 
 pub(crate) use engine::run_all;
+pub(crate) use motion::motion;
 pub use motions::RecordReport;
-pub(crate) use motions::motion;
 pub use pounding_results::study::{
     Axis, Ending, IsolatedQuantities, IsolatedRun, Layout, Place, Quantity, RESPONSES, Response,
     Row,
@@ -21,5 +23,5 @@ pub(crate) use pounding_results::study::{ID, is_result};
 pub(crate) use proportion::{
     FurtherFactors, factors_of_further, further_motions, intensity_of_case,
 };
-pub(crate) use runner::{Runner, factor, wanted, written};
+pub(crate) use runner::{Runner, factor, wanted};
 pub use shared_records::FOLDER as RECORDS_FOLDER;

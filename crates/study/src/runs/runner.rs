@@ -1,7 +1,7 @@
 //! One run of a study: from its number to its row.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 
 use pounding_assembly::{
@@ -17,7 +17,9 @@ use pounding_time_history::{
 use sha2::{Digest, Sha256};
 
 use super::cache::Cache;
-use super::motions::{Motion, Motions};
+use super::motion::Motion;
+use super::motions::Motions;
+use super::named_files::named_files;
 use super::proportion::{factors_of_further, intensity_of_case};
 use super::structures::{looked_at, warnings_of_structures};
 use super::varied::leave_out_varied;
@@ -36,16 +38,6 @@ use pounding_files::checksum::hexadecimal;
 
 /// Buildings and motions kept for runs to come.
 const KEPT: usize = 64;
-
-/// A number as it stands in the case of a run.
-pub(crate) fn written(x: f64) -> String {
-    // Counts must stay whole numbers; all else is read back to the same bits.
-    if x.fract() == 0.0 && x.abs() < 1e15 {
-        format!("{x:.0}")
-    } else {
-        format!("{x:e}")
-    }
-}
 
 /// Makes runs.
 #[derive(Debug)]
@@ -602,32 +594,6 @@ fn varies(study: &Study, at: &str) -> bool {
     let at = case_text::Path::parse(at);
     let mut paths = study.variables.iter().flat_map(|v| v.target.paths());
     paths.any(|path| at.as_ref().is_ok_and(|at| at == path))
-}
-
-/// Hashes of the files that a study names beside its records, each file once.
-pub(super) fn named_files(study: &Study) -> Vec<String> {
-    let mut paths: Vec<PathBuf> = Vec::new();
-    for (what, path) in study.files() {
-        let named = [
-            "matrix",
-            "target spectrum",
-            "further record",
-            "force history",
-        ];
-        if named.contains(&what) && !paths.contains(&path) {
-            paths.push(path);
-        }
-    }
-    // A device or a pipe may never end.
-    let read = |path: PathBuf| match path.is_file() {
-        true => std::fs::read(path).ok(),
-        false => None,
-    };
-    let hash = |path: PathBuf| match read(path) {
-        Some(bytes) => hexadecimal(&Sha256::digest(bytes)),
-        None => "unreadable".to_owned(),
-    };
-    paths.into_iter().map(hash).collect()
 }
 
 /// A gap and the storeys on its left and right, from 1; `None` is a wall.

@@ -11,8 +11,8 @@ use std::time::UNIX_EPOCH;
 use serde::{Deserialize, Serialize};
 use sha2::{Digest, Sha256};
 
-use super::motions::Motion;
-use super::runner::named_files;
+use super::motion::Motion;
+use super::named_files::named_files;
 use crate::case_text::canonical;
 use crate::error::StudyError;
 use crate::study_file::{RecordKind, RecordSource, Study};

@@ -6,8 +6,7 @@ use std::sync::Arc;
 use pounding_case::document::Reader;
 
 use super::values::short;
-use crate::case_text::{Edit, Entry, Found, Lost, LostAmong, Path, entries, numbers};
-use crate::runs::written;
+use crate::case_text::{Edit, Entry, Found, Lost, LostAmong, Path, entries, numbers, written};
 
 /// An entry of the case that a variable changes.
 #[derive(Debug, Clone)]

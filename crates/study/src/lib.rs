@@ -27,13 +27,13 @@ mod fractiles;
 #[cfg(feature = "results")]
 pub mod comparison;
 #[cfg(feature = "results")]
-mod design;
-#[cfg(feature = "results")]
 mod error;
 #[cfg(feature = "results")]
 mod ida;
 #[cfg(feature = "results")]
 mod merge;
+#[cfg(feature = "results")]
+mod mixing;
 #[cfg(feature = "results")]
 mod parts;
 #[cfg(feature = "results")]
@@ -66,8 +66,6 @@ pub use dealt::Deal;
 pub use dealt::is_shard_of_check;
 
 #[cfg(feature = "results")]
-pub use design::{Design, MOST_DIMENSIONS};
-#[cfg(feature = "results")]
 pub use error::StudyError;
 pub use fractiles::fractile;
 #[cfg(feature = "results")]
@@ -90,8 +88,8 @@ pub use shard_name::ShardName;
 pub use shown::case_of_run;
 #[cfg(feature = "results")]
 pub use study_file::{
-    DemandKind, Distribution, HazardCurve, IdaSettings, IntensityMeasure, Limit, Spacing, Study,
-    Value, Values, Variable, hazard_schema, study_schema,
+    DemandKind, Design, Distribution, HazardCurve, IdaSettings, IntensityMeasure, Limit,
+    MOST_DIMENSIONS, Spacing, Study, Value, Values, Variable, hazard_schema, study_schema,
 };
 #[cfg(feature = "results")]
 pub use sweep::{

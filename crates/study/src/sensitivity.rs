@@ -332,7 +332,7 @@ mod tests {
     /// crossed with them is exact. With records of 100 sets each the record is told from chance, too.
     #[test]
     fn repeated_numbers_count_once() {
-        let unit = |set: usize, of: u64| crate::design::mixing::unit(&[11, set as u64, of]) - 0.5;
+        let unit = |set: usize, of: u64| crate::mixing::unit(&[11, set as u64, of]) - 0.5;
         for records in [1, 2] {
             for sets in [10, 200] {
                 let (mut x, mut y, mut z, mut gap, mut record, mut values) =

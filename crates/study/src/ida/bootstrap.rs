@@ -4,8 +4,8 @@ use pounding_time_history::in_parallel;
 
 use super::fragility::{Counts, FragilityFit, fit};
 use super::hazard::mean_annual_frequency;
-use crate::design::mixing::unit;
 use crate::fractiles::fractile;
+use crate::mixing::unit;
 use crate::study_file::HazardCurve;
 
 /// Sets of records that are drawn at least, and at most.

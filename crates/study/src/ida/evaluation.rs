@@ -15,10 +15,9 @@ use super::goodness::{
     self, Capacity, Evidence, FitRemark, GoodnessOfFit, Sampled, ShownIntensity,
 };
 use super::hazard::{self, least_frequency, mean_annual_frequency};
-use crate::design::Design;
 use crate::error::StudyError;
 use crate::fractiles::fractiles;
-use crate::study_file::{HazardCurve, IdaSettings, POUNDING, Study, Value, pounding_at};
+use crate::study_file::{Design, HazardCurve, IdaSettings, POUNDING, Study, Value, pounding_at};
 use pounding_results::study::ResultReader;
 
 /// Runs at one intensity.
@@ -1016,7 +1015,7 @@ mod tests {
         near(a.p_value, b.p_value);
         assert_eq!(a.degrees_of_freedom, b.degrees_of_freedom);
         let random = |record: usize, structure: usize| {
-            let unit = crate::design::mixing::unit(&[5, record as u64, structure as u64]);
+            let unit = crate::mixing::unit(&[5, record as u64, structure as u64]);
             libm::exp(2.0 * pounding_ground_motion::distributions::normal_quantile(unit))
         };
         let (one, ten) = (with_structures(1, &random), with_structures(10, &random));

@@ -466,7 +466,7 @@ mod tests {
     /// at 24 intensities.
     #[test]
     fn errors_are_those_of_sets_of_records() {
-        use crate::design::mixing::unit;
+        use crate::mixing::unit;
         const SETS: u64 = 600;
         const DISPERSION: f64 = 0.3;
         for (records, levels) in [(40_u64, 8_u64), (40, 24), (10, 24)] {

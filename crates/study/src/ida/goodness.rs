@@ -827,7 +827,7 @@ mod tests {
             let counts: Vec<Counts> = stripes
                 .map(|(intensity, level)| {
                     let reaches = |run: &u64| {
-                        let random = crate::design::mixing::unit(&[7, set, level, *run]);
+                        let random = crate::mixing::unit(&[7, set, level, *run]);
                         random < f.probability(*intensity)
                     };
                     Counts {

@@ -27,12 +27,11 @@ use pounding_results::study::isolated_peaks;
 
 use super::{Ending, ID, IsolatedQuantities, IsolatedRun, Layout, Row};
 use crate::case_text::{self, Edit, Lines, Variant, apply, canonical};
-use crate::design::Design;
 use crate::error::StudyError;
 use crate::gap_check::{Repeated, of_each_record, of_reading};
 use crate::study_file::{
-    IntensityMeasure, RecordKind, Study, Target, Value, Values, Variable, beside_that_across,
-    on_grounds_of_their_own,
+    Design, IntensityMeasure, RecordKind, Study, Target, Value, Values, Variable,
+    beside_that_across, on_grounds_of_their_own,
 };
 use pounding_files::checksum::hexadecimal;
 

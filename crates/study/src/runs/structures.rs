@@ -6,8 +6,7 @@ use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{System, Warning};
 
 use crate::case_text::{Edit, Variant};
-use crate::design::Design;
-use crate::study_file::{Study, Value, Values, Variable};
+use crate::study_file::{Design, Study, Value, Values, Variable};
 
 /// Most values of a variable, and rows of a list, that are looked at.
 const MOST_CHOICES: usize = 40;

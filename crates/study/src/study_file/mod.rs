@@ -4,6 +4,7 @@ mod annual_frequency;
 mod bare_numbers;
 mod context;
 mod demand_kind;
+mod design;
 mod distribution;
 mod files;
 mod hazard_curve;
@@ -23,6 +24,7 @@ mod varied_entry;
 use std::path::{Path as FilePath, PathBuf};
 
 pub use demand_kind::DemandKind;
+pub use design::{Design, MOST_DIMENSIONS};
 pub use distribution::Distribution;
 pub use hazard_curve::HazardCurve;
 pub use hazard_file::hazard_schema;
@@ -41,7 +43,6 @@ use pounding_case::{Case, CaseError};
 use pounding_ground_motion::Accelerogram;
 
 use crate::case_text::{Edit, Path};
-use crate::design::Design;
 use crate::error::StudyError;
 
 /// A study: one case, and what varies in it.

@@ -21,6 +21,7 @@ use crate::case_text::{Path as CasePath, root_key};
 use crate::faults::{parse_case, with_all};
 
 use super::context::{Base, Context, LawOfStorey};
+use super::design::{Design, SampledGrid, is_random};
 use super::ida::IdaTable;
 use super::keys::lacks;
 use super::readings::readings;
@@ -29,7 +30,6 @@ use super::variables::VariableTable;
 use super::{
     IntensityMeasure, Readings, RecordSource, Study, Target, Values, Variable, records, rows,
 };
-use crate::design::{Design, SampledGrid, is_random};
 use crate::error::StudyError;
 
 /// Runs of a chunk unless the study says otherwise: a second or less of work that can be

@@ -8,9 +8,8 @@ use pounding_case::document::Reader;
 use pounding_case::{Case, CaseTree};
 
 use super::records::stem;
-use super::{RecordKind, RecordSource, Study, Target, Value, Variable};
+use super::{Design, RecordKind, RecordSource, Study, Target, Value, Variable};
 use crate::case_text::{Path, Variant};
-use crate::design::Design;
 
 /// Most ways in which a study reads the record of the case: each is kept as long as it runs.
 const MOST_READINGS: usize = 10_000;

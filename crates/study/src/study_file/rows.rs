@@ -9,9 +9,8 @@ use pounding_case::{CaseError, CaseTree};
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 
 use super::context::{Base, Context};
-use super::{Value, Values, Variable};
+use super::{Design, Value, Values, Variable};
 use crate::case_text::{Edit, Variant};
-use crate::design::Design;
 
 /// Why a case cannot be read or assembled.
 pub(super) enum Refused {

@@ -2,10 +2,10 @@
 //! number alone, so that memory does not grow with the number of runs.
 
 mod latin_hypercube;
-pub(crate) mod mixing;
 mod sobol;
 
-use crate::study_file::{Target, Value, Values, Variable};
+use super::{Target, Value, Values, Variable};
+use crate::mixing;
 
 pub use sobol::MOST_DIMENSIONS;
 

@@ -2,7 +2,7 @@
 //! primitive polynomials and first direction numbers of Joe and Kuo (2008), their table
 //! `new-joe-kuo-6`.
 
-use super::mixing::bits;
+use crate::mixing::bits;
 
 /// Bits of a coordinate.
 pub(super) const BITS: u32 = 32;

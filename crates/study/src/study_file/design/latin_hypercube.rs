@@ -1,6 +1,6 @@
 //! Latin hypercube: a permutation of the shares for every variable.
 
-use super::mixing::{bits, unit};
+use crate::mixing::{bits, unit};
 
 /// Rounds of the Feistel network: four make a permutation that polynomially many looks
 /// cannot tell from a random one (Luby and Rackoff 1988); a few more cost nothing.

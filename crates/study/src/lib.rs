@@ -21,7 +21,6 @@ pub mod gap_check;
 // Studies replace and identify more than a single case.
 #[cfg_attr(not(feature = "results"), allow(dead_code, unused_imports))]
 mod case_text;
-mod dealt;
 mod fractiles;
 
 #[cfg(feature = "results")]
@@ -61,13 +60,12 @@ mod written_by_hand;
 /// mixed in a result unless that is asked for.
 pub const BUILD: &str = env!("POUNDING_BUILD");
 
-pub use dealt::Deal;
-#[cfg(feature = "results")]
-pub use dealt::is_shard_of_check;
-
 #[cfg(feature = "results")]
 pub use error::StudyError;
 pub use fractiles::fractile;
+pub use gap_check::Deal;
+#[cfg(feature = "results")]
+pub use gap_check::is_shard_of_check;
 #[cfg(feature = "results")]
 pub use ida::*;
 #[cfg(feature = "results")]

@@ -21,11 +21,10 @@ use pounding_gap_element::{APPROACH_VELOCITY_FLOOR, ImpactModel, ModelDescriptor
 use pounding_time_history::{BuildingOutcome, Peak, Recorder, StoreyPeaks, System, run};
 
 use crate::calibration::{calibrated, descriptors, references};
-use crate::dealt::{Deal, Numbers, Stored, identity};
 use crate::gap_check::{
-    Amplification, CaseUnderRecord, CheckError, CollapsedRecord, GapLevel, Progress, RecordDemand,
-    Repeated, UNWATCHED, amplification, collapsed_building, in_parallel, levels, rebuilt,
-    stand_or_collapse, warnings, without_collapsed,
+    Amplification, CaseUnderRecord, CheckError, CollapsedRecord, Deal, GapLevel, Numbers, Progress,
+    RecordDemand, Repeated, Stored, UNWATCHED, amplification, collapsed_building, identity,
+    in_parallel, levels, rebuilt, stand_or_collapse, warnings, without_collapsed,
 };
 
 /// What is asked for.

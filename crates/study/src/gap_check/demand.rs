@@ -1,11 +1,11 @@
 //! Demand of each record, and what pounding does at the provided gap.
 
-use crate::dealt::Numbers;
 use pounding_time_history::{
     BuildingOutcome, Gap, GapOutcome, LevelPlace, Peak, Recorder, System, TimeHistoryError,
     isolated_demand_beside, run,
 };
 
+use super::dealt::Numbers;
 use super::error::CheckError;
 use super::parallel::{Progress, runs_in_parallel};
 use super::records::CaseUnderRecord;

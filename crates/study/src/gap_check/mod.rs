@@ -6,6 +6,7 @@ mod band_extremes;
 mod code_answer;
 mod codes;
 mod collapse;
+mod dealt;
 mod demand;
 mod error;
 mod lower_roof;
@@ -28,6 +29,12 @@ pub use codes::{
 };
 pub use collapse::{CollapsedRecord, collapsed_building};
 pub(crate) use collapse::{stand_or_collapse, without_collapsed};
+pub use dealt::Deal;
+pub(crate) use dealt::identity;
+#[cfg(feature = "results")]
+pub use dealt::is_shard_of_check;
+#[cfg(feature = "results")]
+pub(crate) use dealt::{Numbers, Stored};
 pub use demand::{
     Amplification, AmplifiedQuantity, GapLevel, RecordDemand, amplification, demands,
 };
@@ -53,8 +60,7 @@ pub use sweep::{
 pub(crate) use demand::closes;
 pub(crate) use demand::levels;
 #[cfg(feature = "results")]
-pub(crate) use parallel::in_parallel;
-pub(crate) use parallel::{Ending, runs_in_parallel};
+pub(crate) use parallel::{Ending, in_parallel, runs_in_parallel};
 pub use systems::rebuilt;
 pub(crate) use warnings::warnings;
 #[cfg(feature = "results")]
@@ -64,8 +70,6 @@ pub(crate) use warnings::{
 
 use pounding_case::{Case, Separation};
 use pounding_time_history::{LevelOutcome, NamedPeak};
-
-use crate::dealt::{Deal, identity};
 
 /// What is asked for.
 #[derive(Debug, Clone, PartialEq)]

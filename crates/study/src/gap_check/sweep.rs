@@ -9,12 +9,12 @@ use pounding_time_history::{
 
 use super::SAME;
 use super::collapse::collapsed_building;
+use super::dealt::{Deal, Numbers, Stored};
 use super::demand::{Amplification, RecordDemand, amplification};
 use super::error::CheckError;
 use super::parallel::{Ending, Progress};
 use super::records::CaseUnderRecord;
 use super::systems::rebuilt;
-use crate::dealt::{Deal, Numbers, Stored};
 
 /// Most widths of a sweep: every one is a run of every record, whose peaks are kept.
 const MOST_POINTS: usize = 100_000;

@@ -9,7 +9,8 @@ mod files;
 #[cfg(feature = "results")]
 use std::path::PathBuf;
 
-use crate::gap_check::{CheckError, Ending, Progress, runs_in_parallel};
+use super::error::CheckError;
+use super::parallel::{Ending, Progress, runs_in_parallel};
 #[cfg(feature = "results")]
 use crate::sweep::Shard;
 
@@ -113,7 +114,7 @@ pub(crate) fn identity(
     _what: &str,
     _asked: &dyn std::fmt::Debug,
     _case: &pounding_case::Case,
-    _records: &[crate::gap_check::CaseUnderRecord],
+    _records: &[super::CaseUnderRecord],
 ) -> String {
     String::new()
 }

@@ -36,11 +36,13 @@ mod mixing;
 #[cfg(feature = "results")]
 mod parts;
 #[cfg(feature = "results")]
+mod result_name;
+#[cfg(feature = "results")]
 mod runs;
 #[cfg(feature = "results")]
 pub mod sensitivity;
 #[cfg(feature = "results")]
-mod shard_name;
+mod shard;
 #[cfg(feature = "results")]
 mod shown;
 #[cfg(feature = "results")]
@@ -69,11 +71,15 @@ pub use gap_check::is_shard_of_check;
 #[cfg(feature = "results")]
 pub use ida::*;
 #[cfg(feature = "results")]
-pub use merge::{MergeReport, merge, merge_saying, read_by_study, refuse_name_of_shard};
+pub use merge::{MergeReport, merge, merge_saying, read_by_study};
 #[cfg(feature = "results")]
 pub use pounding_results::study::{
     Coordinate, Description, Fault, MergeOptions, Part, ResultReader, StudyFileError, Survey,
     ranges, survey,
+};
+#[cfg(feature = "results")]
+pub use result_name::{
+    ShardName, default_result, default_result_of, refuse_name_of_shard, study_name,
 };
 #[cfg(feature = "results")]
 pub use runs::{
@@ -81,7 +87,7 @@ pub use runs::{
     RecordReport, Row,
 };
 #[cfg(feature = "results")]
-pub use shard_name::ShardName;
+pub use shard::Shard;
 #[cfg(feature = "results")]
 pub use shown::case_of_run;
 #[cfg(feature = "results")]
@@ -90,10 +96,7 @@ pub use study_file::{
     MOST_DIMENSIONS, Spacing, Study, Value, Values, Variable, hazard_schema, study_schema,
 };
 #[cfg(feature = "results")]
-pub use sweep::{
-    Progress, Shard, SweepOptions, SweepReport, default_result, default_result_of, parts_folder,
-    study_name, sweep, writable,
-};
+pub use sweep::{Progress, SweepOptions, SweepReport, parts_folder, sweep, writable};
 #[cfg(feature = "results")]
 pub use table::{RunTable, writable_table};
 #[cfg(feature = "results")]

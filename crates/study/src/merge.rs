@@ -8,9 +8,9 @@ use pounding_results::study::{Description, MergeOptions, ResultWriter, Shards};
 use pounding_results::{Inputs, Label};
 
 use crate::error::StudyError;
-use crate::shard_name::ShardName;
+use crate::result_name::{has_default_name, refuse_name_of_shard};
+use crate::shard::of_this_study;
 use crate::study_file::Study;
-use crate::sweep::{Shard, has_default_name, of_this_study};
 use crate::table::RunTable;
 
 /// What a merged result holds.
@@ -150,25 +150,6 @@ fn study_file(shards: &[PathBuf], merged: &Description, output: &Path) -> Option
     let content = pounding_files::input::read(&file).ok()?;
     let says_it = !merged.part.is_whole() || has_default_name(output, &file);
     (says_it && content == merged.study.as_bytes()).then_some(file)
-}
-
-/// What is no shard, or is another one, has no name of a shard: in a folder of shards it would be
-/// taken for that.
-///
-/// # Errors
-/// [`StudyError::NamedAsShard`].
-pub fn refuse_name_of_shard(output: &Path, own: Option<Shard>) -> Result<(), StudyError> {
-    let name = output.file_name().map(|name| name.to_string_lossy());
-    let is_other = |named: &ShardName| {
-        own.is_none_or(|own| (own.index, own.count) != (named.index, named.count))
-    };
-    match name.and_then(|name| ShardName::of(&name)).filter(is_other) {
-        Some(shard) => Err(StudyError::NamedAsShard {
-            path: output.to_owned(),
-            shard: format!("{} of {}", shard.index, shard.count),
-        }),
-        None => Ok(()),
-    }
 }
 
 /// A result of the study stays where it holds shards that these files do not, of which those of

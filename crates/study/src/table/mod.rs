@@ -1,6 +1,5 @@
 //! The rows as a table, CSV or Parquet: a line per run, a column for every variable and value.
 
-mod growing;
 mod parquet_table;
 
 use std::fs::File;
@@ -13,8 +12,6 @@ use pounding_results::study::{Axis, Description, Row, Value};
 use crate::error::StudyError;
 use parquet_table::{Cell, ParquetTable};
 use pounding_files::checksum::hexadecimal;
-
-pub(crate) use growing::GrowingTable;
 
 /// Heading of the last column: why a run failed, or what collapsed.
 pub(crate) const DIAGNOSIS: &str = "diagnosis";

@@ -12,7 +12,7 @@ use sha2::{Digest, Sha256};
 use super::{Made, Numbers, Stored};
 use crate::BUILD;
 use crate::gap_check::{CaseUnderRecord, CheckError, Ending, Progress, runs_in_parallel};
-use crate::sweep::Shard;
+use crate::shard::Shard;
 
 /// Makes the runs of a shard and stores them in its file, unless they stand there.
 pub(super) fn part<T: Stored>(

@@ -12,7 +12,7 @@ use std::path::PathBuf;
 use super::error::CheckError;
 use super::parallel::{Ending, Progress, runs_in_parallel};
 #[cfg(feature = "results")]
-use crate::sweep::Shard;
+use crate::shard::Shard;
 
 #[cfg(feature = "results")]
 pub(crate) use files::identity;

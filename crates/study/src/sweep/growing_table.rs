@@ -4,17 +4,17 @@ use std::path::Path;
 
 use pounding_results::study::Description;
 
-use super::RunTable;
 use crate::error::StudyError;
 use crate::parts::{Parts, RowsInOrder};
 use crate::study_file::Study;
+use crate::table::RunTable;
 
 /// The table of a study whose runs are being made. It gets the row of a run as soon as that run
 /// and all before it are stored, so that its bytes depend on neither threads nor interruptions.
 /// It stands beside its place until it is finished: a study that is killed leaves no half table
 /// under its name, and one that goes on begins the table anew from the stored runs.
 #[derive(Debug)]
-pub(crate) struct GrowingTable<'s> {
+pub(super) struct GrowingTable<'s> {
     study: &'s Study,
     table: RunTable,
     rows: RowsInOrder,
@@ -25,7 +25,7 @@ impl<'s> GrowingTable<'s> {
     ///
     /// # Errors
     /// [`StudyError::Table`].
-    pub(crate) fn create(
+    pub(super) fn create(
         study: &'s Study,
         path: &Path,
         description: &Description,
@@ -41,7 +41,7 @@ impl<'s> GrowingTable<'s> {
     ///
     /// # Errors
     /// [`StudyError::Table`], or [`StudyError::File`] of a stored run that cannot be read.
-    pub(crate) fn follow(&mut self, parts: &Parts) -> Result<(), StudyError> {
+    pub(super) fn follow(&mut self, parts: &Parts) -> Result<(), StudyError> {
         while let Some(row) = self.rows.next(parts)? {
             let pushed = self.table.push(&row, &self.study.point(row.run));
             pushed.map_err(with_stored_runs)?;
@@ -53,7 +53,7 @@ impl<'s> GrowingTable<'s> {
     ///
     /// # Errors
     /// As [`follow`](Self::follow).
-    pub(crate) fn finish(mut self, parts: &Parts) -> Result<(), StudyError> {
+    pub(super) fn finish(mut self, parts: &Parts) -> Result<(), StudyError> {
         self.follow(parts)?;
         self.table.finish().map_err(with_stored_runs)
     }

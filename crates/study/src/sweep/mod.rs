@@ -1,67 +1,28 @@
 //! A study from its file to its result: resume, shards, failures.
 
-use std::ffi::OsString;
+mod growing_table;
+
 use std::ops::{ControlFlow, Range};
 use std::path::{Path, PathBuf};
-use std::str::FromStr;
 use std::time::Duration;
 
 use pounding_files::PartFile;
 use pounding_files::checksum::WithoutChecksum;
 use pounding_results::Label;
 use pounding_results::study::{
-    Coordinate, Description, MOST_SHARDS, Part, ResultReader, ResultWriter, StudyFileError,
+    Coordinate, Description, ResultReader, ResultWriter, StudyFileError,
 };
+
+use growing_table::GrowingTable;
 
 use crate::BUILD;
 use crate::error::StudyError;
-use crate::merge::refuse_name_of_shard;
 use crate::parts::{Parts, Store};
+use crate::result_name::{ShardName, has_default_name, refuse_name_of_shard};
 use crate::runs::{Ending, OPENING, RecordReport, Row, Runner, run_all};
-use crate::shard_name::ShardName;
+use crate::shard::{Shard, of_this_study};
 use crate::study_file::{Study, Value, Values, Variable, VariedEntry};
-use crate::table::{GrowingTable, RunTable};
-
-/// Part `index` of `count` of a study.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shard {
-    /// Which, from 1.
-    pub index: usize,
-    /// Of how many.
-    pub count: usize,
-}
-
-impl Shard {
-    /// All runs.
-    pub const WHOLE: Self = Self { index: 1, count: 1 };
-
-    /// Whether there can be such a one.
-    fn exists(self) -> bool {
-        self.count <= MOST_SHARDS && (1..=self.count).contains(&self.index)
-    }
-
-    /// What its result holds; the whole study if its numbers cannot be.
-    fn part(self) -> Part {
-        Part::of(vec![self.index], self.count).unwrap_or_else(Part::whole)
-    }
-}
-
-impl FromStr for Shard {
-    type Err = StudyError;
-
-    /// Reads `i/n`.
-    fn from_str(text: &str) -> Result<Self, StudyError> {
-        let parts = text.split_once('/');
-        let numbers =
-            parts.and_then(|(i, n)| Some((i.trim().parse().ok()?, n.trim().parse().ok()?)));
-        match numbers.map(|(index, count)| Self { index, count }) {
-            Some(shard) if shard.exists() => Ok(shard),
-            _ => Err(StudyError::Shard {
-                text: text.to_owned(),
-            }),
-        }
-    }
-}
+use crate::table::RunTable;
 
 /// How a study is run.
 #[derive(Debug, Clone, PartialEq)]
@@ -530,14 +491,6 @@ fn other(found: &Description, wanted: &Description) -> Option<String> {
     }
 }
 
-/// What holds these shards of this study.
-pub(crate) fn of_this_study(part: &Part) -> String {
-    match part.is_whole() {
-        true => "it is the result of the whole study".to_owned(),
-        false => format!("it is {part} of this study"),
-    }
-}
-
 /// Rows of a result that are held at once.
 const READ_AT_ONCE: usize = 1024;
 
@@ -583,49 +536,6 @@ pub fn writable(path: &Path) -> Result<(), StudyError> {
     PartFile::beside(path).map(drop).map_err(failed)?;
     Ok(())
 }
-
-/// The name of a study: that of its file, or of its folder where the file is called `study.toml`.
-#[must_use]
-pub fn study_name(study: &Path) -> OsString {
-    let stem = study.file_stem().unwrap_or_default();
-    let folder = || Some(study.canonicalize().ok()?.parent()?.file_name()?.to_owned());
-    match stem == GENERIC {
-        true => folder().unwrap_or_else(|| stem.to_owned()),
-        false => stem.to_owned(),
-    }
-}
-
-/// Where the result of a whole study is written if no other name is given: in the current
-/// folder. A folder with a `study.toml` may hold a `case.toml` as well, whose result has the
-/// folder's name: that of the study is told apart.
-#[must_use]
-pub fn default_result(study: &Path) -> PathBuf {
-    default_result_of(study_name(study), study)
-}
-
-/// The same for a study whose name is known, though its file may be elsewhere: only what the file is
-/// called counts.
-#[must_use]
-pub fn default_result_of(mut name: OsString, study: &Path) -> PathBuf {
-    if study.file_stem().unwrap_or_default() == GENERIC {
-        name.push(".");
-        name.push(GENERIC);
-    }
-    name.push(".h5");
-    PathBuf::from(name)
-}
-
-/// Whether an output is called as results of the study are by default: that of the command line, in
-/// the current folder, or in another one that of Python, beside the study file.
-pub(crate) fn has_default_name(output: &Path, study: &Path) -> bool {
-    let elsewhere = study
-        .parent()
-        .is_some_and(|folder| !folder.as_os_str().is_empty() && folder != Path::new("."));
-    output == default_result(study) || elsewhere && output == study.with_extension("h5")
-}
-
-/// What a study file is called where its folder says more.
-const GENERIC: &str = "study";
 
 /// The folder in which the finished runs of a result are kept until it is complete.
 #[must_use]

@@ -8,15 +8,14 @@ use std::ops::Range;
 use std::path::Path;
 
 use pounding_assembly::{
-    Assembly, AssemblyError, assemble_with_record, read_record, regap, scale_record,
-    unknown_parameter,
+    AssemblyError, assemble_at_rest, read_record, regap, scale_record, unknown_parameter,
 };
 use pounding_case::{
     Analysis, Building, BuildingPlaces, Case, CaseError, Damping, Draft, GivenFiles, Located,
     Parameter, Quantity,
 };
 use pounding_gap_element::registry;
-use pounding_ground_motion::{AccelerationUnit, Accelerogram, GroundMotionError};
+use pounding_ground_motion::GroundMotionError;
 use pounding_hysteresis::help_among_gaps;
 use pounding_time_history::TimeHistoryError;
 use toml::de::{DeTable, DeValue};
@@ -211,7 +210,7 @@ fn words(draft: &Draft) -> Vec<CaseError> {
             case.ground_motion.across = None;
         }
     }
-    let found = of_case(assembly(&case));
+    let found = of_case(assemble_at_rest(&case));
     let found = found.into_iter().filter(|e| e.span.start != nowhere);
     let follows = |e: &CaseError| draft.incomplete.contains(&e.span) && !is_unknown(&case, e);
     let found = found.filter(|e| !follows(e));
@@ -255,7 +254,7 @@ fn options(case: &Case) -> Vec<CaseError> {
     // Which moves floors of a plan alone.
     alone.ground_motion.across = None;
     alone.buildings = vec![plain_building()];
-    match assembly(&alone) {
+    match assemble_at_rest(&alone) {
         Err(AssemblyError::System(TimeHistoryError::Option {
             option,
             value,
@@ -294,7 +293,7 @@ fn floors(case: &Case) -> Vec<CaseError> {
     if gaps.is_empty() {
         return Vec::new();
     }
-    let Ok(alone) = assembly(&base) else {
+    let Ok(alone) = assemble_at_rest(&base) else {
         return Vec::new();
     };
     let stiffness = Parameter {
@@ -322,7 +321,7 @@ fn floors(case: &Case) -> Vec<CaseError> {
         base.gaps = vec![gap];
         // Columns that are hit belong to buildings, which are then others.
         errors.extend(match hits_columns {
-            true => of_case(assembly(&base)),
+            true => of_case(assemble_at_rest(&base)),
             false => of_case(regap(&base, &alone.system)),
         });
     }
@@ -379,12 +378,6 @@ fn record(draft: &Draft) -> Vec<CaseError> {
 fn of_record(case: &Case, error: &GroundMotionError) -> CaseError {
     let place = case.ground_motion.span_of(error.option().unwrap_or("file"));
     case.error(place, error.to_string(), error.help())
-}
-
-fn assembly(case: &Case) -> Result<Assembly, AssemblyError> {
-    let unit = AccelerationUnit::MetrePerSecondSquared;
-    let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
-    assemble_with_record(case, &rest)
 }
 
 fn of_case<T>(result: Result<T, AssemblyError>) -> Vec<CaseError> {

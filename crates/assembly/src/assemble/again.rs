@@ -2,7 +2,7 @@
 //! keep what was computed of them.
 
 use pounding_case::Case;
-use pounding_ground_motion::Accelerogram;
+use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 use pounding_time_history::{RunOptions, System};
 
 use super::impact_models::models;
@@ -37,6 +37,15 @@ pub fn assemble_with_record(
         accelerogram: accelerogram.clone(),
         unused: unused(case, out_of_step),
     })
+}
+
+/// The same on ground that rests, where only what stands on it matters.
+///
+/// # Errors
+/// As [`assemble_with_record`].
+pub fn assemble_at_rest(case: &Case) -> Result<Assembly, AssemblyError> {
+    let unit = AccelerationUnit::MetrePerSecondSquared;
+    assemble_with_record(case, &Accelerogram::new(vec![0.0; 2], unit, 1.0)?)
 }
 
 /// The buildings and links of a case under this motion, without its gaps; with the points of

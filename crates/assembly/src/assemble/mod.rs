@@ -16,7 +16,7 @@ mod parts;
 mod plan;
 mod unlikely;
 
-pub use again::{assemble_with_record, assemble_without_gaps, regap};
+pub use again::{assemble_at_rest, assemble_with_record, assemble_without_gaps, regap};
 pub use excitation::{
     RecordFiles, further_record, process_record, read_record, read_target, scale_record,
     scale_target,

@@ -17,8 +17,6 @@ use crate::chart;
 use crate::error::ReportError;
 use crate::figure::{Curve, Panel, plots, plots_of_size};
 
-/// Rows that are read at once.
-const BLOCK: usize = 4096;
 /// Failures and collapses that are listed.
 const LISTED: usize = 20;
 /// Parts of the range of a variable that a curve has a point for.
@@ -124,30 +122,26 @@ fn read(result: &ResultReader) -> Result<Runs, StudyFileError> {
         failed: Vec::new(),
         collapsed: Vec::new(),
     };
-    let mut first = 0;
-    while first < result.rows {
-        let last = (first + BLOCK).min(result.rows);
-        for (row, coordinates) in result.block(first..last)? {
-            for (column, value) in runs.coordinates.iter_mut().zip(coordinates) {
-                column.push(match value {
-                    pounding_study::Value::Number(x) => x,
-                    pounding_study::Value::Choice(place) => place as f64,
-                });
-            }
-            for (column, value) in runs.values.iter_mut().zip(&row.values) {
-                column.push(*value);
-            }
-            runs.numbers.push(row.run);
-            runs.fell.push(row.ending.collapsed());
-            let diagnosis = row.ending.diagnosis().unwrap_or_default().to_owned();
-            if row.ending.failed() {
-                runs.failed.push((row.run, diagnosis));
-            } else if row.ending.collapsed() {
-                runs.collapsed.push((row.run, diagnosis));
-            }
+    result.each(|row, coordinates| {
+        for (column, value) in runs.coordinates.iter_mut().zip(coordinates) {
+            column.push(match value {
+                pounding_study::Value::Number(x) => x,
+                pounding_study::Value::Choice(place) => place as f64,
+            });
         }
-        first = last;
-    }
+        for (column, value) in runs.values.iter_mut().zip(&row.values) {
+            column.push(*value);
+        }
+        runs.numbers.push(row.run);
+        runs.fell.push(row.ending.collapsed());
+        let diagnosis = row.ending.diagnosis().unwrap_or_default().to_owned();
+        if row.ending.failed() {
+            runs.failed.push((row.run, diagnosis));
+        } else if row.ending.collapsed() {
+            runs.collapsed.push((row.run, diagnosis));
+        }
+        Ok::<(), StudyFileError>(())
+    })?;
     leave_out_round_off(result, &mut runs);
     Ok(runs)
 }

@@ -8,9 +8,6 @@ use super::answer::unit_of;
 use super::numbers::figures;
 use super::sentence::Sentence;
 
-/// Rows that are read at once.
-const BLOCK: usize = 4096;
-
 /// Quantities of which a sweep says the greatest value, and has figures: of the run's levels or storeys the greatest.
 pub(super) const DRAWN: [&str; 5] = [
     "impacts",
@@ -76,25 +73,24 @@ impl SweepAnswer {
         let mut greatest: Vec<Option<Greatest>> = vec![None; layout.columns()];
         let (mut failed, mut collapsed, mut closed) = (0, 0, 0);
         let mut rigid_impacts = false;
-        for first in (0..result.rows).step_by(BLOCK) {
-            for (row, _) in result.block(first..(first + BLOCK).min(result.rows))? {
-                failed += usize::from(row.ending.failed());
-                collapsed += usize::from(row.ending.collapsed() && !row.ending.failed());
-                closed += usize::from(impacts.iter().any(|c| row.values[*c] > 0.0));
-                rigid_impacts |= impacts
-                    .iter()
-                    .zip(&forces)
-                    .any(|(n, force)| row.values[*n] > 0.0 && row.values[*force].is_nan());
-                for (greatest, value) in greatest.iter_mut().zip(&row.values) {
-                    if !value.is_nan() && greatest.is_none_or(|g| *value > g.value) {
-                        *greatest = Some(Greatest {
-                            value: *value,
-                            run: row.run,
-                        });
-                    }
+        result.each(|row, _| {
+            failed += usize::from(row.ending.failed());
+            collapsed += usize::from(row.ending.collapsed() && !row.ending.failed());
+            closed += usize::from(impacts.iter().any(|c| row.values[*c] > 0.0));
+            rigid_impacts |= impacts
+                .iter()
+                .zip(&forces)
+                .any(|(n, force)| row.values[*n] > 0.0 && row.values[*force].is_nan());
+            for (greatest, value) in greatest.iter_mut().zip(&row.values) {
+                if !value.is_nan() && greatest.is_none_or(|g| *value > g.value) {
+                    *greatest = Some(Greatest {
+                        value: *value,
+                        run: row.run,
+                    });
                 }
             }
-        }
+            Ok::<(), StudyFileError>(())
+        })?;
         let stood = result.rows > failed + collapsed;
         let over = |columns: &[usize]| {
             let known = columns

@@ -142,7 +142,7 @@ const QUANTITIES: [Quantity; 17] = [
 ];
 
 /// The quantity of studies that ask for it.
-const ISOLATED_DEMAND: Quantity = quantity(
+pub const ISOLATED_DEMAND: Quantity = quantity(
     Axis::Level,
     "isolated_demand",
     "m",

@@ -12,8 +12,9 @@ mod writing;
 pub use crate::part::{MOST_SHARDS, Part, numbers, ranges};
 pub use error::StudyFileError;
 pub use layout::{
-    Axis, COLUMN_SHEAR, IsolatedQuantities, IsolatedRun, LEVEL_QUANTITIES, Layout, LevelQuantity,
-    OPENING, Place, Quantity, RESPONSES, Response, is_result, isolated_peaks, quantity_names,
+    Axis, COLUMN_SHEAR, ISOLATED_DEMAND, IsolatedQuantities, IsolatedRun, LEVEL_QUANTITIES, Layout,
+    LevelQuantity, OPENING, Place, Quantity, RESPONSES, Response, is_result, isolated_peaks,
+    quantity_names,
 };
 pub use reading::ResultReader;
 pub use row::{Ending, ID, Row, Value};

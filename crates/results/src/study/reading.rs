@@ -8,10 +8,10 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, File, H5Type};
 use pounding_files::checksum::{Checksum, ChecksumError, WithoutChecksum};
 
-use super::datasets::{CHOSEN_QUANTITIES, FLOAT32, Id, MERGED_SHARDS, NUMBERS};
+use super::datasets::{BLOCK, CHOSEN_QUANTITIES, FLOAT32, Id, MERGED_SHARDS, NUMBERS};
 use super::{
-    Axis, Coordinate, Description, Ending, IsolatedQuantities, Layout, Part, Place, Row,
-    StudyFileError, Value, isolated_peaks, numbers,
+    Axis, Coordinate, Description, Ending, ISOLATED_DEMAND, IsolatedQuantities, Layout, Part,
+    Place, Row, StudyFileError, Value, isolated_peaks, numbers,
 };
 use crate::watch::Reading;
 use crate::{OpenError, ResultFile, Stamp, dataset, number, text, texts, values};
@@ -173,6 +173,23 @@ impl ResultReader {
             let (flag, _) = ending.status();
             status.iter().filter(|status| **status == flag).count()
         }))
+    }
+
+    /// Hands over every row, with the values of the variables; those of a block are held at once.
+    ///
+    /// # Errors
+    /// Rows that cannot be read, or that `take` refuses.
+    pub fn each<E: From<StudyFileError>>(
+        &self,
+        mut take: impl FnMut(Row, Vec<Value>) -> Result<(), E>,
+    ) -> Result<(), E> {
+        for start in (0..self.rows).step_by(BLOCK) {
+            let block = self.block(start..(start + BLOCK).min(self.rows))?;
+            block
+                .into_iter()
+                .try_for_each(|(row, point)| take(row, point))?;
+        }
+        Ok(())
     }
 
     /// Rows at these places of the file, with the values of the variables.
@@ -473,7 +490,7 @@ fn layout(
         |own| stores(own.peak.name),
         |own| stores(own.storey.name) || stores(own.isolated.name),
         IsolatedQuantities {
-            demand: stores("isolated_demand"),
+            demand: stores(ISOLATED_DEMAND.name),
             peaks: isolated_peaks().any(stores),
         },
     );

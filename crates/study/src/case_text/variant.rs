@@ -73,8 +73,7 @@ mod tests {
     use std::cell::RefCell;
     use std::collections::BTreeMap;
 
-    use pounding_assembly::assemble_with_record;
-    use pounding_ground_motion::{AccelerationUnit, Accelerogram};
+    use pounding_assembly::assemble_at_rest;
     use proptest::prelude::*;
     use proptest::sample::{Index, select};
     use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -324,10 +323,8 @@ mod tests {
             prop::collection::vec(any::<Index>(), 2),
         );
         let strategy = (cases(), prop::collection::vec(one, 1..3));
-        let unit = AccelerationUnit::MetrePerSecondSquared;
-        let at_rest = Accelerogram::new(vec![0.0; 2], unit, 1.0).unwrap();
         let assembled = |case: &Case| {
-            let assembly = assemble_with_record(case, &at_rest)?;
+            let assembly = assemble_at_rest(case)?;
             Ok(format!("{:?} {:?}", assembly.system, assembly.options))
         };
         let seen = RefCell::new(BTreeMap::new());

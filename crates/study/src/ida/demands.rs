@@ -3,14 +3,15 @@
 use std::ops::Range;
 
 use pounding_case::{Case, Side};
+use pounding_results::study::ISOLATED_DEMAND;
 
 use crate::runs::{Axis, LEVEL_QUANTITIES, Layout, Place};
 use crate::study_file::{DemandKind, Limit};
 
 /// The demand that asks the buildings without gaps.
-const ISOLATED: &str = "isolated_demand";
+pub(super) const ISOLATED: &str = ISOLATED_DEMAND.name;
 /// The demand that counts.
-const IMPACTS: &str = "impacts";
+pub(super) const IMPACTS: &str = "impacts";
 
 /// Columns over which the maximum value is taken.
 #[derive(Debug, Clone, PartialEq)]
@@ -196,7 +197,7 @@ pub(super) fn usual(
     for gap in groups(&layout.levels) {
         let mine = |column: usize| layout.levels[column].of == gap;
         for (name, unit) in [
-            ("isolated_demand", "m"),
+            (ISOLATED, "m"),
             (FORCE, "N"),
             ("peak_column_shear", "N"),
             ("peak_opening", "m"),
@@ -280,7 +281,7 @@ pub(super) fn of_limit(
         DemandKind::LinkDeformation => ("peak_link_deformation", "m", Axis::LinkLevel),
         DemandKind::Impulse => ("impulse_max", "N s", Axis::Level),
         DemandKind::Impacts => (IMPACTS, "1", Axis::Level),
-        DemandKind::IsolatedDemand => ("isolated_demand", "m", Axis::Level),
+        DemandKind::IsolatedDemand => (ISOLATED, "m", Axis::Level),
     };
     let mine = |column: usize| match axis {
         Axis::Level => limit.places.is_empty() || limit.places.contains(&column),

@@ -8,7 +8,8 @@ use pounding_catalogue::STANDARD_GRAVITY;
 
 use super::bootstrap::{FrequencyBounds, RecordCounts, bootstrap_sets, frequency_bounds};
 use super::demands::{
-    Demand, Lack, isolated_buildings, of_gap, of_limit, sides_of_gaps, usual, yielding_buildings,
+    Demand, IMPACTS, ISOLATED, Lack, isolated_buildings, of_gap, of_limit, sides_of_gaps, usual,
+    yielding_buildings,
 };
 use super::fragility::{Counts, CurveOfRuns, FragilityFit, fit};
 use super::goodness::{
@@ -302,10 +303,10 @@ pub fn evaluate(
         .iter()
         .cloned()
         .chain(limits.iter().map(|(d, _)| d.clone()))
-        .chain(gaps.iter().map(|g| of_gap(layout, "isolated_demand", g)))
-        .chain(gaps.iter().map(|g| of_gap(layout, "impacts", g)))
+        .chain(gaps.iter().map(|g| of_gap(layout, ISOLATED, g)))
+        .chain(gaps.iter().map(|g| of_gap(layout, IMPACTS, g)))
         .collect();
-    let mut intensities = intensities(study, settings);
+    let mut intensities = study.variables[settings.intensity].values.numbers();
     intensities.sort_by(f64::total_cmp);
     // In a list several records have the same.
     intensities.dedup();
@@ -413,18 +414,6 @@ pub fn evaluate(
     })
 }
 
-fn intensities(study: &Study, settings: &IdaSettings) -> Vec<f64> {
-    let values = &study.variables[settings.intensity].values;
-    let number = |i| match values.at(i) {
-        Value::Number(x) => x,
-        Value::Choice(_) => f64::NAN,
-    };
-    (0..values.count().unwrap_or(0)).map(number).collect()
-}
-
-/// Rows of the result that are held at once.
-const BLOCK: usize = 1024;
-
 /// Demands of which there are no fractiles.
 fn of_demands(left_out: &[(String, Lack)]) -> Vec<String> {
     let said = |lack: Lack, reason: &str| {
@@ -449,40 +438,39 @@ fn runs(
     let mut lacking = vec![None; needs.len()];
     let mut structures: BTreeMap<Vec<u64>, usize> = BTreeMap::new();
     let mut samples: BTreeMap<[usize; 2], usize> = BTreeMap::new();
-    for start in (0..result.rows).step_by(BLOCK) {
-        for (row, point) in result.block(start..(start + BLOCK).min(result.rows))? {
-            let Value::Number(x) = point[settings.intensity] else {
-                continue;
-            };
-            let record = match point[settings.record] {
-                Value::Choice(record) => records[record],
-                Value::Number(_) => 0,
-            };
-            let others = point.iter().enumerate();
-            let others = others.filter(|(i, _)| ![settings.intensity, settings.record].contains(i));
-            let others: Vec<u64> = others.map(|(_, value)| value.bits()).collect();
-            let next = structures.len();
-            let structure = *structures.entry(others).or_insert(next);
-            let next = samples.len();
-            if !row.ending.failed() && !row.ending.collapsed() {
-                for (lacking, demand) in lacking.iter_mut().zip(needs) {
-                    *lacking = lacking.or_else(|| demand.lacks(&row.values));
-                }
+    result.each(|row, point| {
+        let Value::Number(x) = point[settings.intensity] else {
+            return Ok(());
+        };
+        let record = match point[settings.record] {
+            Value::Choice(record) => records[record],
+            Value::Number(_) => 0,
+        };
+        let others = point.iter().enumerate();
+        let others = others.filter(|(i, _)| ![settings.intensity, settings.record].contains(i));
+        let others: Vec<u64> = others.map(|(_, value)| value.bits()).collect();
+        let next = structures.len();
+        let structure = *structures.entry(others).or_insert(next);
+        let next = samples.len();
+        if !row.ending.failed() && !row.ending.collapsed() {
+            for (lacking, demand) in lacking.iter_mut().zip(needs) {
+                *lacking = lacking.or_else(|| demand.lacks(&row.values));
             }
-            runs.push(Run {
-                record,
-                structure,
-                sample: *samples.entry([record, structure]).or_insert(next),
-                level: intensities.iter().position(|i| *i == x).unwrap_or(0),
-                failed: row.ending.failed(),
-                collapsed: row.ending.collapsed(),
-                demands: needs
-                    .iter()
-                    .map(|d| d.of_run(&row.values, row.ending.collapsed()))
-                    .collect(),
-            });
         }
-    }
+        runs.push(Run {
+            record,
+            structure,
+            sample: *samples.entry([record, structure]).or_insert(next),
+            level: intensities.iter().position(|i| *i == x).unwrap_or(0),
+            failed: row.ending.failed(),
+            collapsed: row.ending.collapsed(),
+            demands: needs
+                .iter()
+                .map(|d| d.of_run(&row.values, row.ending.collapsed()))
+                .collect(),
+        });
+        Ok::<(), StudyError>(())
+    })?;
     Ok((runs, lacking))
 }
 

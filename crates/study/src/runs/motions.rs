@@ -7,7 +7,7 @@ use super::motion::{Motion, motion};
 use super::shared_records::{self, SharedRecords};
 use crate::error::StudyError;
 use crate::gap_check::Shape;
-use crate::study_file::{RecordKind, RecordSource, Study, Target};
+use crate::study_file::{RecordKind, RecordSource, Study};
 
 /// All motions; those that cannot be read with the reason.
 #[derive(Debug, Clone)]
@@ -45,7 +45,7 @@ impl Motions {
         let known = |source: &RecordSource| shared.as_ref().and_then(|s| s.known(source));
         let all = study.records.iter().map(|source| match known(source) {
             Some(known) => Ok(known),
-            None => read(study, &source.kind),
+            None => read(&source.kind, study),
         });
         let mut motions = Self { all: all.collect() };
         motions.check(study, keep_failures)?;
@@ -101,7 +101,7 @@ impl Motions {
             }
             let source = &study.records[*number];
             let copy = folder.and_then(|f| shared_records::copy(f, source, &known.sha256));
-            let made = read(study, copy.as_ref().unwrap_or(&source.kind));
+            let made = read(copy.as_ref().unwrap_or(&source.kind), study);
             self.all[*number] = match made {
                 Ok(made) if made.sha256 != known.sha256 => Err(format!(
                     "it has changed since the study was begun (SHA-256 {}, now {})",
@@ -140,10 +140,6 @@ impl Motions {
 }
 
 /// Reads a motion of a study.
-fn read(study: &Study, kind: &RecordKind) -> Result<Motion, String> {
-    let measure = study.variables.iter().find_map(|v| match &v.target {
-        Target::Intensity(measure) => Some(measure),
-        _ => None,
-    });
-    motion(kind, measure).map_err(|e| e.to_string())
+fn read(kind: &RecordKind, study: &Study) -> Result<Motion, String> {
+    motion(kind, study.measure()).map_err(|e| e.to_string())
 }

@@ -6,7 +6,7 @@ use pounding_case::{Building, Case, GroundMotion};
 use pounding_ground_motion::Accelerogram;
 
 use crate::error::StudyError;
-use crate::study_file::{Study, Target};
+use crate::study_file::{Study, Variable};
 
 /// Records beside that of the case, with the places of their scales.
 pub(crate) fn further_motions(case: &Case) -> Vec<(String, &GroundMotion)> {
@@ -27,22 +27,17 @@ pub(crate) fn further_motions(case: &Case) -> Vec<(String, &GroundMotion)> {
 /// # Errors
 /// A record of the case that cannot be read or has no intensity.
 pub(crate) fn intensity_of_case(study: &Study) -> Result<Option<f64>, StudyError> {
-    let targets = || study.variables.iter().map(|v| &v.target);
-    let measure = targets().find_map(|target| match target {
-        Target::Intensity(measure) => Some(measure),
-        _ => None,
-    });
-    let (Some(measure), true) = (measure, targets().any(|t| matches!(t, Target::Record))) else {
+    let (Some(measure), true) = (study.measure(), study.has_records()) else {
         return Ok(None);
     };
-    let gives_ground = |target: &Target| {
-        let mut paths = target.paths();
+    let gives_ground = |variable: &Variable| {
+        let mut paths = variable.target.paths();
         paths.any(|path| path.table() == "building" && path.leads_through("ground"))
     };
     let base = &study.base;
     let own = |b: &Building| b.ground.as_ref().is_some_and(|g| g.value.motion.is_some());
     let kept = || study.records.iter().any(|r| !r.kind.brings_across());
-    let along = base.buildings.iter().any(own) || targets().any(gives_ground);
+    let along = base.buildings.iter().any(own) || study.variables.iter().any(gives_ground);
     if !(along || base.ground_motion.across.is_some() && kept()) {
         return Ok(None);
     }

@@ -5,8 +5,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use pounding_assembly::{
-    AssemblyError, assemble_with_record, assemble_without_gaps, methods_that_take, regap,
-    scale_record,
+    AssemblyError, assemble_at_rest, assemble_without_gaps, methods_that_take, regap, scale_record,
 };
 use pounding_case::{Case, CaseTree};
 use pounding_ground_motion::Accelerogram;
@@ -74,14 +73,12 @@ impl<'s> Runner<'s> {
         folder: Option<&Path>,
     ) -> Result<Self, StudyError> {
         let motions = Motions::read(study, keep_failures, folder)?;
-        let unit = pounding_ground_motion::AccelerationUnit::MetrePerSecondSquared;
-        let rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
         let mut base = study.base.clone();
         if varies(study, "analysis.method") {
             // Keys that one method does not take are for others.
             base.analysis.places.clear();
         }
-        let assembly = assemble_with_record(&base, &rest)?;
+        let assembly = assemble_at_rest(&base)?;
         let averaged = assembly.warnings_of_buildings();
         let system = assembly.system;
         let isolated = IsolatedQuantities {
@@ -114,7 +111,7 @@ impl<'s> Runner<'s> {
         let varied = leave_out_varied(&mut layout, study, &system);
         let base =
             CaseTree::parse(&study.base.source, &study.base.file).map_err(AssemblyError::Case)?;
-        let mut warnings = warnings_of_structures(study, &base, &system, &rest);
+        let mut warnings = warnings_of_structures(study, &base, &system);
         warnings.extend(averaged);
         let meant = study.base.gaps.iter().filter(|g| g.floor_to_floor);
         warnings.extend(meant.filter(|g| varied.contains(&g.name)).map(|gap| {
@@ -178,8 +175,7 @@ impl<'s> Runner<'s> {
         warnings.extend(Repeated::by(motions.all.len(), same).warnings(&names));
         let stores = |name: &str| layout.quantities.iter().any(|q| q.name == name);
         let rigid_of_case = has_rigid_impacts(&system);
-        if stores("peak_acceleration_absolute") && may_be_rigid(study, &base, rigid_of_case, &rest)
-        {
+        if stores("peak_acceleration_absolute") && may_be_rigid(study, &base, rigid_of_case) {
             warnings.push(JUMPS.to_owned());
         }
         Ok(Self {
@@ -537,18 +533,12 @@ fn has_rigid_impacts(system: &System) -> bool {
 
 /// Whether impacts are rigid in some run, as those of the case are or as a value of a variable
 /// makes them.
-fn may_be_rigid(
-    study: &Study,
-    base: &CaseTree<'_>,
-    rigid_of_case: bool,
-    rest: &Accelerogram,
-) -> bool {
+fn may_be_rigid(study: &Study, base: &CaseTree<'_>, rigid_of_case: bool) -> bool {
     let of_value = |variable: &Variable, choice: usize| {
         let edits = variable.target.edits(&Value::Choice(choice));
         let variant = Variant::new(base, &edits);
         let case = variant.case().ok()?;
-        let assembled = |case: &Case| assemble_with_record(case, rest);
-        let assembly = variant.make(&case, assembled).ok()?;
+        let assembly = variant.make(&case, assemble_at_rest).ok()?;
         Some(has_rigid_impacts(&assembly.system))
     };
     let chosen = study
@@ -663,8 +653,8 @@ fn edits(study: &Study, point: &[Value]) -> Vec<Edit> {
 /// the case.
 pub(crate) fn wanted<'s>(study: &'s Study, point: &[Value]) -> Option<(&'s IntensityMeasure, f64)> {
     let mut values = study.variables.iter().zip(point);
-    values.find_map(|(v, x)| match (&v.target, x) {
-        (Target::Intensity(measure), Value::Number(x)) => Some((measure, *x)),
+    values.find_map(|(v, x)| match (v.target.measure(), x) {
+        (Some(measure), Value::Number(x)) => Some((measure, *x)),
         _ => None,
     })
 }

@@ -1,8 +1,7 @@
 //! What the user should know of the structures of a study: of its case, and of what variables make of it.
 
-use pounding_assembly::assemble_with_record;
+use pounding_assembly::assemble_at_rest;
 use pounding_case::CaseTree;
-use pounding_ground_motion::Accelerogram;
 use pounding_time_history::{System, Warning};
 
 use crate::case_text::{Edit, Variant};
@@ -20,7 +19,6 @@ pub(super) fn warnings_of_structures(
     study: &Study,
     base: &CaseTree<'_>,
     of_case: &System,
-    rest: &Accelerogram,
 ) -> Vec<String> {
     let said = |system: &System| -> Vec<String> {
         let warnings = Warning::of_structure(system).into_iter();
@@ -29,7 +27,7 @@ pub(super) fn warnings_of_structures(
     let of_edits = |edits: &[Edit]| {
         let variant = Variant::new(base, edits);
         let case = variant.case().ok()?;
-        let assembled = variant.make(&case, |case| assemble_with_record(case, rest));
+        let assembled = variant.make(&case, assemble_at_rest);
         Some(said(&assembled.ok()?.system))
     };
     let (mut of_case, mut further) = (said(of_case), Vec::new());

@@ -322,11 +322,7 @@ fn widths(reader: &Reader<'_>, gaps: Located<Widths>) -> Option<Vec<f64>> {
             "give a smaller `count`: curves are straight between widths",
         );
     }
-    let number = |i| match values.at(i) {
-        super::Value::Number(x) => x,
-        super::Value::Choice(_) => f64::NAN,
-    };
-    Some((0..count).map(number).collect())
+    Some(values.numbers())
 }
 
 /// The state that every analysis has.

@@ -127,6 +127,14 @@ impl Target {
         matches!(self, Self::Entries { .. } | Self::Model { .. })
     }
 
+    /// The measure of the intensity that it sets.
+    pub(crate) fn measure(&self) -> Option<&IntensityMeasure> {
+        match self {
+            Self::Intensity(measure) => Some(measure),
+            _ => None,
+        }
+    }
+
     /// The entries of the case that it changes by numbers or texts.
     pub(crate) fn entries(&self) -> &[VariedEntry] {
         match self {
@@ -168,6 +176,11 @@ pub(crate) enum RecordKind {
 }
 
 impl Variable {
+    /// Whether it chooses the record.
+    pub(crate) fn is_record(&self) -> bool {
+        matches!(self.target, Target::Record)
+    }
+
     /// A value of it, in words.
     fn said(&self, value: &Value) -> String {
         match (&self.values, value) {
@@ -244,6 +257,16 @@ impl Study {
             error: Box::new(error),
             source_text: self.source.clone(),
         })
+    }
+
+    /// Whether its records take the place of that of the case.
+    pub(crate) fn has_records(&self) -> bool {
+        self.variables.iter().any(Variable::is_record)
+    }
+
+    /// The measure of the intensity to which it scales, if it does.
+    pub(crate) fn measure(&self) -> Option<&IntensityMeasure> {
+        self.variables.iter().find_map(|v| v.target.measure())
     }
 
     /// Number of runs.

@@ -5,13 +5,12 @@ use std::ops::Range;
 use std::path::Path;
 use std::sync::Arc;
 
-use pounding_assembly::{AssemblyError, assemble_with_record};
+use pounding_assembly::{AssemblyError, assemble_at_rest};
 use pounding_case::document::{Entry, Field, List, Optional, Reader, Table, schema_of};
 use pounding_case::{CaseError, Errors, Located};
 use pounding_catalogue::suggestion;
 use pounding_catalogue::wording::one_line;
-use pounding_ground_motion::{AccelerationUnit, Accelerogram};
-use pounding_results::study::{isolated_peaks, quantity_names};
+use pounding_results::study::{ISOLATED_DEMAND, isolated_peaks, quantity_names};
 use pounding_time_history::ElementPlace;
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -147,7 +146,7 @@ impl OutputTable {
         };
         let (demand, peaks) = (demand?, peaks?);
         let asked = |name: &str| match name {
-            ISOLATED_DEMAND => demand,
+            _ if name == ISOLATED_DEMAND.name => demand,
             name => peaks && isolated_peaks().any(|peak| peak == name),
         };
         if let Some(names) = &mut quantities {
@@ -163,16 +162,13 @@ impl OutputTable {
         };
         Some(Output {
             chunk: chunk?.0,
-            isolated_demand: demand || chosen(ISOLATED_DEMAND),
+            isolated_demand: demand || chosen(ISOLATED_DEMAND.name),
             isolated_peaks: peaks || isolated_peaks().any(chosen),
             quantities,
             float32: numbers? == Numbers::Float32,
         })
     }
 }
-
-/// The gap that keeps the buildings apart, which has a key of its own.
-const ISOLATED_DEMAND: &str = "isolated_demand";
 
 /// JSON Schema (2020-12) of a study file: the keys that the reader accepts, with what they
 /// are and their units.
@@ -393,9 +389,7 @@ fn base(source: &str, path: &Path, own_record: bool) -> Result<Base, StudyError>
         source_text: source.to_owned(),
     };
     let case = parse_case(source, path, own_record).map_err(error)?;
-    let unit = AccelerationUnit::MetrePerSecondSquared;
-    let at_rest = Accelerogram::new(vec![0.0; 2], unit, 1.0)?;
-    let system = match assemble_with_record(&case, &at_rest) {
+    let system = match assemble_at_rest(&case) {
         Ok(assembly) => assembly.system,
         Err(e) => match with_all(e, &case, own_record) {
             AssemblyError::Case(e) => return Err(error(e)),
@@ -483,14 +477,13 @@ fn variables(
                 return reader.refuse(span.clone(), "records are given twice", help);
             }
             if let Some(other) = read.variables.iter().find(|v| collide(v, &variable)) {
-                let of_records = |v: &&Variable| matches!(v.target, Target::Record);
                 let pair = [other, &variable];
                 let [a, b] = pair.map(|v| &v.name);
-                if !pair.iter().any(of_records) {
+                if !pair.into_iter().any(Variable::is_record) {
                     let both = format!("\"{a}\" and \"{b}\" vary the same entry");
                     return reader.refuse(span.clone(), both, "remove one of them");
                 }
-                let (records, entry) = if of_records(&other) { (a, b) } else { (b, a) };
+                let (records, entry) = if other.is_record() { (a, b) } else { (b, a) };
                 let both = format!(
                     "\"{entry}\" changes the motion of the case, in whose place \"{records}\" puts records"
                 );
@@ -753,10 +746,8 @@ fn list(reader: &Reader<'_>, place: Range<usize>, variables: &[Variable]) -> Opt
 
 /// The measure of a variable that is an intensity.
 fn intensity_of(variable: &Variable) -> Option<(IntensityMeasure, &Values)> {
-    match &variable.target {
-        Target::Intensity(measure) => Some((measure.clone(), &variable.values)),
-        _ => None,
-    }
+    let measure = variable.target.measure()?;
+    Some((measure.clone(), &variable.values))
 }
 
 /// Whether the runs of a design are those of an incremental dynamic analysis, each record once at
@@ -804,7 +795,7 @@ fn ida_variables(
     is_list: bool,
 ) -> Option<(usize, usize)> {
     let at = |is: &dyn Fn(&Variable) -> bool| variables.iter().position(is);
-    let record = at(&|v| matches!(v.target, Target::Record));
+    let record = at(&Variable::is_record);
     let intensity = at(&|v| intensity_of(v).is_some());
     match (record, intensity) {
         (Some(record), Some(intensity)) => {

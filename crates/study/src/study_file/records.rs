@@ -24,7 +24,7 @@ use toml::de::DeValue;
 
 use super::context::Context;
 use super::values::{Whole, all};
-use super::{RecordKind, RecordSource, Study, Target, Variable};
+use super::{RecordKind, RecordSource, Study};
 use crate::case_text::{Edit, KEPT, Variant, with_motion};
 use crate::gap_check::across_of_another;
 
@@ -148,8 +148,7 @@ impl Study {
 /// that its case names: the two may be of different earthquakes.
 pub(crate) fn beside_that_across(study: &Study) -> Option<String> {
     let across = &study.base.ground_motion.across.as_ref()?.value.file.value;
-    let varies = |v: &Variable| matches!(v.target, Target::Record);
-    if !study.variables.iter().any(varies) {
+    if !study.has_records() {
         return None;
     }
     let kept = study.records.iter().filter(|r| !r.kind.brings_across());
@@ -160,9 +159,11 @@ pub(crate) fn beside_that_across(study: &Study) -> Option<String> {
 
 /// The same of buildings with records of their own.
 pub(crate) fn on_grounds_of_their_own(study: &Study) -> Option<String> {
-    let varies = |v: &Variable| matches!(v.target, Target::Record);
-    let some = study.variables.iter().any(varies);
-    let records = if some { study.records.len() } else { 0 };
+    let records = if study.has_records() {
+        study.records.len()
+    } else {
+        0
+    };
     crate::gap_check::on_grounds_of_their_own(&study.base, records)
 }
 

@@ -3,10 +3,9 @@
 
 use std::ops::Range;
 
-use pounding_assembly::{AssemblyError, assemble_with_record};
+use pounding_assembly::{AssemblyError, assemble_at_rest};
 use pounding_case::document::Reader;
 use pounding_case::{CaseError, CaseTree};
-use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 
 use super::context::{Base, Context};
 use super::{Design, Value, Values, Variable};
@@ -34,10 +33,7 @@ impl Refused {
 pub(super) fn tried(tree: &CaseTree<'_>, edits: &[Edit]) -> Result<(), Refused> {
     let variant = Variant::new(tree, edits);
     let case = variant.case().map_err(Refused::Text)?;
-    let unit = AccelerationUnit::MetrePerSecondSquared;
-    let at_rest = Accelerogram::new(vec![0.0; 2], unit, 1.0);
-    let at_rest = at_rest.map_err(|e| Refused::Whole(e.into()))?;
-    match variant.make(&case, |case| assemble_with_record(case, &at_rest)) {
+    match variant.make(&case, assemble_at_rest) {
         Ok(_) => Ok(()),
         Err(AssemblyError::Case(error)) => Err(Refused::Text(error)),
         Err(error) => Err(Refused::Whole(error)),

@@ -90,6 +90,16 @@ impl Values {
         }
     }
 
+    /// The numbers of a grid or a list; NaN for what is none.
+    #[must_use]
+    pub(crate) fn numbers(&self) -> Vec<f64> {
+        let number = |i| match self.at(i) {
+            super::Value::Number(x) => x,
+            super::Value::Choice(_) => f64::NAN,
+        };
+        (0..self.count().unwrap_or(0)).map(number).collect()
+    }
+
     /// Value at a part of the way, 0 to 1: of a range the place, of a list the entry in
     /// whose equal share the part lies, of random numbers what they stay below with this probability.
     #[must_use]

@@ -416,14 +416,13 @@ fn complete(
         .as_ref()
         .map(|path| RunTable::create(path, description))
         .transpose()?;
-    for start in (0..reader.rows).step_by(READ_AT_ONCE) {
-        for (row, point) in reader.block(start..(start + READ_AT_ONCE).min(reader.rows))? {
-            report.count(&row, &point);
-            if let Some(table) = &mut table {
-                table.push(&row, &point)?;
-            }
+    reader.each(|row, point| {
+        report.count(&row, &point);
+        match &mut table {
+            Some(table) => table.push(&row, &point),
+            None => Ok(()),
         }
-    }
+    })?;
     table.map_or(Ok(()), RunTable::finish)?;
     Ok(Some(report))
 }
@@ -490,9 +489,6 @@ fn other(found: &Description, wanted: &Description) -> Option<String> {
         None
     }
 }
-
-/// Rows of a result that are held at once.
-const READ_AT_ONCE: usize = 1024;
 
 /// Writes the result from the stored runs, one after another.
 fn assemble(

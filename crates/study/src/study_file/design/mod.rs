@@ -4,7 +4,7 @@
 mod latin_hypercube;
 mod sobol;
 
-use super::{Target, Value, Values, Variable};
+use super::{Value, Values, Variable};
 use crate::mixing;
 
 pub use sobol::MOST_DIMENSIONS;
@@ -74,11 +74,10 @@ impl SampledGrid {
             _ if i == random => samples,
             _ => v.values.count().unwrap_or(1),
         });
-        let is_record = |v: &Variable| matches!(v.target, Target::Record);
         Some(Self {
             sizes: sizes.collect(),
             random,
-            record: variables.iter().position(is_record),
+            record: variables.iter().position(Variable::is_record),
             samples,
             seed,
         })

@@ -209,6 +209,17 @@ impl Working {
         Ok(self.note(format!("u({})", s.name), value, "m"))
     }
 
+    /// Square root of the sum of squares of what both structures have.
+    pub(crate) fn root_of_squares(
+        &mut self,
+        situation: &Situation,
+        of: fn(&mut Self, &Structure) -> Number,
+    ) -> Number {
+        let left = of(self, &situation.left)?;
+        let right = of(self, &situation.right)?;
+        Ok(libm::hypot(left, right))
+    }
+
     /// `R` (-).
     pub(crate) fn response_modification(&mut self, s: &Structure) -> Number {
         self.of(s, s.response_modification, Input::ResponseModification, "R")
@@ -289,9 +300,4 @@ fn shown(factor: &Factor) -> String {
         "-" => format!("{name} = {value}"),
         unit => format!("{name} = {value} {unit}"),
     }
-}
-
-/// Square root of the sum of squares.
-pub(crate) fn root(a: f64, b: f64) -> f64 {
-    libm::hypot(a, b)
 }

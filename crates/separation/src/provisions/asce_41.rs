@@ -6,7 +6,7 @@ use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::status::Status;
-use crate::working::{Working, root};
+use crate::working::Working;
 
 /// Part of the height beyond which no gap is asked for.
 const CAP: f64 = 0.04;
@@ -22,10 +22,9 @@ fn boundary(
 }
 
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let left = working.displacement(&situation.left)?;
-    let right = working.displacement(&situation.right)?;
+    let root = working.root_of_squares(situation, Working::displacement)?;
     let cap = working.note("cap", CAP, "-") * working.common_elevation(situation);
-    Ok(root(left, right).min(cap))
+    Ok(root.min(cap))
 }
 
 static EDITION: Edition = Edition {

@@ -6,7 +6,7 @@ use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::status::Status;
-use crate::working::{Working, root};
+use crate::working::Working;
 
 const INPUTS: &[Input] = &[
     Input::Displacement,
@@ -40,9 +40,7 @@ fn boundary(
 }
 
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let left = maximum_displacement(working, &situation.left)?;
-    let right = maximum_displacement(working, &situation.right)?;
-    Ok(root(left, right))
+    working.root_of_squares(situation, maximum_displacement)
 }
 
 pub(crate) static ASCE_7_10: Edition = Edition {

@@ -6,12 +6,10 @@ use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
 use crate::status::Status;
-use crate::working::{Working, root};
+use crate::working::Working;
 
 fn displacement(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let left = working.displacement(&situation.left)?;
-    let right = working.displacement(&situation.right)?;
-    Ok(root(left, right))
+    working.root_of_squares(situation, Working::displacement)
 }
 
 fn joint(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {

@@ -6,7 +6,7 @@ use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::status::Status;
-use crate::working::{Working, root};
+use crate::working::Working;
 
 /// 0.7 where the floors of both buildings lie at equal elevations.
 fn reduction(working: &mut Working, site: &Site) -> Result<f64, SeparationError> {
@@ -29,9 +29,8 @@ fn between(working: &mut Working, situation: &Situation) -> Result<f64, Separati
             "across a property line each building keeps its own distance: see the boundary rule";
         return Err(working.not_applicable(reason));
     }
-    let left = working.displacement(&situation.left)?;
-    let right = working.displacement(&situation.right)?;
-    Ok(root(left, right) * reduction(working, &situation.site)?)
+    let root = working.root_of_squares(situation, Working::displacement)?;
+    Ok(root * reduction(working, &situation.site)?)
 }
 
 static FIRST: Edition = Edition {

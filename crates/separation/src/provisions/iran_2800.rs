@@ -6,7 +6,7 @@ use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::status::Status;
-use crate::working::{Working, root};
+use crate::working::Working;
 
 /// Importance factor from which a building is of high importance.
 const HIGH_IMPORTANCE: f64 = 1.2;
@@ -56,9 +56,7 @@ fn by_analysis(
 }
 
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let left = working.displacement(&situation.left)?;
-    let right = working.displacement(&situation.right)?;
-    Ok(root(left, right))
+    working.root_of_squares(situation, Working::displacement)
 }
 
 fn tehran(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {

@@ -6,13 +6,11 @@ use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
 use crate::status::Status;
-use crate::working::{Working, root};
+use crate::working::Working;
 
 /// Deflections of 4.1.8.13 are elastic ones times `Rd Ro / IE`: the unreduced `u`.
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let left = working.displacement(&situation.left)?;
-    let right = working.displacement(&situation.right)?;
-    Ok(root(left, right))
+    working.root_of_squares(situation, Working::displacement)
 }
 
 static EDITION: Edition = Edition {

@@ -6,15 +6,14 @@ use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation};
 use crate::status::Status;
-use crate::working::{Working, root};
+use crate::working::Working;
 
 /// Narrowest gap (m).
 const LEAST: f64 = 0.04;
 
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let left = working.displacement(&situation.left)?;
-    let right = working.displacement(&situation.right)?;
-    Ok(root(left, right).max(LEAST))
+    let root = working.root_of_squares(situation, Working::displacement)?;
+    Ok(root.max(LEAST))
 }
 
 static EDITION: Edition = Edition {

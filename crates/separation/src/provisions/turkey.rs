@@ -6,7 +6,7 @@ use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Situation, Structure};
 use crate::status::Status;
-use crate::working::{Working, root};
+use crate::working::Working;
 
 /// 1/4 where floors are aligned, else 1/2.
 fn share(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
@@ -23,9 +23,8 @@ fn over_importance(working: &mut Working, s: &Structure) -> Result<f64, Separati
 }
 
 fn tbdy_2018(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let left = over_importance(working, &situation.left)?;
-    let right = over_importance(working, &situation.right)?;
-    Ok(share(working, situation)? * root(left, right))
+    let root = working.root_of_squares(situation, over_importance)?;
+    Ok(share(working, situation)? * root)
 }
 
 fn tdy_2007(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {

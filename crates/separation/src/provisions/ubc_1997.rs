@@ -6,7 +6,7 @@ use crate::edition::{Edition, InForce};
 use crate::error::SeparationError;
 use crate::inputs::{Input, Site, Situation, Structure};
 use crate::status::Status;
-use crate::working::{Working, root};
+use crate::working::Working;
 
 fn maximum(working: &mut Working, structure: &Structure) -> Result<f64, SeparationError> {
     Ok(working.note("factor", 0.7, "-") * working.restored(structure)?)
@@ -21,9 +21,7 @@ fn boundary(
 }
 
 fn between(working: &mut Working, situation: &Situation) -> Result<f64, SeparationError> {
-    let left = maximum(working, &situation.left)?;
-    let right = maximum(working, &situation.right)?;
-    Ok(root(left, right))
+    working.root_of_squares(situation, maximum)
 }
 
 static UBC_1997: Edition = Edition {

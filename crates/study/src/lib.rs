@@ -46,6 +46,8 @@ mod shard;
 #[cfg(feature = "results")]
 mod shown;
 #[cfg(feature = "results")]
+mod stored_runs;
+#[cfg(feature = "results")]
 mod study_file;
 #[cfg(feature = "results")]
 mod sweep;

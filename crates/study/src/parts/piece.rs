@@ -4,13 +4,10 @@ use std::io::{Error, ErrorKind, Result};
 use std::path::Path;
 
 use serde_json::{Value, json};
-use sha2::{Digest, Sha256};
 
 use crate::runs::{Ending, ID, Row};
+use crate::stored_runs::{HASH, head_and_numbers, whole, with_hash};
 use pounding_files::checksum::hexadecimal;
-
-/// Bytes of the hash at the end.
-const HASH: usize = 32;
 
 /// The content of a piece: rows of a study, in the order of their runs.
 pub(super) fn encode(study: &str, rows: &[Row]) -> Vec<u8> {
@@ -34,9 +31,7 @@ pub(super) fn encode(study: &str, rows: &[Row]) -> Vec<u8> {
             bytes.extend_from_slice(&value.to_le_bytes());
         }
     }
-    let hash = Sha256::digest(&bytes);
-    bytes.extend_from_slice(&hash);
-    bytes
+    with_hash(bytes)
 }
 
 /// The name of a piece: its first run, and the beginning of its hash. Two pieces of one name
@@ -54,16 +49,8 @@ pub(super) fn name(content: &[u8], rows: &[Row]) -> String {
 pub(super) fn read(path: &Path, study: &str) -> Result<Vec<Row>> {
     let damaged = || Error::new(ErrorKind::InvalidData, "the file is damaged");
     let bytes = pounding_files::input::read(path)?;
-    let body = bytes.len().checked_sub(HASH).ok_or_else(damaged)?;
-    let (content, hash) = bytes.split_at(body);
-    if Sha256::digest(content).as_slice() != hash {
-        return Err(damaged());
-    }
-    let line = content
-        .iter()
-        .position(|b| *b == b'\n')
-        .ok_or_else(damaged)?;
-    let head: Value = serde_json::from_slice(&content[..line]).map_err(|_| damaged())?;
+    let parts = whole(&bytes).and_then(head_and_numbers);
+    let (head, rows) = parts.ok_or_else(damaged)?;
     if head["study"] != study {
         return Err(Error::new(
             ErrorKind::InvalidData,
@@ -78,7 +65,6 @@ pub(super) fn read(path: &Path, study: &str) -> Result<Vec<Row>> {
         return Err(damaged());
     };
     let width = ID + 8 * columns;
-    let rows = &content[line + 1..];
     if rows.len() != runs.len() * width {
         return Err(damaged());
     }

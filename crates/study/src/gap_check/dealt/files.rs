@@ -13,6 +13,7 @@ use super::{Made, Numbers, Stored};
 use crate::BUILD;
 use crate::gap_check::{CaseUnderRecord, CheckError, Ending, Progress, runs_in_parallel};
 use crate::shard::Shard;
+use crate::stored_runs::{head_and_numbers, whole, with_hash};
 
 /// Makes the runs of a shard and stores them in its file, unless they stand there.
 pub(super) fn part<T: Stored>(
@@ -135,8 +136,6 @@ struct Content {
     runs: Vec<(usize, Made<Vec<f64>>)>,
 }
 
-/// Bytes of the hash at the end.
-const HASH: usize = 32;
 /// How the line of JSON begins.
 const BEGINS: &[u8] = b"{\"check\":\"";
 
@@ -148,12 +147,6 @@ pub fn is_shard_of_check(file: &Path) -> bool {
     first.is_ok()
         && begins == BEGINS
         && input::read(file).is_ok_and(|bytes| whole(&bytes).is_some())
-}
-
-/// What stands before the hash, if that is its.
-fn whole(bytes: &[u8]) -> Option<&[u8]> {
-    let (content, hash) = bytes.split_at(bytes.len().checked_sub(HASH)?);
-    (Sha256::digest(content).as_slice() == hash).then_some(content)
 }
 
 impl Content {
@@ -186,28 +179,22 @@ impl Content {
         for x in self.runs.iter().flat_map(|(_, run)| run.iter().flatten()) {
             bytes.extend_from_slice(&x.to_le_bytes());
         }
-        let hash = Sha256::digest(&bytes);
-        bytes.extend_from_slice(&hash);
-        bytes
+        with_hash(bytes)
     }
 
     fn read(file: &Path, identity: &str) -> std::io::Result<Self> {
         let wrong = |reason: &'static str| Error::new(ErrorKind::InvalidData, reason);
         let bytes = input::read(file)?;
         let damaged = || wrong("it is damaged, or no shard of a check");
-        let content = whole(&bytes).ok_or_else(damaged)?;
-        let end = content
-            .iter()
-            .position(|b| *b == b'\n')
-            .ok_or_else(damaged)?;
-        let head: Value = serde_json::from_slice(&content[..end]).map_err(|_| damaged())?;
+        let parts = whole(&bytes).and_then(head_and_numbers);
+        let (head, numbers) = parts.ok_or_else(damaged)?;
         if head["check"] != identity {
             return Err(wrong(
                 "it is of another check: other options, another case or record, or another build of the program",
             ));
         }
         let number = |value: &Value| value.as_u64().and_then(|n| usize::try_from(n).ok());
-        let mut numbers = content[end + 1..].as_chunks::<8>().0.iter();
+        let mut numbers = numbers.as_chunks::<8>().0.iter();
         let run = |entry: &Value| {
             let run = match entry[1].as_str() {
                 Some(reason) => Err(reason.to_owned()),

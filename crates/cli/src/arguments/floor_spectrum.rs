@@ -3,6 +3,7 @@
 use clap::Args;
 
 use super::figure::{FIGURES, csv_file, figure_file};
+use super::quantities::DAMPING;
 use super::{FigureArguments, InputPath, OutputPath};
 
 /// Response spectra of floors.
@@ -29,7 +30,7 @@ pub struct FloorSpectrumArguments {
     #[arg(long)]
     pub count: Option<usize>,
     /// Damping ratios of what stands on the floors, such as "2 %, 5 %"
-    #[arg(long, default_value = "5 %", allow_hyphen_values = true)]
+    #[arg(long, default_value = DAMPING, allow_hyphen_values = true)]
     pub damping: String,
     /// Write the spectra into this CSV file, in SI units
     #[arg(long, value_name = "FILE", value_parser = csv_file())]

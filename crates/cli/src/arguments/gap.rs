@@ -1,5 +1,7 @@
 //! Arguments of `gap`.
 
+use pounding_study::gap_check::SweepOptions;
+
 use super::{DealArguments, InputPath, OutputFolder, OutputPath};
 
 use super::figure::{FIGURES, FigureArguments, csv_file, figure_file};
@@ -53,7 +55,7 @@ pub struct GapArguments {
     #[arg(long, default_value_t = 0.9, value_name = "C", value_parser = number, allow_hyphen_values = true)]
     pub confidence: f64,
     /// Widths in the sweep; 0 for none
-    #[arg(long, default_value_t = 400, value_name = "N")]
+    #[arg(long, default_value_t = SweepOptions::POINTS, value_name = "N")]
     pub points: usize,
     /// First width of the sweep, such as "5 mm" [default: one step]
     #[arg(long, value_name = "WIDTH")]

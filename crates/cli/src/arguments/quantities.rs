@@ -7,6 +7,9 @@ use pounding_catalogue::numbers::six_digits;
 
 use crate::failure::Failure;
 
+/// Damping ratio of spectra where none is given.
+pub const DAMPING: &str = "5 %";
+
 /// A number without dimension, such as `0.1` or `10 %`.
 pub fn number(text: &str) -> Result<f64, String> {
     of_dimension(text, Dimension::NUMBER)

@@ -3,7 +3,8 @@
 
 use pounding_case::Separation;
 use pounding_study::gap_check::{
-    CodeGap, CombinationGap, GapCheckOptions, GapReport, UNWATCHED, even_widths, gap_check, widest,
+    CodeGap, CombinationGap, GapCheckOptions, GapReport, SweepOptions, UNWATCHED, even_widths,
+    gap_check, widest,
 };
 use serde_json::{Value, json};
 
@@ -11,9 +12,6 @@ use super::under_its_record;
 use crate::answer::Answer;
 use crate::explorer::Prepared;
 use crate::fault::Refused;
-
-/// Widths of a sweep, as `pounding gap` makes them by default.
-const POINTS: usize = 400;
 
 /// What each gap asks for.
 pub(crate) fn answer(prepared: Prepared, separation: &Separation) -> Result<Answer, Refused> {
@@ -32,7 +30,7 @@ pub(crate) fn answer(prepared: Prepared, separation: &Separation) -> Result<Answ
     for index in 0..check.gaps.len() {
         let to = widest(&records, &check.records, Some(index));
         let widths = if to > 0.0 {
-            even_widths(None, to, POINTS)
+            even_widths(None, to, SweepOptions::POINTS)
         } else {
             Vec::new()
         };

@@ -19,8 +19,8 @@ pub(crate) use transform::{inverse_transform, transform};
 
 pub(crate) use oscillator::{Oscillator, State, TOGETHER, exponential, zero};
 pub use response::{
-    OscillatorResponse, ResponseSpectrum, logarithmic_periods, oscillator_response,
-    response_spectra, response_spectrum, response_spectrum_while,
+    OscillatorResponse, ResponseSpectrum, SMOOTH, USUAL_DAMPING, logarithmic_periods,
+    oscillator_response, response_spectra, response_spectrum, response_spectrum_while,
 };
 pub use rotated::{RotatedSpectrum, rotated_spectrum};
 pub use target::TargetSpectrum;

@@ -51,6 +51,11 @@ pub struct OscillatorResponse {
     pub peak_displacement: Peak,
 }
 
+/// Damping ratio of spectra where none is given, which is that of codes (-).
+pub const USUAL_DAMPING: f64 = 0.05;
+/// So many periods give a smooth curve.
+pub const SMOOTH: usize = 200;
+
 /// `count` periods (s), evenly spaced in their logarithm, both ends included.
 ///
 /// # Errors

@@ -5,7 +5,7 @@ use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::{GroundMotion, Husid};
 use pounding_ground_motion::spectra::design::CodeSpectrum;
 use pounding_ground_motion::spectra::{
-    Evaluation, ResponseSpectrum, RotatedSpectrum, TargetSpectrum, logarithmic_periods,
+    Evaluation, ResponseSpectrum, RotatedSpectrum, SMOOTH, TargetSpectrum, logarithmic_periods,
     response_spectrum,
 };
 
@@ -18,8 +18,6 @@ use crate::figure::{Curve, Panel, Reference, plots};
 const POINTS: usize = 4000;
 /// Height of the axes of one of several accelerations (pt).
 const LOW: f64 = 80.0;
-/// Periods at which spectra are drawn.
-const PERIODS: usize = 200;
 
 /// A motion with its name in the picture.
 #[derive(Debug, Clone)]
@@ -235,7 +233,7 @@ pub fn matched(
     target: &TargetSpectrum,
     (from, to): (f64, f64),
 ) -> Result<Chart, ReportError> {
-    let periods = logarithmic_periods(from, to, PERIODS)?;
+    let periods = logarithmic_periods(from, to, SMOOTH)?;
     let mut spectra = panel("Pseudo-acceleration PSA (g)", "period (s)", Vec::new());
     for (name, record) in [("as read", before), ("matched", after)] {
         let linear = Evaluation::PiecewiseLinear;

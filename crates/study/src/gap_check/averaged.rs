@@ -22,7 +22,7 @@ const SHIFTS: (f64, i32) = (0.3, 30);
 /// Narrowings of the best one by the golden section.
 const NARROWINGS: usize = 20;
 /// Part of the shorter record that must lie in the other one too.
-const OVERLAP: f64 = 0.9;
+pub(super) const OVERLAP: f64 = 0.9;
 
 /// A motion between whose samples lie straight lines, with its averages.
 #[derive(Debug)]

@@ -5,7 +5,7 @@ use std::cell::OnceCell;
 use pounding_catalogue::wording::counted;
 use pounding_ground_motion::Accelerogram;
 
-use super::averaged::Averaged;
+use super::averaged::{Averaged, OVERLAP};
 use super::records::CaseUnderRecord;
 
 /// Which records are copies of others: the same samples as they are used, but for a factor, its
@@ -55,8 +55,6 @@ impl Repeated {
     }
 }
 
-/// Part of the shorter record that must lie in the other one too, their peaks one upon the other.
-const OVERLAP: f64 = 0.9;
 /// What two records of one motion may differ by, over their root mean square: more than the digits
 /// of any format leave out, far less than any two components do.
 const DIFFERENCE: f64 = 1.0e-3;

@@ -3,19 +3,15 @@
 use pounding_assembly::scale_target;
 use pounding_case::Case;
 use pounding_ground_motion::processing::BandTarget;
-use pounding_ground_motion::spectra::logarithmic_periods;
+use pounding_ground_motion::spectra::{SMOOTH, USUAL_DAMPING, logarithmic_periods};
 
 use super::band_extremes::Band;
 use super::error::CheckError;
 use super::record_spectra::{mean, of_records, wrong};
 use super::records::CaseUnderRecord;
 
-/// Periods of the spectra: enough for a smooth curve.
-const PERIODS: usize = 200;
 /// First and last period (s).
 const RANGE: (f64, f64) = (0.05, 4.0);
-/// Damping ratio without a target.
-const DAMPING: f64 = 0.05;
 
 /// Spectra of the records as they are used.
 #[derive(Debug, Clone, PartialEq)]
@@ -61,11 +57,13 @@ pub(super) fn spectra(
     threads: usize,
 ) -> Result<SuiteSpectra, CheckError> {
     let target = scale_target(case)?;
-    let damping = target.as_ref().map_or(DAMPING, |t| t.spectrum.damping());
+    let damping = target
+        .as_ref()
+        .map_or(USUAL_DAMPING, |t| t.spectrum.damping());
     let Some(first) = records.first() else {
         return Err(CheckError::NoGap);
     };
-    let periods = logarithmic_periods(RANGE.0, RANGE.1, PERIODS).map_err(wrong(first))?;
+    let periods = logarithmic_periods(RANGE.0, RANGE.1, SMOOTH).map_err(wrong(first))?;
     let spectra = of_records(records, &periods, damping, threads)?;
     let mean = mean(&spectra, periods.len());
     let compared = |band: BandTarget| -> Result<SuiteTarget, CheckError> {

@@ -1,6 +1,7 @@
 //! Whether the mean spectrum of a suite reaches what a code asks of it.
 
 use pounding_case::{Case, SpectrumSource};
+use pounding_ground_motion::spectra::USUAL_DAMPING;
 use pounding_ground_motion::spectra::design::{CodeSpectrum, Eurocode8Of2004};
 use pounding_separation::SpectrumCondition;
 
@@ -9,9 +10,6 @@ use super::band_extremes::Band;
 use super::error::CheckError;
 use super::record_spectra::wrong;
 use super::records::CaseUnderRecord;
-
-/// Damping ratio of the spectra that codes compare (-).
-const DAMPING: f64 = 0.05;
 
 /// The spectra of a suite beside that of the code that is asked.
 #[derive(Debug, Clone, PartialEq)]
@@ -92,7 +90,7 @@ impl SuiteSpectrum {
         };
         let spectrum = match spectrum {
             CodeSpectrum::Eurocode8Of2004(of) => CodeSpectrum::Eurocode8Of2004(Eurocode8Of2004 {
-                damping: DAMPING,
+                damping: USUAL_DAMPING,
                 ..of
             }),
             other => other,
@@ -107,7 +105,7 @@ impl SuiteSpectrum {
         let to = (condition.band.1 * longest).clamp(range.0, range.1);
         let band = Band {
             ends: (from, to),
-            damping: DAMPING,
+            damping: USUAL_DAMPING,
         };
         let (least, _) = band.extremes(records, |t| Some(spectrum.acceleration(t)), threads)?;
         let peaks = records.iter().map(|r| r.assembly.accelerogram.peak().value);

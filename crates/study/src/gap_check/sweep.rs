@@ -37,6 +37,9 @@ pub struct SweepOptions {
 const FIRST_WIDTH: (&str, &str) = ("first width of the sweep", "--from");
 
 impl SweepOptions {
+    /// Number of widths unless another is asked for.
+    pub const POINTS: usize = 400;
+
     pub(crate) fn check(&self) -> Result<(), CheckError> {
         let refuse = |(option, argument), value, allowed| {
             Err(CheckError::Option {

@@ -6,7 +6,7 @@ use pounding_case::document::{
 use pounding_case::{Dimension, Located};
 use pounding_ground_motion::Accelerogram;
 use pounding_ground_motion::measures::GroundMotion;
-use pounding_ground_motion::spectra::{Evaluation, response_spectrum};
+use pounding_ground_motion::spectra::{Evaluation, USUAL_DAMPING, response_spectrum};
 
 use schemars::JsonSchema;
 use serde::Deserialize;
@@ -199,7 +199,7 @@ impl IntensityKeys {
             .as_ref()
             .is_some_and(|m| m.value == Measure::AverageSpectralAcceleration);
         let listed = self.period.span();
-        let damping = self.damping.number_or(0.05);
+        let damping = self.damping.number_or(USUAL_DAMPING);
         let periods = periods(reader, self.building, self.period, context)?;
         if let Some(place) = listed.filter(|_| averages && periods.len() > 1) {
             let message = "`period` of average_spectral_acceleration is one: the average is over 30 periods from 0.2 to 3 times it, not over a list";

@@ -11,6 +11,7 @@ pub use generators::*;
 pub use steps::StepArguments;
 
 use super::figure::{FIGURES, FigureArguments, csv_file, figure_file};
+use super::quantities::DAMPING;
 
 /// What to do with recorded and synthetic motions.
 #[derive(Debug, Subcommand)]
@@ -95,7 +96,7 @@ pub struct InfoArguments {
     #[arg(long, default_value = "0.05 g", allow_hyphen_values = true)]
     pub duration_threshold: String,
     /// Damping ratio of spectral measures
-    #[arg(long, default_value = "5 %", allow_hyphen_values = true)]
+    #[arg(long, default_value = DAMPING, allow_hyphen_values = true)]
     pub damping: String,
     /// Take peaks at samples alone, and integrals but displacements by the trapezoid rule, as many agencies do
     #[arg(long)]
@@ -175,7 +176,7 @@ pub struct SpectrumArguments {
     /// Damping ratios, such as "2 %, 5 %"
     #[arg(
         long,
-        default_value = "5 %",
+        default_value = DAMPING,
         conflicts_with = "fourier",
         allow_hyphen_values = true
     )]
@@ -304,7 +305,7 @@ pub struct MatchArguments {
     #[arg(long)]
     pub code: Option<String>,
     /// Damping ratio of the spectrum
-    #[arg(long, default_value = "5 %", allow_hyphen_values = true)]
+    #[arg(long, default_value = DAMPING, allow_hyphen_values = true)]
     pub damping: String,
     /// First period of the band
     #[arg(long, default_value = "0.1 s", allow_hyphen_values = true)]

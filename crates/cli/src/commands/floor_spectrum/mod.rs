@@ -7,7 +7,7 @@ use std::ops::ControlFlow;
 
 use pounding_case::{Case, Dimension};
 use pounding_files::FileUse;
-use pounding_ground_motion::spectra::logarithmic_periods;
+use pounding_ground_motion::spectra::{SMOOTH, logarithmic_periods};
 use pounding_report::Chart;
 use pounding_report::pictures::floor_spectrum::{Floor, spectra as drawn};
 use pounding_study::floor_spectra::{
@@ -24,9 +24,8 @@ use crate::output::{pretty, print};
 use crate::plot;
 use crate::progress::{Progress, Unit, threads};
 
-/// Periods where none are given, and those of a smooth picture.
+/// Periods where none are given.
 const PERIODS: usize = 30;
-const SMOOTH: usize = 200;
 
 /// Runs a case with and without its gaps and links, under its record or under others, and prints the spectra of its floors.
 pub fn floor_spectrum(arguments: &FloorSpectrumArguments, files: FileUse) -> Result<(), Failure> {

@@ -5,7 +5,9 @@ use std::path::Path;
 use pounding_case::Dimension;
 use pounding_catalogue::wording::counted;
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};
-use pounding_ground_motion::spectra::{Evaluation, logarithmic_periods, response_spectrum};
+use pounding_ground_motion::spectra::{
+    Evaluation, SMOOTH, USUAL_DAMPING, logarithmic_periods, response_spectrum,
+};
 use pounding_ground_motion::{
     Offset, Quantity, ReadOptions, Recording, Sampling, Series, read_all,
 };
@@ -23,12 +25,10 @@ use crate::progress::Progress;
 use crate::tables::G;
 use crate::{page, plot};
 
-/// Periods of spectra on the page: first, last (s), number.
-const PERIODS: (f64, f64, usize) = (0.02, 5.0, 200);
+/// Periods of spectra on the page: first and last (s).
+const PERIODS: (f64, f64) = (0.02, 5.0);
 /// Files that are named below the title.
 const NAMED: usize = 5;
-/// Damping of spectra on the page (-).
-const DAMPING: f64 = 0.05;
 
 /// Shows every series of the files.
 pub fn info(arguments: &InfoArguments) -> Result<(), Failure> {
@@ -215,11 +215,11 @@ fn answered(files: &[ShownFile]) -> Result<Answered, Failure> {
 
 /// Pseudo-acceleration of motions over the period.
 fn spectra(named: &[Named<'_>]) -> Result<Chart, Failure> {
-    let periods = logarithmic_periods(PERIODS.0, PERIODS.1, PERIODS.2)?;
+    let periods = logarithmic_periods(PERIODS.0, PERIODS.1, SMOOTH)?;
     let mut curves = Vec::new();
     for motion in named {
         let linear = Evaluation::PiecewiseLinear;
-        let spectrum = response_spectrum(motion.record, &periods, DAMPING, linear)?;
+        let spectrum = response_spectrum(motion.record, &periods, USUAL_DAMPING, linear)?;
         let values = spectrum.pseudo_acceleration.iter().map(|a| a / G);
         curves.push(Curve {
             name: motion.name.clone(),

@@ -7,7 +7,7 @@ use pounding_catalogue::numbers::six_digits;
 use pounding_catalogue::wording::counted;
 use pounding_ground_motion::processing::distinct;
 use pounding_ground_motion::spectra::{
-    Evaluation, ResponseSpectrum, RotatedSpectrum, fourier_spectrum, logarithmic_periods,
+    Evaluation, ResponseSpectrum, RotatedSpectrum, SMOOTH, fourier_spectrum, logarithmic_periods,
     response_spectra, rotated_spectrum,
 };
 use pounding_report::pictures::motion;
@@ -27,8 +27,6 @@ use crate::progress::Progress;
 /// Periods (s) or frequencies (Hz) where none are given: first, last, how many.
 const PERIODS: (f64, f64, usize) = (0.05, 4.0, 30);
 const FREQUENCIES: (f64, f64, usize) = (0.1, 25.0, 30);
-/// Periods of a smooth picture.
-const SMOOTH: usize = 200;
 
 /// What `--json` prints of one record.
 #[derive(Serialize)]

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use pounding_case::Dimension;
 use pounding_ground_motion::spectra::design::CodeSpectrum;
-use pounding_ground_motion::spectra::logarithmic_periods;
+use pounding_ground_motion::spectra::{SMOOTH, logarithmic_periods};
 use pounding_report::pictures::motion;
 use serde::Serialize;
 
@@ -16,8 +16,6 @@ use crate::output::{pretty, print};
 use crate::plot;
 use crate::tables::{G, new_long_table};
 
-/// Periods of files and pictures where none are given, beside the corners of the code.
-const PERIODS: usize = 200;
 /// Periods of the printed table.
 const ROWS: usize = 30;
 
@@ -143,7 +141,7 @@ fn periods(
         periods.dedup();
         periods
     };
-    let many = logarithmic_periods(from, to, PERIODS)?;
+    let many = logarithmic_periods(from, to, SMOOTH)?;
     Ok((with_corners(shown), with_corners(many)))
 }
 

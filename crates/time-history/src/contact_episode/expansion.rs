@@ -3,13 +3,79 @@
 use multiversion::multiversion;
 
 use super::rows::{LevelRows, ModalRow, total};
-use super::series::{Series, Works};
+use super::series::{Series, SeriesStep, Works};
 use super::tables::{
-    FEW, PARTS, Rule, TERMS, Tables, Terms, sample, sum_and_bend, value_and_slope,
+    FEW, PARTS, Rule, TERMS, Tables, Terms, end_and_bend, sample, value_and_slope,
 };
 use super::touch::Touch;
 use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH, lane_by_lane, scale};
 use crate::polynomial::{Polynomial, combine};
+
+impl Series {
+    /// Expands the motion over a step.
+    pub(crate) fn expand(
+        &mut self,
+        constants: &ContactFree,
+        rows: &LevelRows,
+        touches: &[Touch],
+        from: &SeriesStep<'_>,
+    ) {
+        self.step = from.step;
+        self.ground = from.ground;
+        let product = (from.rate * from.step, from.negligible);
+        if product != self.product {
+            // Whole samples are alike.
+            (self.product, self.enough) = (product, last_term(product));
+        }
+        self.last = self.enough.max(from.terms);
+        let places = (&constants.modes[..], &rows.levels[..]);
+        let motion = (from.displacement, from.velocity);
+        expand(self, places, touches, motion);
+    }
+
+    /// Cuts the step at `theta`.
+    pub(crate) fn shorten(&mut self, theta: f64) {
+        shorten(self, theta);
+    }
+
+    /// Cuts the step at `theta` and works out its end anew.
+    pub(crate) fn cut(&mut self, theta: f64, places: Places<'_>, end: &mut EndOfStep<'_>) {
+        cut(self, theta, places, end);
+    }
+
+    /// Works out the end of the step.
+    pub(crate) fn finish(&mut self, places: Places<'_>, end: &mut EndOfStep<'_>) {
+        finish(self, places, end);
+    }
+
+    /// Displacements, velocities and absolute accelerations of the modes at the end.
+    pub(crate) fn end(
+        &self,
+        modes: &[ModeLanes],
+        displacement: &mut [Lane],
+        velocity: &mut [Lane],
+        absolute: &mut [Lane],
+    ) {
+        end(self, modes, [displacement, velocity, absolute]);
+    }
+
+    /// Works of ground motion and damping over the step, and [`TouchSeries::works`] of all closed
+    /// levels with the ends of their forces.
+    pub(crate) fn account(&mut self, modes: &[ModeLanes]) -> Works {
+        account(self, modes)
+    }
+
+    /// The polynomial that fits a scalar series.
+    pub(crate) fn fitted(&self, terms: &Terms) -> Polynomial {
+        fitted(self, terms)
+    }
+
+    /// Where a scalar series has this value, from a place that is nearly right; with value and
+    /// derivative there.
+    pub(super) fn polished(&self, terms: &Terms, theta: f64, target: f64) -> (f64, (f64, f64)) {
+        polished(terms, self.last, theta, target)
+    }
+}
 
 /// Terms after which the remainder beside the motion, `x^(k+1) e^x / (k+1)!`, is negligible.
 pub(super) fn last_term((x, negligible): (f64, f64)) -> usize {
@@ -388,13 +454,6 @@ fn finish_here(series: &mut Series, places: Places<'_>, end: &mut EndOfStep<'_>)
         touch.delta_end = end_and_bend(&touch.delta, series.last);
     }
     series.over = 0.125 * constants.rows.bound(&series.bend);
-}
-
-/// Value of a scalar series at the end, and the bound of the distance from the chord.
-#[inline(always)]
-pub(super) fn end_and_bend(terms: &Terms, last: usize) -> (f64, f64) {
-    let (end, bend) = sum_and_bend(terms, last);
-    (end, 0.125 * bend)
 }
 
 /// Displacements, velocities and absolute accelerations of the modes at the end.

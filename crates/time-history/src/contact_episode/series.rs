@@ -1,13 +1,12 @@
 //! Taylor series of the modes and of contacts with affine laws, summed to round-off.
 
-use super::expansion::{self, EndOfStep, Places, end_and_bend};
 use super::powers::{Law, Powers};
 use super::rows::{LevelRows, ModalRow};
-use super::tables::{TERMS, Tables, Terms, maximum, value_and_slope};
+use super::tables::{TERMS, Tables, Terms, end_and_bend, maximum, value_and_slope};
 use super::touch::Touch;
 use super::touch_series::TouchSeries;
-use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH};
-use crate::polynomial::{Polynomial, maximum_above};
+use crate::contact_free::{Lane, ModeLanes, WIDTH};
+use crate::polynomial::maximum_above;
 use crate::system::System;
 
 /// Product of rate and step up to which Gauss's rule with six nodes is exact to round-off: over the
@@ -69,8 +68,8 @@ pub(crate) struct Series {
     rate: f64,
     longest: f64,
     /// The last product of rate and step with its remainder, and the number of terms that it takes.
-    product: (f64, f64),
-    enough: usize,
+    pub(super) product: (f64, f64),
+    pub(super) enough: usize,
     /// Number of the last term.
     pub(super) last: usize,
     pub(super) step: f64,
@@ -186,27 +185,6 @@ impl Series {
         self.longest = Self::LONGEST / self.rate;
     }
 
-    /// Expands the motion over a step.
-    pub(crate) fn expand(
-        &mut self,
-        constants: &ContactFree,
-        rows: &LevelRows,
-        touches: &[Touch],
-        from: &SeriesStep<'_>,
-    ) {
-        self.step = from.step;
-        self.ground = from.ground;
-        let product = (from.rate * from.step, from.negligible);
-        if product != self.product {
-            // Whole samples are alike.
-            (self.product, self.enough) = (product, expansion::last_term(product));
-        }
-        self.last = self.enough.max(from.terms);
-        let places = (&constants.modes[..], &rows.levels[..]);
-        let motion = (from.displacement, from.velocity);
-        expansion::expand(self, places, touches, motion);
-    }
-
     /// Part of the step over which the series of all levels end in terms below `allowed`
     /// (m); one if that is all of it.
     pub(crate) fn reach(&self, allowed: f64) -> f64 {
@@ -234,32 +212,6 @@ impl Series {
     /// Length (s).
     pub(crate) fn step(&self) -> f64 {
         self.step
-    }
-
-    /// Cuts the step at `theta`.
-    pub(crate) fn shorten(&mut self, theta: f64) {
-        expansion::shorten(self, theta);
-    }
-
-    /// Cuts the step at `theta` and works out its end anew.
-    pub(crate) fn cut(&mut self, theta: f64, places: Places<'_>, end: &mut EndOfStep<'_>) {
-        expansion::cut(self, theta, places, end);
-    }
-
-    /// Works out the end of the step.
-    pub(crate) fn finish(&mut self, places: Places<'_>, end: &mut EndOfStep<'_>) {
-        expansion::finish(self, places, end);
-    }
-
-    /// Displacements, velocities and absolute accelerations of the modes at the end.
-    pub(crate) fn end(
-        &self,
-        modes: &[ModeLanes],
-        displacement: &mut [Lane],
-        velocity: &mut [Lane],
-        absolute: &mut [Lane],
-    ) {
-        expansion::end(self, modes, [displacement, velocity, absolute]);
     }
 
     /// Absolute accelerations of the modes at the start.
@@ -302,12 +254,6 @@ impl Series {
             *term -= less;
         }
         self.maximum(&terms, self.end_and_bend(&terms), floor)
-    }
-
-    /// Works of ground motion and damping over the step, and [`TouchSeries::works`] of all closed
-    /// levels with the ends of their forces.
-    pub(crate) fn account(&mut self, modes: &[ModeLanes]) -> Works {
-        expansion::account(self, modes)
     }
 
     /// Whether a rule of few nodes errs by round-off alone.
@@ -382,20 +328,9 @@ impl Series {
         leading
     }
 
-    /// The polynomial that fits a scalar series.
-    pub(crate) fn fitted(&self, terms: &Terms) -> Polynomial {
-        expansion::fitted(self, terms)
-    }
-
     /// Value and derivative with respect to theta.
     pub(crate) fn at(&self, terms: &Terms, theta: f64) -> (f64, f64) {
         value_and_slope(terms, self.last, theta)
-    }
-
-    /// Where a scalar series has this value, from a place that is nearly right; with value and
-    /// derivative there.
-    pub(super) fn polished(&self, terms: &Terms, theta: f64, target: f64) -> (f64, (f64, f64)) {
-        expansion::polished(terms, self.last, theta, target)
     }
 
     /// Maximum value above `floor`, with its theta, of a scalar series with its end and the bound

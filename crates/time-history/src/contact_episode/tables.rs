@@ -170,6 +170,13 @@ pub(super) fn maximum(terms: &[f64]) -> f64 {
         .fold(0.0, |m: f64, x| m.max(x.abs()))
 }
 
+/// Value of a scalar series at the end, and the bound of the distance from the chord.
+#[inline(always)]
+pub(super) fn end_and_bend(terms: &Terms, last: usize) -> (f64, f64) {
+    let (end, bend) = sum_and_bend(terms, last);
+    (end, 0.125 * bend)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

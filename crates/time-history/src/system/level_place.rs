@@ -4,7 +4,38 @@ use std::fmt;
 
 use pounding_shear_building::{WALL, are_level};
 
-use super::links::LinkedMotion;
+/// Which motions of two buildings a link joins.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum LinkedMotion {
+    /// Displacements of floors.
+    Floors,
+    /// Displacements of foundations.
+    FoundationSway,
+    /// Rotations of foundations: moments take the place of forces.
+    FoundationRotation,
+}
+
+impl LinkedMotion {
+    /// SI units of deformation and force.
+    #[must_use]
+    pub fn units(self) -> [&'static str; 2] {
+        match self {
+            Self::Floors | Self::FoundationSway => ["m", "N"],
+            Self::FoundationRotation => ["rad", "N m"],
+        }
+    }
+
+    /// What stands in the place of the level of a link that joins no floors.
+    #[must_use]
+    pub fn label(self) -> Option<&'static str> {
+        match self {
+            Self::Floors => None,
+            Self::FoundationSway => Some("sway of foundations"),
+            Self::FoundationRotation => Some("rotation of foundations"),
+        }
+    }
+}
 
 /// The floors on both sides of a contact level or of a level of a link, left and right;
 /// `None` is a rigid wall.

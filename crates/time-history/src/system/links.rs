@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pounding_hysteresis::HysteresisLaw;
 use pounding_shear_building::{ShearBuilding, StoreyLaw};
 
-use super::{Floor, LevelPlace, System, Terms};
+use super::{Floor, LevelPlace, LinkedMotion, System, Terms};
 use crate::elements::{Element, ElementPlace};
 use crate::error::TimeHistoryError;
 
@@ -22,39 +22,6 @@ pub struct Link {
     pub levels: usize,
     /// What it joins.
     pub joins: LinkedMotion,
-}
-
-/// Which motions of two buildings a link joins.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum LinkedMotion {
-    /// Displacements of floors.
-    Floors,
-    /// Displacements of foundations.
-    FoundationSway,
-    /// Rotations of foundations: moments take the place of forces.
-    FoundationRotation,
-}
-
-impl LinkedMotion {
-    /// SI units of deformation and force.
-    #[must_use]
-    pub fn units(self) -> [&'static str; 2] {
-        match self {
-            Self::Floors | Self::FoundationSway => ["m", "N"],
-            Self::FoundationRotation => ["rad", "N m"],
-        }
-    }
-
-    /// What stands in the place of the level of a link that joins no floors.
-    #[must_use]
-    pub fn label(self) -> Option<&'static str> {
-        match self {
-            Self::Floors => None,
-            Self::FoundationSway => Some("sway of foundations"),
-            Self::FoundationRotation => Some("rotation of foundations"),
-        }
-    }
 }
 
 /// One level of a link, for its definition.

@@ -19,11 +19,11 @@ use pounding_shear_building::{
 };
 use std::sync::{Arc, OnceLock};
 
-pub use level_place::LevelPlace;
+pub use level_place::{LevelPlace, LinkedMotion};
 use level_response::LevelRow;
 pub use level_response::{LevelMotion, LevelResponse};
 use links::storeys;
-pub use links::{Link, LinkedMotion, LinkedPair};
+pub use links::{Link, LinkedPair};
 pub(crate) use motions::Grounds;
 use motions::Motions;
 pub use motions::{FloorForce, ForceHistory, GroundMotion, LONGEST_DELAY, Support};

@@ -1,11 +1,12 @@
 //! Exact steps for buildings that are no sums of oscillators: over intervals between samples
 //! and parts of them without contact, and over series with contacts.
 
+mod peaks_put_off;
+mod series_events;
+
 use pounding_gap_element::{Direction, Guard};
 
 use super::functions::{Begin, Function, Group, Place, Row};
-use super::peaks_put_off::PeaksPutOff;
-use super::series_events::Scan;
 use super::{Driver, EVENTS_AT_ONCE, Mute};
 use crate::dynamics::{Layout, Segment};
 use crate::error::TimeHistoryError;
@@ -14,6 +15,8 @@ use crate::methods::Context;
 use crate::propagation::{AffineContact, ContactSeries, HALVINGS, Propagation};
 use crate::recorder::{Recorder, wants};
 use crate::system::System;
+use peaks_put_off::PeaksPutOff;
+use series_events::Scan;
 
 /// How often a series is halved before the step is left to the method.
 const SHORTENINGS: usize = 3;

@@ -2,9 +2,9 @@
 //! grows, every swing tops the last one. What could be a peak is noted with its bound and the state
 //! that it is reached from, and looked at only if nothing has topped the bound by then.
 
-use super::Driver;
-use super::exact_steps::ExactSteps;
-use super::functions::{Begin, Place, Values};
+use super::ExactSteps;
+use crate::driver::Driver;
+use crate::driver::functions::{Begin, Place, Values};
 use crate::dynamics::Segment;
 use crate::propagation::{HALVINGS, part_of};
 use crate::system::System;
@@ -34,7 +34,7 @@ struct Open {
 
 /// All of them.
 #[derive(Debug)]
-pub(super) struct PeaksPutOff {
+pub(crate) struct PeaksPutOff {
     notes: Vec<Note>,
     capacity: usize,
     functions: usize,
@@ -74,7 +74,7 @@ impl PeaksPutOff {
     }
 
     /// Notes a function in an interval that begins with this state.
-    pub(super) fn note(&mut self, interval: usize, state: &[f64], (function, upper): (usize, f64)) {
+    pub(crate) fn note(&mut self, interval: usize, state: &[f64], (function, upper): (usize, f64)) {
         if self.intervals.last() != Some(&interval) {
             let place = self.intervals.len() * self.size;
             self.states[place..][..self.size].copy_from_slice(&state[..self.size]);
@@ -108,7 +108,7 @@ impl PeaksPutOff {
 
 impl Driver<'_> {
     /// Makes room for the notes of another interval.
-    pub(super) fn make_room_for_notes(&mut self, exact: &mut ExactSteps, duration: f64) {
+    pub(crate) fn make_room_for_notes(&mut self, exact: &mut ExactSteps, duration: f64) {
         if exact.put_off.has_room() {
             return;
         }
@@ -121,7 +121,7 @@ impl Driver<'_> {
     }
 
     /// Looks at all that was put off.
-    pub(super) fn settle_put_off(&mut self, duration: f64) {
+    pub(crate) fn settle_put_off(&mut self, duration: f64) {
         if let Some(mut exact) = self.exact.take() {
             self.settle_notes(&mut exact, duration);
             self.exact = Some(exact);

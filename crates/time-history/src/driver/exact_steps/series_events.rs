@@ -2,9 +2,9 @@
 
 use pounding_gap_element::{Direction, Guard};
 
-use super::exact_steps::ExactSteps;
-use super::{Driver, EVENT_TOLERANCE};
+use super::ExactSteps;
 use crate::bernstein::{Rise, isolated_rise_of_series};
+use crate::driver::{Driver, EVENT_TOLERANCE};
 use crate::events::{Candidate, EventKind};
 
 /// A function nearer to zero than this (m, m/s) at the start, or than this part of its largest

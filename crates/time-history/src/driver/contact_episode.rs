@@ -3,7 +3,6 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::parts::Sample;
 use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS};
 use crate::contact_episode::{
     LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh,
@@ -63,6 +62,14 @@ pub(super) enum Left {
     At(usize),
     /// In the middle of this sample: the rest is for the general step.
     Within(usize, f64),
+}
+
+/// How a sample was taken.
+pub(super) enum Sample {
+    /// Part by part.
+    ByParts,
+    /// It is left to the step of all buildings together; observers have seen it or not.
+    Whole { shown: bool },
 }
 
 impl<'a> Open<'a> {

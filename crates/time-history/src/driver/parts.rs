@@ -11,7 +11,7 @@
 use std::borrow::Cow;
 use std::ops::Range;
 
-use super::contact_episode::{ContactEpisode, Open};
+use super::contact_episode::{ContactEpisode, Open, Sample};
 use super::{Driver, Mute};
 use crate::contact::Mode;
 use crate::contact_episode::{StepLength, stored};
@@ -34,14 +34,6 @@ const LANES: [usize; 2] = [5, 4];
 const LARGEST: usize = 3;
 /// Samples that are taken whole after one that was a single part.
 const PAUSE: usize = 4;
-
-/// How a sample was taken.
-pub(super) enum Sample {
-    /// Part by part.
-    ByParts,
-    /// It is left to the step of all buildings together; observers have seen it or not.
-    Whole { shown: bool },
-}
 
 /// What one level goes back to if a sample is taken again.
 struct Mark {

@@ -18,6 +18,7 @@ mod error;
 mod estimate;
 mod events;
 mod impacts;
+mod isolated_demand;
 mod isolated_run;
 mod ledger;
 mod lost_strength;
@@ -44,12 +45,13 @@ pub use driver::run;
 pub use elements::{Element, ElementPlace};
 pub use error::TimeHistoryError;
 pub use estimate::{MAXIMUM_STEPS, StepEstimate, StepLimit, short};
+pub use isolated_demand::{isolated_demand, isolated_demand_beside};
 pub use isolated_run::{IsolatedRun, run_isolated};
 pub use methods::Information;
 pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
 pub use outcome::*;
 pub use recorder::{GridRecorder, History, HistorySink, MAXIMUM_RESPONSES, Recorder, StepView};
-pub use relative_displacement::{RelativeDisplacement, isolated_demand, isolated_demand_beside};
+pub use relative_displacement::RelativeDisplacement;
 #[cfg(feature = "serde")]
 pub use summary::Summary;
 pub use system::{

@@ -1,10 +1,7 @@
-//! How far floors come towards one another: the gap that a ground motion demands.
+//! How far floors come towards one another in a run.
 
-use crate::driver::run;
 use crate::error::TimeHistoryError;
-use crate::impacts::TOUCH;
-use crate::options::RunOptions;
-use crate::outcome::{Outcome, Peak};
+use crate::outcome::Peak;
 use crate::recorder::{History, Recorder, StepView};
 use crate::system::{System, Terms};
 
@@ -19,7 +16,7 @@ pub struct RelativeDisplacement {
     pairs: Vec<(Option<usize>, Option<usize>, Terms)>,
     /// Displacements of all degrees of freedom at time zero (m).
     start: Vec<f64>,
-    peaks: Vec<Peak>,
+    pub(crate) peaks: Vec<Peak>,
 }
 
 impl RelativeDisplacement {
@@ -69,41 +66,4 @@ impl Recorder for RelativeDisplacement {
         }
         Ok(())
     }
-}
-
-/// Runs a system as if no gap could close, with its links, and returns that run with the
-/// gap (m) that it demands at every contact level, in the order of [`System::levels`]: a
-/// gap of this width would just be touched; 1e-14 m and less is none. In a row this holds for the first contact
-/// anywhere: a building that was hit may close another gap that it would not have closed.
-///
-/// # Errors
-/// Those of [`run`].
-pub fn isolated_demand(
-    system: &System,
-    options: &RunOptions,
-) -> Result<(Outcome, Vec<Peak>), TimeHistoryError> {
-    isolated_demand_beside(system, options, &mut [])
-}
-
-/// The same with recorders of that run, which may end it.
-///
-/// # Errors
-/// As [`isolated_demand`].
-pub fn isolated_demand_beside(
-    system: &System,
-    options: &RunOptions,
-    recorders: &mut [&mut dyn Recorder],
-) -> Result<(Outcome, Vec<Peak>), TimeHistoryError> {
-    let mut demand = RelativeDisplacement::of_levels(system);
-    let mut all: Vec<&mut dyn Recorder> = vec![&mut demand];
-    for recorder in recorders {
-        all.push(&mut **recorder);
-    }
-    let outcome = run(&system.without_gaps(), options, &mut all, &mut |_| {})?;
-    // Of floors that move alike, such as those of equal buildings, round-off is left; a run with gaps counts no
-    // impact of it either.
-    for peak in demand.peaks.iter_mut().filter(|peak| peak.value <= TOUCH) {
-        *peak = Peak::default();
-    }
-    Ok((outcome, demand.peaks))
 }

@@ -11,13 +11,13 @@ use crate::contact_free::{
     at as lane_at, gather, restoring, step_over, sum, transform_fours, transform_free,
     transform_three,
 };
-use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
+use crate::layout::Layout;
 use crate::ledger;
 use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
 use crate::recorder::{History, Recorder, StepView, wants};
 use crate::response_row::{FreeMotion, ShearRows, append_motion};
-use crate::system::System;
+use crate::system::{CLOSE, System};
 
 /// Lengths of parts of a sample whose exact steps are kept.
 const PARTS: usize = 64;
@@ -26,8 +26,6 @@ const PARTS: usize = 64;
 pub(crate) const AT_ONCE: usize = 4;
 /// Displacement, velocity and absolute acceleration.
 const QUANTITIES: usize = 3;
-/// Times this much of them apart are one, but for round-off.
-pub(crate) const CLOSE: f64 = 8.0 * f64::EPSILON;
 
 /// What observers of a run need beside the step: space, and who they are.
 pub(crate) struct Observers<'a, 'b> {

@@ -7,18 +7,9 @@
 use pounding_hysteresis::{History, Motion};
 
 use crate::contact::Contacts;
-use crate::elements::Element;
+use crate::layout::Layout;
 use crate::small_solver::SmallSolver;
-use crate::system::{ContactLevel, Grounds, System};
-
-/// Where everything stands in the flat state vector.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Layout {
-    pub dofs: usize,
-    pub levels: usize,
-    /// Internal variables of all elements.
-    pub variables: usize,
-}
+use crate::system::{ContactLevel, Element, Grounds, Segment, System};
 
 /// A time at which the equations of motion are looked at.
 #[derive(Debug, Clone, Copy)]
@@ -48,72 +39,11 @@ impl Instant {
     }
 }
 
-impl Layout {
-    pub(crate) fn of(system: &System) -> Self {
-        Self {
-            dofs: system.degrees_of_freedom(),
-            levels: system.levels().len(),
-            variables: system
-                .elements()
-                .iter()
-                .map(|e| e.law.internal_variables())
-                .sum(),
-        }
-    }
-    /// Displacements, velocities and internal variables: what forces depend on.
-    pub(crate) fn motion(self) -> usize {
-        2 * self.dofs + self.variables
-    }
-    /// Length of the state vector.
-    pub(crate) fn dimension(self) -> usize {
-        self.motion() + 2 + 2 * self.levels
-    }
-    /// Work of the ground motion on the buildings (J).
-    pub(crate) fn input(self) -> usize {
-        self.motion()
-    }
-    /// Work of the viscous damping (J).
-    pub(crate) fn viscous(self) -> usize {
-        self.motion() + 1
-    }
-    /// Work done on the contact of a level (J).
-    pub(crate) fn work(self, level: usize) -> usize {
-        self.motion() + 2 + level
-    }
-    /// Impulse of the contact force of a level (N s).
-    pub(crate) fn impulse(self, level: usize) -> usize {
-        self.motion() + 2 + self.levels + level
-    }
-}
-
-/// One interval between samples, with linear ground acceleration.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Segment {
-    /// Time at its start (s).
-    pub start: f64,
-    /// Its length (s).
-    pub length: f64,
-    /// Ground acceleration at its start (m/s2).
-    pub acceleration: f64,
-    /// Slope of the ground acceleration (m/s3).
-    pub slope: f64,
-    /// Its number.
-    pub interval: usize,
-}
-
-impl Segment {
-    /// Acceleration of the first ground motion (m/s2).
-    pub(crate) fn acceleration_at(&self, tau: f64) -> f64 {
-        self.acceleration + self.slope * tau
-    }
-
-    pub(crate) fn ground(&self, tau: f64) -> Grounds {
-        Grounds {
-            first: self.acceleration_at(tau),
-            interval: self.interval,
-            tau,
-        }
-    }
+/// What a trial step works on.
+pub(crate) struct Context<'a, 'b> {
+    pub dynamics: &'a mut Dynamics<'b>,
+    pub contacts: &'a Contacts,
+    pub segment: &'a Segment,
 }
 
 /// Space for this many levels that are stuck at one time; more make it grow.

@@ -7,11 +7,10 @@ use std::sync::Arc;
 use pounding_gap_element::{Memory, Phase};
 use pounding_shear_building::ShearBuilding;
 
-use crate::elements::Element;
 use crate::error::TimeHistoryError;
 use crate::options::MethodChoice;
 use crate::rates::fastest_rate;
-use crate::system::System;
+use crate::system::{Element, System};
 use crate::warnings::APPROACH_VELOCITY;
 
 /// Steps of a run at most: more than a day at a microsecond each.

@@ -10,9 +10,10 @@
 use pounding_gap_element::{Direction, Guard};
 use pounding_hysteresis::Guard as LawGuard;
 
-use crate::dynamics::{Dynamics, Instant, Layout};
+use crate::dynamics::{Context, Dynamics, Instant};
 use crate::elements::guard_function;
-use crate::methods::{Context, Method};
+use crate::layout::Layout;
+use crate::methods::Method;
 use crate::polynomial::{
     COEFFICIENTS, EXACT, Polynomial, difference, first_rise, first_rise_of, fit, fit_nodes, value,
 };

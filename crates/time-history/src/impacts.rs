@@ -7,7 +7,7 @@
 
 use pounding_gap_element::{Collision, MAXIMUM_CONSTANTS};
 
-use crate::dynamics::Layout;
+use crate::layout::Layout;
 use crate::outcome::{Impact, LevelOutcome, Peak};
 use crate::peaks::Peaks;
 use crate::system::System;

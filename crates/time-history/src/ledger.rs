@@ -7,7 +7,7 @@
 //! equation 8.
 
 use crate::contact::Contacts;
-use crate::dynamics::Layout;
+use crate::layout::Layout;
 use crate::outcome::Energy;
 use crate::system::System;
 

@@ -20,6 +20,7 @@ mod events;
 mod impacts;
 mod isolated_demand;
 mod isolated_run;
+mod layout;
 mod ledger;
 mod lost_strength;
 mod methods;
@@ -42,7 +43,6 @@ mod warnings;
 
 pub use batch::{in_parallel, run_many};
 pub use driver::run;
-pub use elements::{Element, ElementPlace};
 pub use error::TimeHistoryError;
 pub use estimate::{MAXIMUM_STEPS, StepEstimate, StepLimit, short};
 pub use isolated_demand::{isolated_demand, isolated_demand_beside};
@@ -55,8 +55,8 @@ pub use relative_displacement::RelativeDisplacement;
 #[cfg(feature = "serde")]
 pub use summary::Summary;
 pub use system::{
-    BuildingPoint, ContactLevel, Floor, FloorForce, ForceHistory, Gap, GroundAcceleration,
-    GroundMotion, LONGEST_DELAY, LevelMotion, LevelPlace, LevelResponse, Link, LinkedMotion,
-    LinkedPair, Support, System, UnequalFloors, more_pairs,
+    BuildingPoint, ContactLevel, Element, ElementPlace, Floor, FloorForce, ForceHistory, Gap,
+    GroundAcceleration, GroundMotion, LONGEST_DELAY, LevelMotion, LevelPlace, LevelResponse, Link,
+    LinkedMotion, LinkedPair, Support, System, UnequalFloors, more_pairs,
 };
 pub use warnings::Warning;

@@ -2,8 +2,7 @@
 
 use pounding_shear_building::ShearBuilding;
 
-use crate::elements::ElementPlace;
-use crate::system::System;
+use crate::system::{ElementPlace, System};
 use crate::warnings::Warning;
 
 /// What can be said before a run, of each building.

@@ -1,8 +1,8 @@
 //! Options of a run.
 
-use crate::dynamics::Layout;
 use crate::error::TimeHistoryError;
 use crate::estimate::{StepEstimate, contacts_last, is_stable};
+use crate::layout::Layout;
 use crate::methods::{Adaptive, EventDriven, Method, MoreauJean, Newmark, RungeKutta4};
 use crate::system::{GroundAcceleration, System};
 

@@ -4,8 +4,8 @@ use pounding_hysteresis::History;
 use pounding_shear_building::{DampingMatrix, ShearBuilding};
 use std::sync::Arc;
 
-use crate::dynamics::Layout;
-use crate::methods::Context;
+use crate::dynamics::Context;
+use crate::layout::Layout;
 use crate::system::{System, Terms};
 
 /// Bound of the eigenvalues of the motion at a state: of the buildings, of the contacts

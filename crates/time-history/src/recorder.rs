@@ -2,16 +2,15 @@
 
 use std::ops::Range;
 
-use crate::dense_output::{AT_ONCE, CLOSE, ModalStep, Workspace};
-use crate::dynamics::{Dynamics, Instant};
-use crate::elements::ElementPlace;
+use crate::dense_output::{AT_ONCE, ModalStep, Workspace};
+use crate::dynamics::{Context, Dynamics, Instant};
 use crate::error::TimeHistoryError;
 use crate::ledger;
-use crate::methods::{Context, Method};
+use crate::methods::Method;
 use crate::outcome::{Energy, Impact};
 use crate::polynomial::{Polynomial, difference, maximum_above, value};
 use crate::response_row::append_motion;
-use crate::system::{SectionPlace, System, Terms};
+use crate::system::{CLOSE, ElementPlace, SectionPlace, System, Terms};
 
 /// An accepted step, open to interpolation.
 pub struct StepView<'a, 'b, 'c> {

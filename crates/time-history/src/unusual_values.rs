@@ -5,10 +5,9 @@ use pounding_hysteresis::laboratory::{self, Step};
 use pounding_hysteresis::{MAXIMUM_INTERNAL_VARIABLES, Motion};
 use pounding_shear_building::ShearBuilding;
 
-use crate::elements::Element;
 use crate::estimate::short;
 use crate::soft_contact::stiffness_text;
-use crate::system::{LinkedMotion, System};
+use crate::system::{Element, LinkedMotion, System};
 use crate::warnings::{SMALL_MASS, Warning};
 
 /// Height (m) that hardly any storey reaches, and hardly any pier.

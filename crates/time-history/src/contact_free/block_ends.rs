@@ -810,7 +810,7 @@ mod tests {
     use crate::contact_free::candidates::Candidates;
     use crate::contact_free::{ContactFreePhase, EnergyAccounts, SampleRange};
     use crate::dense_output::Observers;
-    use crate::dynamics::Layout;
+    use crate::layout::Layout;
     use crate::peaks::Peaks;
     use crate::system::{Floor, GroundAcceleration};
 

@@ -10,11 +10,10 @@ use crate::contact_episode::{
 };
 use crate::contact_free::{ContactFree, ContactFreePhase, Lane};
 use crate::dense_output::Observers;
-use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::options::MethodChoice;
-use crate::system::System;
+use crate::system::{Segment, System};
 
 /// Part of the tolerance that the remainder of a series of powers may have.
 const NEGLIGIBLE: f64 = 1.0e-9;

@@ -9,11 +9,11 @@ use crate::contact_episode::{
 };
 use crate::contact_free::{ContactFree, ContactFreePhase, Lane, add, scale};
 use crate::dense_output::{ModalStep, Motion, Observers};
-use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::outcome::Peak;
 use crate::polynomial::{COEFFICIENTS, derivative, fit, maximum_above, value, values_at_nodes};
+use crate::system::Segment;
 
 /// Part of the present peak below which a fitted maximum is not looked at closer.
 const BELOW_PEAK: f64 = 1.0 - 1.0e-3;

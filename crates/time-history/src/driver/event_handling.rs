@@ -9,12 +9,12 @@ use super::{
     SIMULTANEOUS,
 };
 use crate::contact::Contact;
-use crate::dynamics::{Instant, Segment};
+use crate::dynamics::{Context, Instant};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
-use crate::methods::Context;
 use crate::outcome::Peak;
 use crate::polynomial::{Polynomial, bound, derivative, first_rise, value};
+use crate::system::Segment;
 
 /// Round-off of a displacement or a velocity, as a part of the maximum one.
 const ROUND_OFF: f64 = 1.0e-14;

@@ -6,7 +6,6 @@ use nalgebra::DMatrix;
 use std::ops::Range;
 
 use crate::contact::{Contact, Contacts};
-use crate::dynamics::Segment;
 use crate::outcome::Peak;
 use crate::peaks::Peaks;
 use crate::polynomial::{
@@ -15,7 +14,7 @@ use crate::polynomial::{
 use crate::propagation::{
     AffineContact, ContactSeries, Courses, Ends, NARROW, RowBlocks, SeriesTerms, padded,
 };
-use crate::system::{ContactLevel, SectionPlace, System};
+use crate::system::{ContactLevel, SectionPlace, Segment, System};
 
 /// Part of a value that the polynomial of degree 7 may err by where a peak is read off it, and
 /// where it only tells the place of a peak that is read off a series.

@@ -15,10 +15,11 @@ use super::rigid_impacts::{TOUCHING, lasting};
 use super::{Driver, Mute, PROGRESS_STEP};
 use crate::complementarity::{Complementarity, row};
 use crate::contact::Contact;
-use crate::dynamics::{Instant, Segment, coupling};
+use crate::dynamics::{Instant, coupling};
 use crate::error::TimeHistoryError;
 use crate::outcome::Peak;
 use crate::small_solver::SmallSolver;
+use crate::system::Segment;
 
 /// Round-off of accelerations, as a part of the maximum one without the forces: those of stiff
 /// storeys are differences of greater terms. What is smaller changes nothing: floors that are

@@ -2,11 +2,11 @@
 
 use super::rigid_impacts::TOUCHING;
 use super::{Driver, EVENTS_AT_ONCE, PROGRESS_STEP, SIMULTANEOUS};
-use crate::dynamics::{Instant, Segment};
+use crate::dynamics::{Context, Instant};
 use crate::events::{Candidate, EventKind, penetration};
 use crate::impacts::TOUCH;
-use crate::methods::Context;
 use crate::polynomial::maximum_above;
+use crate::system::Segment;
 
 /// Closures of a level in touch before its gap is left open for a while, and the longest
 /// such while (s).

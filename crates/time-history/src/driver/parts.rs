@@ -19,11 +19,10 @@ use crate::contact_free::{
     ContactFree, ContactFreePhase, FreeSample, SampleRange, Track, WIDTH, put_part, take_part,
 };
 use crate::dense_output::{ModalStep, Motion, Observers};
-use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::impacts::{LevelMark, LogMark};
 use crate::outcome::{Ledger, Peak, Statistics};
-use crate::system::System;
+use crate::system::{Segment, System};
 
 /// Buildings from which on a row has parts.
 const ROW: usize = 3;

@@ -4,7 +4,6 @@ use pounding_shear_building::ShearBuilding;
 
 use super::Driver;
 
-use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::outcome::{
@@ -12,7 +11,7 @@ use crate::outcome::{
     Outcome, Peak, StoreyPeaks, YieldingStorey,
 };
 use crate::recorder::Recorder;
-use crate::system::LevelMotion;
+use crate::system::{ElementPlace, LevelMotion};
 use crate::warnings::Warning;
 
 /// Responses with names of a building, from the peaks of all.

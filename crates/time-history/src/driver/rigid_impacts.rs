@@ -14,10 +14,11 @@ use pounding_gap_element::{Memory, Phase};
 use super::{Driver, SIMULTANEOUS};
 use crate::complementarity::{Complementarity, row};
 use crate::contact::Contact;
-use crate::dynamics::{Instant, Segment, coupling};
+use crate::dynamics::{Instant, coupling};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
 use crate::outcome::Peak;
+use crate::system::Segment;
 
 /// Height (m) of a hop below which impacts that follow one another ever faster are
 /// taken as accomplished: the floors then stay in contact. Positions carry their

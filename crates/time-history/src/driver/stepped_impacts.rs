@@ -2,9 +2,9 @@
 
 use super::Driver;
 use super::rigid_impacts::lasting;
-use crate::dynamics::{Instant, Segment};
+use crate::dynamics::Instant;
 use crate::outcome::Peak;
-use crate::system::ContactLevel;
+use crate::system::{ContactLevel, Segment};
 
 /// Part of an impulse that shocks of other floors may be where it still tells the force that holds floors together.
 const SHOCK: f64 = 1.0e-3;

@@ -8,7 +8,8 @@ use pounding_gap_element::Phase;
 
 use super::{Driver, Mute};
 use crate::contact::Contact;
-use crate::dynamics::{Instant, Segment};
+use crate::dynamics::Instant;
+use crate::system::Segment;
 
 /// Part of the range of friction that a holding force may exceed it by in round-off.
 const ROUND_OFF: f64 = 1.0e-9;

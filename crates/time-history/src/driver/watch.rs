@@ -2,12 +2,11 @@
 //! how places are named in messages.
 
 use super::Driver;
-use crate::dynamics::Segment;
-use crate::elements::ElementPlace;
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
 use crate::ledger;
 use crate::polynomial::{Polynomial, first_rise};
+use crate::system::{ElementPlace, Segment};
 
 /// Work of contacts on the buildings, over the largest input energy, that no contact does.
 const GIVEN: f64 = 1.0e6;

@@ -6,9 +6,9 @@
 use super::exact_steps::ExactSteps;
 use super::functions::{Begin, Course};
 use super::{Driver, Mute};
-use crate::dynamics::Segment;
 use crate::error::TimeHistoryError;
 use crate::recorder::Recorder;
+use crate::system::Segment;
 
 /// Intervals after which the energy is balanced.
 const BALANCED: usize = 32;

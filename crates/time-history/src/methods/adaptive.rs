@@ -3,8 +3,9 @@
 use pounding_gap_element::APPROACH_VELOCITY_FLOOR;
 use pounding_runge_kutta::Dop853;
 
-use super::{Context, Counts, Information, Method, Verdict};
-use crate::dynamics::Layout;
+use super::{Counts, Information, Method, Verdict};
+use crate::dynamics::Context;
+use crate::layout::Layout;
 use crate::polynomial::Polynomial;
 use crate::rates::Rates;
 use crate::system::System;

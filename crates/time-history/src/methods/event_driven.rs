@@ -1,7 +1,8 @@
 //! The event-driven exact method.
 
 use super::taylor::Taylor;
-use super::{Adaptive, Context, Counts, Information, Method, Verdict};
+use super::{Adaptive, Counts, Information, Method, Verdict};
+use crate::dynamics::Context;
 use crate::estimate::SERIES;
 use crate::polynomial::Polynomial;
 use crate::rates::{Rates, fastest_rate};

@@ -18,9 +18,9 @@ pub(crate) use moreau_jean::MoreauJean;
 pub(crate) use newmark::Newmark;
 pub(crate) use runge_kutta_4::RungeKutta4;
 
-use crate::contact::Contacts;
-use crate::dynamics::{Dynamics, Segment};
+use crate::dynamics::Context;
 use crate::polynomial::Polynomial;
+use crate::system::Segment;
 
 /// What a method is and can do.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -36,13 +36,6 @@ pub struct Information {
     pub implicit: bool,
     /// Whether the method chooses its steps by an error estimate.
     pub adaptive: bool,
-}
-
-/// What a trial step works on.
-pub(crate) struct Context<'a, 'b> {
-    pub dynamics: &'a mut Dynamics<'b>,
-    pub contacts: &'a Contacts,
-    pub segment: &'a Segment,
 }
 
 /// Judgement of a trial step.

@@ -1,11 +1,12 @@
 //! The time-stepping scheme of Moreau and Jean for impacts without compliance.
 
 use super::effective_mass::EffectiveMass;
-use super::{Context, Counts, Information, Method, Verdict, step_to_grid};
+use super::{Counts, Information, Method, Verdict, step_to_grid};
 use crate::complementarity::Complementarity;
-use crate::dynamics::{Layout, Segment, push_apart};
+use crate::dynamics::{Context, push_apart};
+use crate::layout::Layout;
 use crate::polynomial::{COEFFICIENTS, Polynomial};
-use crate::system::System;
+use crate::system::{Segment, System};
 
 /// Moreau-Jean time stepping: the theta method for the storeys, Newton's law of
 /// impact between the velocities at both ends of a step for every gap that the

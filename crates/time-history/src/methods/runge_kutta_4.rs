@@ -1,7 +1,8 @@
 //! The classical Runge-Kutta method of order 4 with a fixed step.
 
-use super::{Context, Counts, Information, Method, Verdict, step_to_grid};
-use crate::dynamics::Layout;
+use super::{Counts, Information, Method, Verdict, step_to_grid};
+use crate::dynamics::Context;
+use crate::layout::Layout;
 use crate::polynomial::{COEFFICIENTS, Polynomial, hermite};
 
 /// Classical Runge-Kutta (Kutta 1901), fixed step cut at events, cubic Hermite

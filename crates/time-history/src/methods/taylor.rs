@@ -1,12 +1,12 @@
 //! Taylor series of a system that is linear between events: buildings with all closed
 //! contacts affine, and storeys and links on straight branches of their laws.
 
-use super::Context;
 use super::chain::{Chain, Spring, Sums, TERMS};
 use super::modal_series::ModalSeries;
 use pounding_hysteresis::{MAXIMUM_INTERNAL_VARIABLES, Motion};
 
-use crate::dynamics::Layout;
+use crate::dynamics::Context;
+use crate::layout::Layout;
 use crate::polynomial::{COEFFICIENTS, GAUSS, Polynomial, fit, fit_nodes, septic, value};
 use crate::system::System;
 

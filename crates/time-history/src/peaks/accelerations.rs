@@ -2,7 +2,8 @@
 //! them of all sums of them, by one index.
 
 use super::Peaks;
-use crate::methods::{Context, Method};
+use crate::dynamics::Context;
+use crate::methods::Method;
 
 impl Peaks {
     /// How many there are.

@@ -3,7 +3,8 @@
 //! fits miss theirs.
 
 use super::Peaks;
-use crate::methods::{Context, Method};
+use crate::dynamics::Context;
+use crate::methods::Method;
 use crate::polynomial::{Polynomial, sagitta};
 
 /// Parts of a step at whose ends a function is looked at.

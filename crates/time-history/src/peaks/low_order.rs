@@ -4,7 +4,8 @@
 
 use super::Peaks;
 use super::branches::FAR;
-use crate::methods::{Context, Method};
+use crate::dynamics::Context;
+use crate::methods::Method;
 use crate::polynomial::{Polynomial, absolute_maximum, bound, fit, fit_nodes};
 
 impl Peaks {

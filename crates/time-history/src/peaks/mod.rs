@@ -3,16 +3,16 @@
 use pounding_hysteresis::{MAXIMUM_INTERNAL_VARIABLES, Motion};
 use pounding_shear_building::ShearBuilding;
 
-use crate::dynamics::{Instant, Layout};
-use crate::elements::{Element, ElementPlace};
+use crate::dynamics::{Context, Instant};
 use crate::events::{Finder, penetration, velocity};
-use crate::methods::{Context, LARGE, Method};
+use crate::layout::Layout;
+use crate::methods::{LARGE, Method};
 use crate::outcome::{Peak, StoreyPeaks};
 use crate::polynomial::{
     Polynomial, absolute_maximum, bound, derivative, difference, fit, fit_nodes, maximum_above,
     value,
 };
-use crate::system::{SectionForce, SectionPlace, System};
+use crate::system::{Element, ElementPlace, SectionForce, SectionPlace, System};
 
 mod accelerations;
 mod branches;

@@ -7,9 +7,8 @@ use std::ops::Range;
 use super::product::{RowBlocks, multiply, pad, padded};
 use super::whole_interval::{Courses, OfLength, WholeInterval};
 use super::{BOUNDED, Ends, HALVINGS};
-use crate::dynamics::Segment;
 use crate::polynomial::GAUSS;
-use crate::system::{Grounds, System};
+use crate::system::{Grounds, Segment, System};
 
 /// Coordinates of a building at most: the work of an interval grows with their square, that of
 /// the matrices with the cube.

@@ -7,8 +7,7 @@ use super::building::Building;
 use super::product::{NARROW, add_product, multiply, padded};
 use super::{BOUNDED, Ends, ORDERS};
 use crate::contact::Contacts;
-use crate::dynamics::Segment;
-use crate::system::System;
+use crate::system::{Segment, System};
 
 /// Terms at most, and at least: as many as derivatives have bounds.
 const MOST: usize = 44;

@@ -21,8 +21,7 @@ mod whole_interval;
 
 use nalgebra::DMatrix;
 
-use crate::dynamics::Segment;
-use crate::system::System;
+use crate::system::{Segment, System};
 use building::Building;
 pub(crate) use contact_series::{AffineContact, ContactSeries, SeriesTerms};
 pub(crate) use product::{NARROW, RowBlocks, padded};

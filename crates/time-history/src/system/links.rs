@@ -6,8 +6,8 @@ use pounding_hysteresis::HysteresisLaw;
 use pounding_shear_building::{ShearBuilding, StoreyLaw};
 
 use super::{Floor, LevelPlace, LinkedMotion, System, Terms};
-use crate::elements::{Element, ElementPlace};
 use crate::error::TimeHistoryError;
+use crate::system::{Element, ElementPlace};
 
 /// A link: laws that join floors of two neighbours.
 #[derive(Debug, Clone)]

@@ -1,6 +1,7 @@
 //! What is integrated: buildings in a row, contact levels between them, ground motion.
 
 mod at_rest;
+mod element;
 mod level_place;
 mod level_response;
 mod links;
@@ -8,6 +9,7 @@ mod motions;
 mod names;
 mod place;
 mod sections;
+mod segment;
 mod terms;
 mod under;
 mod unequal_floors;
@@ -19,25 +21,25 @@ use pounding_shear_building::{
 };
 use std::sync::{Arc, OnceLock};
 
+pub use element::{Element, ElementPlace};
 pub use level_place::{LevelPlace, LinkedMotion};
 use level_response::LevelRow;
 pub use level_response::{LevelMotion, LevelResponse};
 use links::storeys;
 pub use links::{Link, LinkedPair};
-pub(crate) use motions::Grounds;
 use motions::Motions;
 pub use motions::{FloorForce, ForceHistory, GroundMotion, LONGEST_DELAY, Support};
 pub use place::{BuildingPoint, Floor};
 use place::{Row, no_storey};
 pub(crate) use sections::{SectionForce, SectionPlace};
 use sections::{acceleration_responses, section_forces};
+pub(crate) use segment::{CLOSE, Grounds, Segment};
 pub(crate) use terms::Terms;
 pub use unequal_floors::UnequalFloors;
 pub use unequal_floors::more_pairs;
 
 use crate::bands::Bands;
 use crate::contact_free::{ContactFree, Loads};
-use crate::elements::Element;
 use crate::error::TimeHistoryError;
 use crate::propagation::Propagation;
 

@@ -4,9 +4,7 @@
 use pounding_shear_building::{Excitation, ShearBuilding};
 use std::sync::Arc;
 
-use super::{GroundAcceleration, System, no_storey};
-use crate::dense_output::CLOSE;
-use crate::dynamics::Segment;
+use super::{CLOSE, GroundAcceleration, Grounds, Segment, System, no_storey};
 use crate::error::TimeHistoryError;
 use crate::estimate::short;
 use crate::outcome::Peak;
@@ -29,16 +27,6 @@ pub struct Support {
     pub along: usize,
     /// Across the row, for coordinates that feel it; `None` is ground at rest.
     pub across: Option<usize>,
-}
-
-/// Ground accelerations at an instant: that of the first motion, and where to find the others.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Grounds {
-    /// Acceleration of the first motion (m/s2).
-    pub first: f64,
-    /// Number of the interval, and time (s) since its start.
-    pub interval: usize,
-    pub tau: f64,
 }
 
 /// A force on a floor over time, positive to the right, linear between points: whatever is

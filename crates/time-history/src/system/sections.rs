@@ -5,9 +5,8 @@
 use std::ops::Range;
 use std::sync::Arc;
 
+use crate::system::{Element, ElementPlace};
 use pounding_shear_building::{OVERTURNING_RATIO, ResponseKind, ResponseRow, ShearBuilding};
-
-use crate::elements::{Element, ElementPlace};
 
 /// A response as a row on the coordinates of a building.
 #[derive(Debug, Clone)]

@@ -8,13 +8,13 @@ use pounding_gap_element::{Direction, Guard};
 
 use super::functions::{Begin, Function, Group, Place, Row};
 use super::{Driver, EVENTS_AT_ONCE, Mute};
-use crate::dynamics::{Layout, Segment};
+use crate::dynamics::Context;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
-use crate::methods::Context;
+use crate::layout::Layout;
 use crate::propagation::{AffineContact, ContactSeries, HALVINGS, Propagation};
 use crate::recorder::{Recorder, wants};
-use crate::system::System;
+use crate::system::{Segment, System};
 use peaks_put_off::PeaksPutOff;
 use series_events::Scan;
 

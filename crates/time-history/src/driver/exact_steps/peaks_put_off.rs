@@ -5,9 +5,8 @@
 use super::ExactSteps;
 use crate::driver::Driver;
 use crate::driver::functions::{Begin, Place, Values};
-use crate::dynamics::Segment;
 use crate::propagation::{HALVINGS, part_of};
-use crate::system::System;
+use crate::system::{Segment, System};
 
 /// States that are kept at most.
 const STATES: usize = 64;

@@ -3,8 +3,7 @@
 use pounding_hysteresis::Motion;
 
 use super::{MAXIMUM_ITERATIONS, NEWTON_TOLERANCE, Newmark};
-use crate::dynamics::push_apart;
-use crate::methods::Context;
+use crate::dynamics::{Context, push_apart};
 use crate::system::System;
 
 /// Where an unknown force acts.

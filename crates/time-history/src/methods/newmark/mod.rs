@@ -7,8 +7,9 @@ use pounding_hysteresis::History;
 use forces::Place;
 
 use super::effective_mass::EffectiveMass;
-use super::{Context, Counts, Information, Method, Verdict, step_to_grid};
-use crate::dynamics::{Instant, Layout};
+use super::{Counts, Information, Method, Verdict, step_to_grid};
+use crate::dynamics::{Context, Instant};
+use crate::layout::Layout;
 use crate::polynomial::{COEFFICIENTS, Polynomial, hermite};
 use crate::small_solver::SmallSolver;
 use crate::system::System;

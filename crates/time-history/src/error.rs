@@ -1,7 +1,7 @@
 //! What can go wrong, with where and when.
 
-use crate::estimate::{MAXIMUM_STEPS, SHORTEST_CONTACT, StepLimit, short, short_below};
-use crate::warnings::APPROACH_VELOCITY;
+use crate::limits::{APPROACH_VELOCITY, MAXIMUM_STEPS, SHORTEST_CONTACT, StepLimit};
+use crate::short_numbers::{short, short_below};
 
 /// Failure of a system's definition or of a run.
 #[derive(Debug, thiserror::Error)]

@@ -1,23 +1,17 @@
 //! What a run will need, before it begins: steps.
 
 use std::f64::consts::TAU;
-use std::fmt;
 use std::sync::Arc;
 
 use pounding_gap_element::{Memory, Phase};
 use pounding_shear_building::ShearBuilding;
 
+use crate::building_rates::fastest_rate;
 use crate::error::TimeHistoryError;
-use crate::options::MethodChoice;
-use crate::rates::fastest_rate;
+use crate::limits::{APPROACH_VELOCITY, MAXIMUM_STEPS, SHORTEST_CONTACT, StepLimit};
+use crate::method_choice::MethodChoice;
+use crate::methods::SERIES;
 use crate::system::{Element, System};
-use crate::warnings::APPROACH_VELOCITY;
-
-/// Steps of a run at most: more than a day at a microsecond each.
-pub const MAXIMUM_STEPS: f64 = 1.0e11;
-
-/// Product of rate and step that the series of the event-driven method takes at most.
-pub(crate) const SERIES: f64 = 0.35;
 
 /// Product of rate and step up to which the pair of order 8 is stable, about.
 const STABLE: f64 = 6.0;
@@ -29,84 +23,6 @@ const STABLE_CLASSICAL: f64 = 2.615;
 
 /// Duration (s) longer than that of any ground motion: eleven days.
 const LONGEST_DURATION: f64 = 1.0e6;
-
-/// Duration of a contact (s) at least: what follows times of some ten
-/// seconds with 16 digits loses the energy of shorter ones.
-pub(crate) const SHORTEST_CONTACT: f64 = 1.0e-12;
-
-/// What makes the steps of a run so many.
-#[derive(Debug, Clone, PartialEq)]
-#[cfg_attr(
-    feature = "serde",
-    derive(serde::Serialize),
-    serde(rename_all = "snake_case")
-)]
-#[non_exhaustive]
-pub enum StepLimit {
-    /// The duration (s), longer than that of any ground motion.
-    Duration(f64),
-    /// The time step of the ground motion (s).
-    GroundMotion(f64),
-    /// The step that was asked for (s).
-    Step(f64),
-    /// The shortest period (s), or the shortest memory of a damper times two pi.
-    Period {
-        /// Name of the building that has it.
-        building: String,
-        /// Period (s).
-        period: f64,
-    },
-    /// The shortest period (s) of a floor on a storey or link that follows a law, or the memory of a damper
-    /// or of its law times two pi.
-    Element {
-        /// The storey or link.
-        place: String,
-        /// Period (s) with the law's initial stiffness, or its damping.
-        period: f64,
-    },
-}
-
-impl fmt::Display for StepLimit {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Duration(duration) => write!(f, "`duration` is {} s", short(*duration)),
-            Self::GroundMotion(step) => {
-                write!(
-                    f,
-                    "the time step of the ground motion is {} s",
-                    short(*step)
-                )
-            }
-            Self::Step(step) => write!(f, "`step` is {} s", short(*step)),
-            Self::Period { building, period } => {
-                write!(
-                    f,
-                    "the shortest period of building {building} is {period:.3e} s"
-                )
-            }
-            Self::Element { place, period } => {
-                write!(f, "{place} gives its floor a period of {period:.3e} s")
-            }
-        }
-    }
-}
-
-impl StepLimit {
-    /// What makes steps longer, or fewer.
-    pub(crate) fn remedy(&self) -> &'static str {
-        match self {
-            Self::Duration(_) => "shorten `duration` in [analysis]",
-            Self::GroundMotion(_) => "shorten `duration`, or correct the time step of the record",
-            Self::Step(_) => "raise `step` or shorten `duration` in [analysis]",
-            Self::Element { .. } => {
-                "correct stiffness and damping of the law and the masses beside it (units?); else shorten `duration`"
-            }
-            Self::Period { .. } => {
-                "correct masses, stiffnesses and damping (units?), or join storeys that are much lighter or stiffer than their neighbours; else shorten `duration`"
-            }
-        }
-    }
-}
 
 /// Steps that a run takes at least, without those of contacts.
 #[derive(Debug, Clone, PartialEq)]
@@ -324,23 +240,4 @@ pub(crate) fn contacts_last(system: &System) -> Result<(), TimeHistoryError> {
         }
     }
     Ok(())
-}
-
-/// Three significant digits, not above the value.
-pub(crate) fn short_below(x: f64) -> String {
-    let unit = libm::pow(10.0, libm::log10(x).floor() - 2.0);
-    short((x / unit).floor() * unit)
-}
-
-/// Three significant digits, without zeros at the end.
-#[must_use]
-pub fn short(x: f64) -> String {
-    let text = format!("{x:.2e}");
-    text.parse::<f64>().map_or(text, |x| {
-        if x != 0.0 && !(1.0e-4..1.0e6).contains(&x.abs()) {
-            format!("{x:e}")
-        } else {
-            x.to_string()
-        }
-    })
 }

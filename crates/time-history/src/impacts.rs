@@ -8,14 +8,10 @@
 use pounding_gap_element::{Collision, MAXIMUM_CONSTANTS};
 
 use crate::layout::Layout;
-use crate::outcome::{Impact, LevelOutcome, Peak};
+use crate::outcome::{Impact, LevelOutcome};
+use crate::peak::Peak;
 use crate::peaks::Peaks;
-use crate::system::System;
-
-/// Floors that part by at most this (m) stay in touch, and those that overlap by at most
-/// this do no more than touch. Displacements of a decimetre have a round-off of 1e-17 m,
-/// which a run gathers to some 1e-15 m.
-pub(crate) const TOUCH: f64 = 1.0e-14;
+use crate::system::{System, TOUCH};
 
 /// Change of the relative velocity (m/s) up to which rigid floors, which never overlap, do
 /// no more than touch; floors that meet no faster than this meet at rest.

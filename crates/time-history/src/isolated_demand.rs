@@ -2,12 +2,12 @@
 
 use crate::driver::run;
 use crate::error::TimeHistoryError;
-use crate::impacts::TOUCH;
 use crate::options::RunOptions;
-use crate::outcome::{Outcome, Peak};
+use crate::outcome::Outcome;
+use crate::peak::Peak;
 use crate::recorder::Recorder;
 use crate::relative_displacement::RelativeDisplacement;
-use crate::system::System;
+use crate::system::{System, TOUCH};
 
 /// Runs a system as if no gap could close, with its links, and returns that run with the
 /// gap (m) that it demands at every contact level, in the order of [`System::levels`]: a

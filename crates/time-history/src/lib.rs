@@ -6,6 +6,7 @@
 mod bands;
 mod batch;
 mod bernstein;
+mod building_rates;
 mod complementarity;
 mod contact;
 mod contact_episode;
@@ -22,10 +23,13 @@ mod isolated_demand;
 mod isolated_run;
 mod layout;
 mod ledger;
+mod limits;
 mod lost_strength;
+mod method_choice;
 mod methods;
 mod options;
 mod outcome;
+mod peak;
 mod peaks;
 mod polynomial;
 mod propagation;
@@ -33,25 +37,32 @@ mod rates;
 mod recorder;
 mod relative_displacement;
 mod response_row;
+mod short_numbers;
 mod small_solver;
 mod soft_contact;
 #[cfg(feature = "serde")]
 mod summary;
 mod system;
+mod unequal_elevations;
 mod unusual_values;
+mod warning;
 mod warnings;
 
 pub use batch::{in_parallel, run_many};
 pub use driver::run;
 pub use error::TimeHistoryError;
-pub use estimate::{MAXIMUM_STEPS, StepEstimate, StepLimit, short};
+pub use estimate::StepEstimate;
 pub use isolated_demand::{isolated_demand, isolated_demand_beside};
 pub use isolated_run::{IsolatedRun, run_isolated};
+pub use limits::{MAXIMUM_STEPS, StepLimit};
+pub use method_choice::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice};
 pub use methods::Information;
-pub use options::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, RunOptions};
+pub use options::RunOptions;
 pub use outcome::*;
+pub use peak::Peak;
 pub use recorder::{GridRecorder, History, HistorySink, MAXIMUM_RESPONSES, Recorder, StepView};
 pub use relative_displacement::RelativeDisplacement;
+pub use short_numbers::short;
 #[cfg(feature = "serde")]
 pub use summary::Summary;
 pub use system::{
@@ -59,4 +70,4 @@ pub use system::{
     GroundAcceleration, GroundMotion, LONGEST_DELAY, LevelMotion, LevelPlace, LevelResponse, Link,
     LinkedMotion, LinkedPair, Support, System, UnequalFloors, more_pairs,
 };
-pub use warnings::Warning;
+pub use warning::Warning;

@@ -3,7 +3,7 @@
 use pounding_shear_building::ShearBuilding;
 
 use crate::system::{ElementPlace, System};
-use crate::warnings::Warning;
+use crate::warning::Warning;
 
 /// What can be said before a run, of each building.
 pub(crate) fn before(system: &System) -> impl Iterator<Item = Warning> {

@@ -1,7 +1,7 @@
 //! How far floors come towards one another in a run.
 
 use crate::error::TimeHistoryError;
-use crate::outcome::Peak;
+use crate::peak::Peak;
 use crate::recorder::{History, Recorder, StepView};
 use crate::system::{System, Terms};
 

@@ -2,10 +2,10 @@
 
 use pounding_gap_element::{Memory, Phase};
 
-use crate::estimate::short;
+use crate::limits::APPROACH_VELOCITY;
 use crate::outcome::LevelOutcome;
 use crate::system::{ContactLevel, Gap, System};
-use crate::warnings::{APPROACH_VELOCITY, Warning};
+use crate::warning::Warning;
 
 /// Contact over storey stiffness from which an overlap wider than the gap is that of a narrow gap: at usual
 /// stiffnesses floors overlap by some centimetres.
@@ -75,16 +75,6 @@ pub(crate) fn deep_penetrations(
             storey: storey.name(system),
         })
     })
-}
-
-/// A stiffness (N/m) in the unit in which it is short.
-pub(crate) fn stiffness_text(stiffness: f64) -> String {
-    let (unit, size) = match stiffness {
-        k if k < 1.0e4 => ("N/m", 1.0),
-        k if k < 1.0e6 => ("kN/m", 1.0e3),
-        _ => ("MN/m", 1.0e6),
-    };
-    format!("{} {unit}", short(stiffness / size))
 }
 
 /// Levels of a gap where floors meet as floors do.

@@ -4,9 +4,10 @@ use pounding_gap_element::Verification;
 use serde::Serialize;
 
 use crate::outcome::{
-    IsolatorOutcome, Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome, Peak, Statistics,
+    IsolatorOutcome, Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome, Statistics,
     StoreyPeaks, YieldingStorey,
 };
+use crate::peak::Peak;
 use crate::system::{FloorForce, LevelPlace, LinkedMotion, System};
 
 /// A run beside that of the same buildings without gaps: what `pounding run --json` prints.

@@ -5,10 +5,9 @@ use pounding_hysteresis::laboratory::{self, Step};
 use pounding_hysteresis::{MAXIMUM_INTERNAL_VARIABLES, Motion};
 use pounding_shear_building::ShearBuilding;
 
-use crate::estimate::short;
-use crate::soft_contact::stiffness_text;
+use crate::short_numbers::{short, stiffness_text};
 use crate::system::{Element, LinkedMotion, System};
-use crate::warnings::{SMALL_MASS, Warning};
+use crate::warning::Warning;
 
 /// Height (m) that hardly any storey reaches, and hardly any pier.
 const HEIGHT: f64 = 100.0;
@@ -17,6 +16,11 @@ const HEIGHT_IN_MILLIMETRES: f64 = 1000.0;
 /// Mass (kg) of hardly any floor of a building, in storeys of at least this height (m): a square metre of a slab has as
 /// much.
 const LEAST_FLOOR: (f64, f64) = (500.0, 2.0);
+/// A mass (kg) that no floor of a building falls below, the height (m) from which storeys are those of
+/// a building and not of a model of one, and a period (s) that models and light buildings exceed:
+/// with all masses a thousand times as large a building of 6 s has it.
+pub(crate) const SMALL_MASS: (f64, f64, f64) = (1000.0, 2.0, 0.2);
+
 /// Storeys from which a list of heights may be one of elevations, and part by which its steps may differ then.
 const ELEVATIONS: (usize, f64) = (3, 0.2);
 /// Storeys from which a list of stiffnesses may be written from the roof down, and last over first from which it is.

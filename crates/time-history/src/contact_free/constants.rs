@@ -11,8 +11,8 @@ use super::overdamped::Decay;
 use super::reach::Reach;
 use super::single_precision::SinglePrecisionShapes;
 use crate::bands::Bands;
+use crate::building_rates::fastest_rate;
 use crate::contact_episode::{FloorRows, ModalRow};
-use crate::rates::fastest_rate;
 use crate::system::System;
 
 /// Exact steps, mode shapes and bounds of all buildings for one length of step.

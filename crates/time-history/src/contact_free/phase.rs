@@ -16,7 +16,7 @@ use crate::contact_episode::{LevelRows, Tracks};
 use crate::dense_output::{ModalStep, Motion, Observers};
 use crate::error::TimeHistoryError;
 use crate::layout::Layout;
-use crate::outcome::Peak;
+use crate::peak::Peak;
 use crate::peaks::Peaks;
 use crate::system::System;
 

@@ -11,7 +11,7 @@ use crate::contact_free::{ContactFree, ContactFreePhase, Lane, add, scale};
 use crate::dense_output::{ModalStep, Motion, Observers};
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
-use crate::outcome::Peak;
+use crate::peak::Peak;
 use crate::polynomial::{COEFFICIENTS, derivative, fit, maximum_above, value, values_at_nodes};
 use crate::system::Segment;
 

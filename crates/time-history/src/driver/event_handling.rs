@@ -12,7 +12,7 @@ use crate::contact::Contact;
 use crate::dynamics::{Context, Instant};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
-use crate::outcome::Peak;
+use crate::peak::Peak;
 use crate::polynomial::{Polynomial, bound, derivative, first_rise, value};
 use crate::system::Segment;
 

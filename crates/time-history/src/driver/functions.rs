@@ -6,7 +6,7 @@ use nalgebra::DMatrix;
 use std::ops::Range;
 
 use crate::contact::{Contact, Contacts};
-use crate::outcome::Peak;
+use crate::peak::Peak;
 use crate::peaks::Peaks;
 use crate::polynomial::{
     Polynomial, absolute_maximum, derivative, hermite_range, maximum_above, septic, value,

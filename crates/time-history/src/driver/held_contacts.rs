@@ -17,7 +17,7 @@ use crate::complementarity::{Complementarity, row};
 use crate::contact::Contact;
 use crate::dynamics::{Instant, coupling};
 use crate::error::TimeHistoryError;
-use crate::outcome::Peak;
+use crate::peak::Peak;
 use crate::small_solver::SmallSolver;
 use crate::system::Segment;
 

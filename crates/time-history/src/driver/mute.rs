@@ -4,9 +4,8 @@ use super::rigid_impacts::TOUCHING;
 use super::{Driver, EVENTS_AT_ONCE, PROGRESS_STEP, SIMULTANEOUS};
 use crate::dynamics::{Context, Instant};
 use crate::events::{Candidate, EventKind, penetration};
-use crate::impacts::TOUCH;
 use crate::polynomial::maximum_above;
-use crate::system::Segment;
+use crate::system::{Segment, TOUCH};
 
 /// Closures of a level in touch before its gap is left open for a while, and the longest
 /// such while (s).

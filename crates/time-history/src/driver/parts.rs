@@ -21,7 +21,8 @@ use crate::contact_free::{
 use crate::dense_output::{ModalStep, Motion, Observers};
 use crate::error::TimeHistoryError;
 use crate::impacts::{LevelMark, LogMark};
-use crate::outcome::{Ledger, Peak, Statistics};
+use crate::outcome::{Ledger, Statistics};
+use crate::peak::Peak;
 use crate::system::{Segment, System};
 
 /// Buildings from which on a row has parts.

@@ -8,11 +8,12 @@ use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::outcome::{
     BuildingOutcome, GapOutcome, IsolatorOutcome, LinkLevelOutcome, LinkOutcome, NamedPeak,
-    Outcome, Peak, StoreyPeaks, YieldingStorey,
+    Outcome, StoreyPeaks, YieldingStorey,
 };
+use crate::peak::Peak;
 use crate::recorder::Recorder;
 use crate::system::{ElementPlace, LevelMotion};
-use crate::warnings::Warning;
+use crate::warning::Warning;
 
 /// Responses with names of a building, from the peaks of all.
 fn responses<'a>(

@@ -17,7 +17,7 @@ use crate::contact::Contact;
 use crate::dynamics::{Instant, coupling};
 use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
-use crate::outcome::Peak;
+use crate::peak::Peak;
 use crate::system::Segment;
 
 /// Height (m) of a hop below which impacts that follow one another ever faster are

@@ -3,7 +3,7 @@
 use super::Driver;
 use super::rigid_impacts::lasting;
 use crate::dynamics::Instant;
-use crate::outcome::Peak;
+use crate::peak::Peak;
 use crate::system::{ContactLevel, Segment};
 
 /// Part of an impulse that shocks of other floors may be where it still tells the force that holds floors together.

@@ -2,11 +2,14 @@
 
 use super::taylor::Taylor;
 use super::{Adaptive, Counts, Information, Method, Verdict};
+use crate::building_rates::fastest_rate;
 use crate::dynamics::Context;
-use crate::estimate::SERIES;
 use crate::polynomial::Polynomial;
-use crate::rates::{Rates, fastest_rate};
+use crate::rates::Rates;
 use crate::system::System;
+
+/// Product of rate and step that the series of the event-driven method takes at most.
+pub(crate) const SERIES: f64 = 0.35;
 
 /// Maximum product of rate and step for the Taylor series, for the fastest mode
 /// and for the stiffest contact: the interpolant of degree 7, on which recorded samples

@@ -12,7 +12,7 @@ mod runge_kutta_4;
 mod taylor;
 
 pub(crate) use adaptive::Adaptive;
-pub(crate) use event_driven::EventDriven;
+pub(crate) use event_driven::{EventDriven, SERIES};
 pub(crate) use modal_series::LARGE;
 pub(crate) use moreau_jean::MoreauJean;
 pub(crate) use newmark::Newmark;

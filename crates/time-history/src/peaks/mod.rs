@@ -7,7 +7,8 @@ use crate::dynamics::{Context, Instant};
 use crate::events::{Finder, penetration, velocity};
 use crate::layout::Layout;
 use crate::methods::{LARGE, Method};
-use crate::outcome::{Peak, StoreyPeaks};
+use crate::outcome::StoreyPeaks;
+use crate::peak::Peak;
 use crate::polynomial::{
     Polynomial, absolute_maximum, bound, derivative, difference, fit, fit_nodes, maximum_above,
     value,

@@ -21,6 +21,7 @@ use pounding_shear_building::{
 };
 use std::sync::{Arc, OnceLock};
 
+pub(crate) use at_rest::TOUCH;
 pub use element::{Element, ElementPlace};
 pub use level_place::{LevelPlace, LinkedMotion};
 use level_response::LevelRow;

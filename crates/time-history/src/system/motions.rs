@@ -6,8 +6,8 @@ use std::sync::Arc;
 
 use super::{CLOSE, GroundAcceleration, Grounds, Segment, System, no_storey};
 use crate::error::TimeHistoryError;
-use crate::estimate::short;
-use crate::outcome::Peak;
+use crate::peak::Peak;
+use crate::short_numbers::short;
 
 /// A ground motion that begins some time after the run.
 #[derive(Debug, Clone)]

@@ -11,11 +11,10 @@ use crate::contact_free::{
     at as lane_at, gather, restoring, step_over, sum, transform_fours, transform_free,
     transform_three,
 };
-use crate::error::TimeHistoryError;
+use crate::history::History;
 use crate::layout::Layout;
 use crate::ledger;
 use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
-use crate::recorder::{History, Recorder, StepView, wants};
 use crate::response_row::{FreeMotion, ShearRows, append_motion};
 use crate::system::{CLOSE, System};
 
@@ -26,17 +25,6 @@ const PARTS: usize = 64;
 pub(crate) const AT_ONCE: usize = 4;
 /// Displacement, velocity and absolute acceleration.
 const QUANTITIES: usize = 3;
-
-/// What observers of a run need beside the step: space, and who they are.
-pub(crate) struct Observers<'a, 'b> {
-    pub recorders: &'a mut [&'b mut dyn Recorder],
-    /// Large, and left out where there is nobody: parts of a row are followed for nobody.
-    workspace: Option<Box<Workspace>>,
-    /// Whether each wants the step that they were asked about last.
-    wanted: Vec<bool>,
-    /// End of the run (s).
-    end: f64,
-}
 
 /// Work space.
 #[derive(Debug)]
@@ -171,69 +159,6 @@ pub(crate) struct ModalStep<'a> {
     pub start: f64,
     pub length: f64,
     pub motion: Motion<'a>,
-}
-
-impl<'a, 'b> Observers<'a, 'b> {
-    /// Of a run up to `end` (s).
-    pub(crate) fn new(
-        system: &System,
-        recorders: &'a mut [&'b mut dyn Recorder],
-        end: f64,
-    ) -> Self {
-        Self {
-            workspace: (!recorders.is_empty()).then(|| Box::new(Workspace::new(system))),
-            wanted: vec![false; recorders.len()],
-            recorders,
-            end,
-        }
-    }
-
-    /// Whether there is nobody to serve.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.recorders.is_empty()
-    }
-
-    /// Whether anybody wants to see a time before this one (s).
-    pub(crate) fn want_before(&self, end: f64) -> bool {
-        let end = end * (1.0 - CLOSE);
-        self.recorders.iter().any(|r| r.next_time() < end)
-    }
-
-    /// Asks all, once, whether they want a step that ends at this time (s). Returns whether one
-    /// does.
-    pub(crate) fn ask(&mut self, end: f64) -> bool {
-        let last = self.is_last(end * (1.0 + CLOSE));
-        for (wanted, recorder) in self.wanted.iter_mut().zip(&*self.recorders) {
-            *wanted = wants(&**recorder, end, last);
-        }
-        self.wanted.contains(&true)
-    }
-
-    /// Whether the run ends at this time (s).
-    fn is_last(&self, end: f64) -> bool {
-        end >= self.end * (1.0 - 1.0e-12)
-    }
-
-    /// Shows a step to all that want it.
-    pub(crate) fn show(&mut self, step: &ModalStep<'_>) -> Result<(), TimeHistoryError> {
-        match self.ask(step.start + step.length) {
-            true => self.show_wanted(step),
-            false => Ok(()),
-        }
-    }
-
-    /// Shows a step to those that wanted it when they were asked.
-    pub(crate) fn show_wanted(&mut self, step: &ModalStep<'_>) -> Result<(), TimeHistoryError> {
-        let last = self.is_last(step.end());
-        if let Some(workspace) = &mut self.workspace {
-            for (recorder, wanted) in self.recorders.iter_mut().zip(&self.wanted) {
-                if *wanted {
-                    recorder.step(&mut StepView::of_modes(step, workspace, last))?;
-                }
-            }
-        }
-        Ok(())
-    }
 }
 
 impl ModalStep<'_> {

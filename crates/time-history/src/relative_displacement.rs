@@ -1,8 +1,9 @@
 //! How far floors come towards one another in a run.
 
 use crate::error::TimeHistoryError;
+use crate::history::History;
 use crate::peak::Peak;
-use crate::recorder::{History, Recorder, StepView};
+use crate::recorder::{Recorder, StepView};
 use crate::system::{System, Terms};
 
 /// Maximum approach of each pair of floors, left displacement minus right displacement

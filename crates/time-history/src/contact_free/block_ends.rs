@@ -809,8 +809,8 @@ mod tests {
     use crate::contact_episode::LevelRows;
     use crate::contact_free::candidates::Candidates;
     use crate::contact_free::{ContactFreePhase, EnergyAccounts, SampleRange};
-    use crate::dense_output::Observers;
     use crate::layout::Layout;
+    use crate::observers::Observers;
     use crate::peaks::Peaks;
     use crate::system::{Floor, GroundAcceleration};
 

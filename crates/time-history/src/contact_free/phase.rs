@@ -13,9 +13,10 @@ use super::lanes::{
 use super::transform::transform;
 use crate::contact::Contacts;
 use crate::contact_episode::{LevelRows, Tracks};
-use crate::dense_output::{ModalStep, Motion, Observers};
+use crate::dense_output::{ModalStep, Motion};
 use crate::error::TimeHistoryError;
 use crate::layout::Layout;
+use crate::observers::Observers;
 use crate::peak::Peak;
 use crate::peaks::Peaks;
 use crate::system::System;

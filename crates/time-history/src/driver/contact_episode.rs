@@ -9,10 +9,10 @@ use crate::contact_episode::{
     stored,
 };
 use crate::contact_free::{ContactFree, ContactFreePhase, Lane};
-use crate::dense_output::Observers;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::method_choice::MethodChoice;
+use crate::observers::Observers;
 use crate::system::{Segment, System};
 
 /// Part of the tolerance that the remainder of a series of powers may have.

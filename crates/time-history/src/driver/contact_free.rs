@@ -5,8 +5,8 @@ use super::exact_steps::ExactSteps;
 use super::parts::Parts;
 use super::{Driver, Mute};
 use crate::contact_free::{EnergyAccounts, SampleRange};
-use crate::dense_output::Observers;
 use crate::error::TimeHistoryError;
+use crate::observers::Observers;
 use crate::system::{Grounds, System};
 
 /// Storeys of the largest building from which terms of tridiagonal matrices cost less than

@@ -8,9 +8,10 @@ use crate::contact_episode::{
     note_floors_of_span, note_sections_of_series, note_sections_of_span, soon_after,
 };
 use crate::contact_free::{ContactFree, ContactFreePhase, Lane, add, scale};
-use crate::dense_output::{ModalStep, Motion, Observers};
+use crate::dense_output::{ModalStep, Motion};
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
+use crate::observers::Observers;
 use crate::peak::Peak;
 use crate::polynomial::{COEFFICIENTS, derivative, fit, maximum_above, value, values_at_nodes};
 use crate::system::Segment;

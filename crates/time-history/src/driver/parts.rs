@@ -18,9 +18,10 @@ use crate::contact_episode::{StepLength, stored};
 use crate::contact_free::{
     ContactFree, ContactFreePhase, FreeSample, SampleRange, Track, WIDTH, put_part, take_part,
 };
-use crate::dense_output::{ModalStep, Motion, Observers};
+use crate::dense_output::{ModalStep, Motion};
 use crate::error::TimeHistoryError;
 use crate::impacts::{LevelMark, LogMark};
+use crate::observers::Observers;
 use crate::outcome::{Ledger, Statistics};
 use crate::peak::Peak;
 use crate::system::{Segment, System};

@@ -3,19 +3,17 @@
 //! never change which steps are taken.
 
 use crate::contact::Contacts;
-use crate::contact_episode::{
-    LevelRows, ModalRow, Pair, Scene, Series, SeriesEnd, SeriesStep, Span, Touch,
-};
-use crate::contact_free::{
-    BlockMotion, ContactFree, Floors, Four, Ground, Lane, ModeLanes, STRIP, SampleMotion, WIDTH,
-    at as lane_at, gather, restoring, step_over, sum, transform_fours, transform_free,
-    transform_three,
-};
+use crate::contact_episode::{Pair, Scene, Series, SeriesEnd, SeriesStep, Span, Touch};
 use crate::history::History;
 use crate::layout::Layout;
 use crate::ledger;
 use crate::polynomial::{GAUSS, Polynomial, difference, maximum_above, value};
 use crate::response_row::{FreeMotion, ShearRows, append_motion};
+use crate::system::modes::{
+    BlockMotion, ContactFree, Floors, Four, Ground, Lane, LevelRows, ModalRow, ModeLanes, STRIP,
+    SampleMotion, WIDTH, at as lane_at, gather, restoring, step_over, sum, transform_fours,
+    transform_free, transform_three,
+};
 use crate::system::{CLOSE, System};
 
 /// Lengths of parts of a sample whose exact steps are kept.

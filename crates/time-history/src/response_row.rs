@@ -4,10 +4,10 @@ use multiversion::multiversion;
 use pounding_shear_building::{ResponseKind, StiffnessMatrix};
 
 use crate::contact::Contacts;
-use crate::contact_free::{BlockMotion, ContactFree, Lane, WIDTH, restore, sum, sums_of_row};
 use crate::history::History;
 use crate::layout::Layout;
 use crate::ledger::{self, Works};
+use crate::system::modes::{BlockMotion, ContactFree, Lane, WIDTH, restore, sum, sums_of_row};
 use crate::system::{SectionPlace, System};
 
 /// Appends responses but for accelerations, elements and energies, from a full state and the

@@ -2,14 +2,15 @@
 
 use multiversion::multiversion;
 
-use super::rows::{LevelRows, ModalRow, total};
 use super::series::{Series, SeriesStep, Works};
 use super::tables::{
     FEW, PARTS, Rule, TERMS, Tables, Terms, end_and_bend, sample, value_and_slope,
 };
 use super::touch::Touch;
-use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH, lane_by_lane, scale};
 use crate::polynomial::{Polynomial, combine};
+use crate::system::modes::{
+    ContactFree, Lane, LevelRows, ModalRow, ModeLanes, WIDTH, lane_by_lane, scale, total,
+};
 
 impl Series {
     /// Expands the motion over a step.
@@ -59,7 +60,7 @@ impl Series {
         end(self, modes, [displacement, velocity, absolute]);
     }
 
-    /// Works of ground motion and damping over the step, and [`TouchSeries::works`] of all closed
+    /// Works of ground motion and damping over the step, and [`super::touch_series::TouchSeries::works`] of all closed
     /// levels with the ends of their forces.
     pub(crate) fn account(&mut self, modes: &[ModeLanes]) -> Works {
         account(self, modes)

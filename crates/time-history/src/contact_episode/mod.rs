@@ -14,7 +14,6 @@ mod peaks;
 mod point;
 mod powers;
 mod reach;
-mod rows;
 mod search;
 mod series;
 mod span;
@@ -31,7 +30,6 @@ pub(crate) use peaks::{
     note_sections_of_series, note_sections_of_span,
 };
 pub(crate) use reach::NEAR;
-pub(crate) use rows::{FloorRows, LevelRows, ModalRow, closings, stored};
 pub(crate) use search::{in_series, in_span, soon_after};
 pub(crate) use series::{Series, SeriesEnd, SeriesStep, Works};
 pub(crate) use span::Span;

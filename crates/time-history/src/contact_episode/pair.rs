@@ -6,11 +6,10 @@ use pounding_runge_kutta::tableau::{ERROR_3, ERROR_5, NODES, ROWS, STAGES, WEIGH
 
 use super::clock::Clock;
 use super::point::{Point, TouchPoint};
-use super::rows::{LevelRows, total};
 use super::series::Works;
 use super::touch::Touch;
-use crate::contact_free::{ContactFree, Lane, WIDTH, add, mul, scale};
 use crate::system::System;
+use crate::system::modes::{ContactFree, Lane, LevelRows, WIDTH, add, mul, scale, total};
 
 /// Sizes (m, m/s) below which displacements and velocities are controlled absolutely.
 const SIZE: [f64; 2] = [1.0e-2, 1.0e-1];

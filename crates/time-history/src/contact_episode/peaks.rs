@@ -3,14 +3,13 @@
 use multiversion::multiversion;
 
 use super::pair::Scene;
-use super::rows::{FloorRows, ModalRow};
 use super::series::Series;
 use super::span::Span;
-use crate::contact_free::{
-    ContactFree, Lane, ModeLanes, Track, WIDTH, add, drifts, lane_by_lane, raise, raise_now, scale,
-    sums_of_row, transform,
-};
 use crate::polynomial::{COEFFICIENTS, absolute_maximum, fit, values_at_nodes};
+use crate::system::modes::{
+    ContactFree, FloorRows, Lane, ModalRow, ModeLanes, Track, WIDTH, add, drifts, lane_by_lane,
+    raise, raise_now, scale, sums_of_row, transform,
+};
 
 /// Displacement, drift and absolute acceleration of all floors.
 pub(crate) struct Tracks<'a> {

@@ -2,10 +2,9 @@
 
 use multiversion::multiversion;
 
-use super::rows::LevelRows;
 use super::touch::Touch;
-use crate::contact_free::{ContactFree, Lane, ModeLanes, WIDTH, lane_by_lane};
 use crate::system::System;
+use crate::system::modes::{ContactFree, Lane, LevelRows, ModeLanes, WIDTH, lane_by_lane};
 
 /// A closed level at one time: penetration (m) and three derivatives, force (N) and its
 /// rate of change (N/s).

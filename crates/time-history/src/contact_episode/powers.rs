@@ -7,7 +7,7 @@
 use pounding_gap_element::PowerLaw;
 
 use super::tables::{PARTS, TERMS};
-use crate::contact_free::{Lane, WIDTH, add};
+use crate::system::modes::{Lane, WIDTH, add};
 
 /// The law of a closed level as it is expanded.
 #[derive(Debug, Clone, Copy)]

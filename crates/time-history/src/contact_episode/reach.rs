@@ -4,8 +4,8 @@ use super::clock::Clock;
 use super::pair::{Pair, Scene};
 use super::search::event_guard;
 use crate::contact::Contacts;
-use crate::contact_free::{Lane, WIDTH};
 use crate::events::EventKind;
+use crate::system::modes::{Lane, WIDTH, total};
 
 /// An event this close to the end of a trial step, as a part of it, needs no other one:
 /// the state is moved there by its own derivatives.
@@ -126,7 +126,7 @@ impl Pair {
                 viscous[l] += m.damping[l] * p[l] * p[l];
             }
         }
-        (super::rows::total(&input), super::rows::total(&viscous))
+        (total(&input), total(&viscous))
     }
 }
 

@@ -3,7 +3,6 @@
 use pounding_gap_element::{Direction, Guard, Phase, Transition};
 
 use super::pair::Scene;
-use super::rows::{LevelRows, ModalRow};
 use super::series::{LEADING, Series, stays_positive};
 use super::span::Span;
 use super::tables::{TERMS, Terms};
@@ -14,6 +13,7 @@ use crate::contact::{Contact, Contacts};
 use crate::events::{Candidate, EventKind};
 use crate::polynomial::{Polynomial, first_rise_near, first_rise_of, negated, value};
 use crate::system::System;
+use crate::system::modes::{LevelRows, ModalRow};
 
 /// A function that passes its root by less than this part of its size only touches it: as
 /// much round-off has the motion gathered by then.

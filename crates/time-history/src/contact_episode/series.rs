@@ -1,13 +1,12 @@
 //! Taylor series of the modes and of contacts with affine laws, summed to round-off.
 
 use super::powers::{Law, Powers};
-use super::rows::{LevelRows, ModalRow};
 use super::tables::{TERMS, Tables, Terms, end_and_bend, maximum, value_and_slope};
 use super::touch::Touch;
 use super::touch_series::TouchSeries;
-use crate::contact_free::{Lane, ModeLanes, WIDTH};
 use crate::polynomial::maximum_above;
 use crate::system::System;
+use crate::system::modes::{Lane, LevelRows, ModalRow, ModeLanes, WIDTH};
 
 /// Product of rate and step up to which Gauss's rule with six nodes is exact to round-off: over the
 /// square of a velocity it errs by `(6!)^4 / (13 (12!)^3) = 1.9e-16` times the twelfth derivative,

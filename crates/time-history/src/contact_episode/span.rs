@@ -2,8 +2,8 @@
 
 use super::clock::Clock;
 use super::point::Point;
-use super::rows::ModalRow;
 use crate::polynomial::{COEFFICIENTS, Polynomial, septic};
+use crate::system::modes::ModalRow;
 
 /// An accurate step, open to interpolation; theta runs over its variable `s`.
 #[derive(Clone, Copy)]

@@ -2,8 +2,8 @@
 
 use std::sync::OnceLock;
 
-use crate::contact_free::{Lane, WIDTH};
 use crate::polynomial::{COEFFICIENTS, GAUSS as GAUSS_OF_SIX, Polynomial, fit_basis, fit_nodes};
+use crate::system::modes::{Lane, WIDTH};
 
 /// Terms of a series at most, that of order zero included.
 pub(super) const TERMS: usize = 28;

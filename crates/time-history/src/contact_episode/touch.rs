@@ -1,9 +1,8 @@
 //! A closed level while its phase is held.
 
-use super::rows::LevelRows;
 use crate::contact::{Contact, Contacts};
-use crate::contact_free::Lane;
 use crate::system::System;
+use crate::system::modes::{Lane, LevelRows};
 
 /// A closed level: its contact, and where it stands.
 #[derive(Debug, Clone, Copy)]

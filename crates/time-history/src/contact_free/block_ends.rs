@@ -3,31 +3,22 @@
 //!
 //! Inside, a floor is the cubic through both ends, which lies within the hull of its Bernstein
 //! coefficients, and what its modes depart from theirs. That is bounded by the exact step over
-//! the block ([`super::block_step`]), or, where there is none, by the largest departure at a
+//! the block ([`crate::system::modes::BlockStep`]), or, where there is none, by the largest departure at a
 //! sample and the overshoot between samples. What stays below its peak by this bound has no
 //! higher one in the block. The rest is put off, eight floors together, and looked at from the
 //! state at the start of the block ([`super::lane_candidates`]).
 
 use multiversion::multiversion;
 
-use super::block::{BLOCK, Block, advance_all, bound_overshoots};
-use super::block_step::{BlockLoad, BlockStep, MadeLoad};
-use super::candidates::Quantity;
-use super::constants::ContactFree;
-use super::lanes::{
-    Lane, Modal, Track, WIDTH, add, is_low, lane_by_lane, modal_acceleration_overshoots, scale,
-    spread,
-};
-use super::reach::{Bounds, OneLane, QUANTITIES, Reach};
-use super::single_precision::SinglePrecisionModes;
-use super::transform::{STRIP, rows_of_four, rows_of_two, transform_four, transform_two};
 use crate::bands::Bands;
 use crate::contact::Contacts;
 use crate::system::System;
-
-/// Storeys of the tallest building from which this costs less than all floors at every sample where
-/// there is no step over the block.
-const TALL: usize = 24;
+use crate::system::modes::{
+    BLOCK, Block, BlockLoad, BlockStep, Bounds, ContactFree, Lane, MadeLoad, Modal, OneLane,
+    QUANTITIES, Quantity, Reach, STRIP, SinglePrecisionModes, Track, WIDTH, add, advance_all,
+    bound_overshoots, is_low, lane_by_lane, modal_acceleration_overshoots, rows_of_four,
+    rows_of_two, scale, spread, transform_four, transform_two,
+};
 
 /// Bernstein coefficients of a cubic.
 const CUBIC: usize = 4;
@@ -61,7 +52,7 @@ pub(super) struct BlockEnds {
     bands: Option<ByBands>,
 }
 
-/// Floors of tall buildings in single precision ([`super::single_precision`]), and their absolute
+/// Floors of tall buildings in single precision ([`crate::system::modes::SinglePrecisionModes`]), and their absolute
 /// accelerations from these displacements and velocities, where stiffness and damping are
 /// tridiagonal: a product with the mode shapes less. Peaks are taken from the modes alone.
 #[derive(Debug, Clone)]
@@ -97,18 +88,12 @@ pub(super) struct Suspect {
     pub upper: Lane,
 }
 
-/// Whether a building of the system is so tall that these blocks are worth their while.
-pub(super) fn is_tall(system: &System) -> bool {
-    let tallest = system.buildings().iter().map(|b| b.storeys()).max();
-    tallest.is_some_and(|storeys| storeys >= TALL) && system.sections().is_empty()
-}
-
 impl BlockEnds {
     pub(super) fn new(constants: &ContactFree) -> Self {
         let (dofs, lanes) = (constants.building.len(), constants.modes.len());
         let zeros = || vec![Lane::ZERO; lanes];
         let end = || std::array::from_fn(|_| zeros());
-        let buildings = Reach::of_buildings(constants);
+        let buildings = Reach::of_buildings(&constants.shapes, &constants.rows);
         Self {
             small: constants.bands.is_none() && constants.shapes.iter().all(|b| b.modes <= STRIP),
             modes: end(),
@@ -121,7 +106,7 @@ impl BlockEnds {
                 .as_ref()
                 .map_or_else(MadeLoad::default, BlockStep::space),
             beyond: std::array::from_fn(|_| zeros()),
-            one_lane: OneLane::of(constants, &buildings),
+            one_lane: OneLane::of(lanes, &buildings),
             buildings,
             suspects: Vec::with_capacity(3 * lanes),
             bands: constants.bands.as_ref().map(|bands| ByBands {
@@ -794,7 +779,7 @@ fn unless_below(upper: Lane, peak: &Lane) -> Option<Lane> {
 }
 
 /// The property that all of this rests on: peaks are those of evaluating every floor at every
-/// sample, in blocks of [`super::block`], which know nothing of hulls. They have the same bits
+/// sample, in blocks of [`crate::system::modes::block`], which know nothing of hulls. They have the same bits
 /// where the modes go from sample to sample too.
 #[cfg(test)]
 #[allow(clippy::unwrap_used)]
@@ -806,12 +791,13 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::contact_episode::LevelRows;
     use crate::contact_free::candidates::Candidates;
     use crate::contact_free::{ContactFreePhase, EnergyAccounts, SampleRange};
     use crate::layout::Layout;
     use crate::observers::Observers;
     use crate::peaks::Peaks;
+    use crate::system::modes::LevelRows;
+    use crate::system::modes::constants::TALL;
     use crate::system::{Floor, GroundAcceleration};
 
     /// Two towers of these storeys with storeys of random mass and stiffness under so many steps of
@@ -928,7 +914,7 @@ mod tests {
             largest_input: &mut largest_input,
             residual: 0.0,
         };
-        let rows = LevelRows::new(constants, system);
+        let rows = LevelRows::new(&constants.rows, system);
         let mut nobody = Observers::new(system, &mut [], 1.0e3);
         let watched = (&rows, &mut nobody);
         let count = phase.propagate(constants, &range, &mut accounts, watched);

@@ -7,24 +7,15 @@
 
 use std::ops::Range;
 
-use super::block::{self, BLOCK};
 use super::block_ends::Suspect;
 use super::closer_look::CloserLook;
-use super::constants::ContactFree;
 use super::lane_candidates::{BlockLook, Interval, LaneCandidate};
-use super::lanes::{Ground, Lane, Modal, Track, WIDTH};
 use super::sample_bound::SampleBound;
 use crate::polynomial::absolute_maximum;
 use crate::system::System;
-
-/// What has peaks.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Quantity {
-    Displacement,
-    Drift,
-    Acceleration,
-    SectionForce,
-}
+use crate::system::modes::{
+    BLOCK, ContactFree, Ground, Lane, Modal, Quantity, Track, WIDTH, block,
+};
 
 /// A sample in which a floor's function could turn above its peak.
 #[derive(Debug, Clone, Copy)]

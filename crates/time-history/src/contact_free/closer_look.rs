@@ -5,11 +5,11 @@ use std::ops::Range;
 
 use multiversion::multiversion;
 
-use super::candidates::Quantity;
-use super::constants::{ContactFree, Fine};
-use super::lanes::{Ground, Lane, Modal, ModeLanes, WIDTH, lane_by_lane, restoring};
-use super::transform::{Four, floor_of_eight, transform_fours};
 use crate::polynomial::{Polynomial, difference, septic};
+use crate::system::modes::{
+    ContactFree, Fine, Four, Ground, Lane, Modal, ModeLanes, Quantity, WIDTH, floor_of_eight,
+    lane_by_lane, restoring, transform_fours,
+};
 
 /// Derivatives of the modes, and of the floors, at one time: displacement, velocity,
 /// acceleration relative to the ground, and two more.

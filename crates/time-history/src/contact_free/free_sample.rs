@@ -2,17 +2,13 @@
 
 use multiversion::multiversion;
 
-use super::candidates::Quantity;
-use super::constants::ContactFree;
-use super::lanes::{
-    Ground, Lane, Modal, WIDTH, at, drifts, is_low, modal_acceleration_overshoots,
-    modal_overshoots, step_modes,
-};
-use super::part::{put_part, take_part};
 use super::phase::{ContactFreePhase, SampleRange};
-use super::transform::{to_floors, transform};
-use super::{Track, restoring};
 use crate::system::System;
+use crate::system::modes::{
+    ContactFree, Ground, Lane, Modal, Quantity, Track, WIDTH, at, drifts, is_low,
+    modal_acceleration_overshoots, modal_overshoots, put_part, restoring, step_modes, take_part,
+    to_floors, transform,
+};
 
 /// The exact step of all buildings over the sample, as if none was in contact. What it makes of
 /// the floors stands in the tracks of [`ContactFreePhase`], as next values and overshoots.

@@ -2,13 +2,11 @@
 //! between which a function lies within the hull of the cubic through values and rates, and
 //! `h^4 / 384` times a bound of its fourth derivative.
 
+use crate::system::modes::{
+    BLOCK, ContactFree, Decay, Ground, Lane, Quantity, Track, WIDTH, derive, products, step_modes,
+    sum_of_products,
+};
 use multiversion::multiversion;
-
-use super::block::{BLOCK, products};
-use super::candidates::Quantity;
-use super::constants::ContactFree;
-use super::lanes::{Ground, Lane, Track, WIDTH, derive, step_modes, sum_of_products};
-use super::overdamped::Decay;
 
 /// Samples at which a block is looked at, its start included.
 const TIMES: usize = BLOCK + 1;

@@ -5,12 +5,10 @@ use std::ops::Range;
 
 use multiversion::multiversion;
 
-use super::candidates::Quantity;
-use super::constants::ContactFree;
-use super::lanes::{Ground, Lane, Modal, WIDTH, derive};
-use super::overdamped::Decay;
-use crate::contact_episode::ModalRow;
 use crate::polynomial::hermite_range;
+use crate::system::modes::{
+    ContactFree, Decay, Ground, Lane, Modal, ModalRow, Quantity, WIDTH, derive,
+};
 
 /// The modes at both ends of a sample: displacement and velocity, absolute acceleration and
 /// its rate; and bounds of the fourth derivatives of displacement and absolute acceleration, with

@@ -5,14 +5,14 @@ use std::ops::Range;
 
 use super::{Driver, EVENT_TOLERANCE, Mute, SIMULTANEOUS};
 use crate::contact_episode::{
-    LevelRows, Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh,
-    stored,
+    Pair, Rates, Series, StepLength, Touch, are_affine, are_powers, list, refresh,
 };
-use crate::contact_free::{ContactFree, ContactFreePhase, Lane};
+use crate::contact_free::ContactFreePhase;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::method_choice::MethodChoice;
 use crate::observers::Observers;
+use crate::system::modes::{ContactFree, Lane, LevelRows, stored};
 use crate::system::{Segment, System};
 
 /// Part of the tolerance that the remainder of a series of powers may have.
@@ -79,7 +79,7 @@ impl<'a> Open<'a> {
         let MethodChoice::EventDriven { relative_tolerance } = *method else {
             return None;
         };
-        let rows = LevelRows::new(constants, system);
+        let rows = LevelRows::new(&constants.rows, system);
         let dofs = 0..system.degrees_of_freedom();
         let levels = (0..levels).collect();
         Some(Self {

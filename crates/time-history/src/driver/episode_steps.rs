@@ -4,10 +4,10 @@ use super::contact_episode::Open;
 use super::{Driver, EVENT_TOLERANCE, Mute, SHORTEST_STEP};
 use crate::contact_episode::{
     Clock, EndOfStep, NEAR, Pair, Places, Proposal, Scene, Series, SeriesEnd, SeriesStep, Span,
-    StepLength, Works, begin_acceleration, closings, in_series, in_span, note_floors_of_series,
+    StepLength, Works, begin_acceleration, in_series, in_span, note_floors_of_series,
     note_floors_of_span, note_sections_of_series, note_sections_of_span, soon_after,
 };
-use crate::contact_free::{ContactFree, ContactFreePhase, Lane, add, scale};
+use crate::contact_free::ContactFreePhase;
 use crate::dense_output::{ModalStep, Motion};
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
@@ -15,6 +15,7 @@ use crate::observers::Observers;
 use crate::peak::Peak;
 use crate::polynomial::{COEFFICIENTS, derivative, fit, maximum_above, value, values_at_nodes};
 use crate::system::Segment;
+use crate::system::modes::{ContactFree, Lane, add, closings, scale};
 
 /// Part of the present peak below which a fitted maximum is not looked at closer.
 const BELOW_PEAK: f64 = 1.0 - 1.0e-3;

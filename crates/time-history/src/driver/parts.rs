@@ -14,16 +14,15 @@ use std::ops::Range;
 use super::contact_episode::{ContactEpisode, Open, Sample};
 use super::{Driver, Mute};
 use crate::contact::Mode;
-use crate::contact_episode::{StepLength, stored};
-use crate::contact_free::{
-    ContactFree, ContactFreePhase, FreeSample, SampleRange, Track, WIDTH, put_part, take_part,
-};
+use crate::contact_episode::StepLength;
+use crate::contact_free::{ContactFreePhase, FreeSample, SampleRange};
 use crate::dense_output::{ModalStep, Motion};
 use crate::error::TimeHistoryError;
 use crate::impacts::{LevelMark, LogMark};
 use crate::observers::Observers;
 use crate::outcome::{Ledger, Statistics};
 use crate::peak::Peak;
+use crate::system::modes::{ContactFree, Track, WIDTH, put_part, stored, take_part};
 use crate::system::{Segment, System};
 
 /// Buildings from which on a row has parts.

@@ -1,7 +1,7 @@
 //! Whole intervals without contact of buildings that are no sums of oscillators, one after
 //! another as long as the bounds exclude events: the steps of [`super::exact_steps`], with no more
-//! worked out than the proof takes, and peaks put off ([`super::peaks_put_off`]). The first interval
-//! in which a gap may close is left to those.
+//! worked out than the proof takes, and peaks put off. The first interval in which a gap may close is
+//! left to those.
 
 use super::exact_steps::ExactSteps;
 use super::functions::{Begin, Course};

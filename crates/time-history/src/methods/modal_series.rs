@@ -3,12 +3,11 @@
 //! forces of the floors would cost the square of their number.
 
 use super::chain::{Spring, Sums, TERMS};
-use crate::contact_episode::LevelRows;
-use crate::contact_free::{
-    ContactFree, Four, Lane, WIDTH, gather, spread, transform, transform_fours,
-};
 use crate::polynomial::{Polynomial, derivative, septic, value};
 use crate::system::System;
+use crate::system::modes::{
+    ContactFree, Four, Lane, LevelRows, WIDTH, gather, spread, transform, transform_fours,
+};
 
 /// Floors (all buildings together) above which terms are computed in the modes.
 pub(crate) const LARGE: usize = 100;
@@ -60,7 +59,7 @@ impl ModalSeries {
             modes: [zeros(), zeros()],
         };
         Some(Self {
-            rows: LevelRows::new(constants, system),
+            rows: LevelRows::new(&constants.rows, system),
             known: [known(), known()],
             term: [zeros(), zeros()],
             acceleration: zeros(),

@@ -5,6 +5,7 @@ mod element;
 mod level_place;
 mod level_response;
 mod links;
+pub(crate) mod modes;
 mod motions;
 mod names;
 mod place;
@@ -40,9 +41,9 @@ pub use unequal_floors::UnequalFloors;
 pub use unequal_floors::more_pairs;
 
 use crate::bands::Bands;
-use crate::contact_free::{ContactFree, Loads};
 use crate::error::TimeHistoryError;
 use crate::propagation::Propagation;
+use modes::{ContactFree, Loads};
 
 /// One pair of floors (or a floor and a rigid wall) that may touch.
 #[derive(Debug, Clone)]

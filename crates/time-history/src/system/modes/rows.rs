@@ -4,8 +4,16 @@ use std::ops::Range;
 
 use multiversion::multiversion;
 
-use crate::contact_free::{ContactFree, Lane, WIDTH};
+use super::lanes::{Lane, Shapes, WIDTH};
 use crate::system::{ContactLevel, SectionForce, System};
+
+/// Rows of values that are linear in the displacements of the modes, eight to a lane.
+#[derive(Debug, Clone)]
+pub(crate) struct Rows {
+    pub first_mode: usize,
+    /// One lane a mode, from `first_mode` on.
+    pub columns: Vec<Lane>,
+}
 
 /// One linear function of the modal displacements, over the lanes where it is not zero.
 #[derive(Debug, Clone, Default)]
@@ -53,7 +61,7 @@ impl ModalRow {
 
     /// Its weights on all of the first `LANES` lanes.
     #[inline(always)]
-    pub(super) fn spread<const LANES: usize>(&self) -> [Lane; LANES] {
+    pub(crate) fn spread<const LANES: usize>(&self) -> [Lane; LANES] {
         std::array::from_fn(|c| {
             let place = c.checked_sub(self.first_lane);
             let lane = place.and_then(|c| self.weights.get(c));
@@ -274,24 +282,6 @@ pub(crate) fn closings(rows: &LevelRows, levels: &[usize], q: &[Lane], out: &mut
     }
 }
 
-/// Kinetic energy and energy of strain (J) of the modes.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
-pub(crate) fn stored(constants: &ContactFree, q: &[Lane], p: &[Lane]) -> f64 {
-    let mut energies = Lane::ZERO;
-    for (c, m) in constants.modes.iter().enumerate() {
-        for l in 0..WIDTH {
-            let x = m.circular_frequency[l] * q[c][l];
-            energies[l] += 0.5 * (p[c][l] * p[c][l] + x * x);
-        }
-    }
-    total(&energies)
-}
-
 impl FloorRows {
     /// Bound of a function of any floor whose modal parts have these magnitudes.
     #[inline(always)]
@@ -305,17 +295,17 @@ impl FloorRows {
         total(&sum)
     }
 
-    pub(crate) fn new(constants: &ContactFree, system: &System) -> Self {
+    pub(super) fn new((inverse, building): (&[Shapes], &[usize]), system: &System) -> Self {
         let mass = system.mass();
         // Columns of Phi' M over the masses are the floors' rows of Phi.
         let floor = |i: usize, sign: f64| -> (Vec<Lane>, usize, f64) {
-            let inverse = &constants.inverse[constants.building[i]];
+            let inverse = &inverse[building[i]];
             let local = i - inverse.first_mode;
             let column = (0..inverse.lanes).map(|k| inverse.columns[k * inverse.modes + local]);
             (column.collect(), inverse.first_lane, sign / mass[i])
         };
         let drift = |i: usize| match i.checked_sub(1) {
-            Some(b) if constants.building[b] == constants.building[i] => {
+            Some(b) if building[b] == building[i] => {
                 ModalRow::new(&[floor(i, 1.0), floor(b, -1.0)])
             }
             _ => ModalRow::new(&[floor(i, 1.0)]),
@@ -331,7 +321,7 @@ impl FloorRows {
             ModalRow::new(&parts.collect::<Vec<_>>())
         };
         let largest = |rows: &[ModalRow]| {
-            let mut size = vec![Lane::ZERO; constants.modes.len()];
+            let mut size = vec![Lane::ZERO; mass.len().div_ceil(WIDTH)];
             for row in rows {
                 for (w, s) in row.weights.iter().zip(&mut size[row.first_lane..]) {
                     for l in 0..WIDTH {
@@ -352,9 +342,9 @@ impl FloorRows {
 }
 
 impl LevelRows {
-    pub(crate) fn new(constants: &ContactFree, system: &System) -> Self {
+    pub(crate) fn new(rows: &FloorRows, system: &System) -> Self {
         let floor = |i: usize, sign: f64| -> (Vec<Lane>, usize, f64) {
-            let row = &constants.rows.floors[i];
+            let row = &rows.floors[i];
             (row.weights.clone(), row.first_lane, sign)
         };
         let row = |level: &ContactLevel| {

@@ -8,8 +8,6 @@ use std::hint::black_box;
 use multiversion::multiversion;
 use std::ops::{Index, IndexMut, Range};
 
-use super::constants::ContactFree;
-
 /// Eight values side by side, in one line of the cache.
 #[derive(Debug, Clone, Copy, Default, PartialEq)]
 #[repr(align(64))]
@@ -120,7 +118,7 @@ pub(crate) fn scale(factor: f64, a: Lane) -> Lane {
 
 /// Sum of the products of values with these numbers.
 #[inline(always)]
-pub(super) fn sum_of_products(a: &[Lane], b: &[Lane], numbers: Range<usize>) -> f64 {
+pub(crate) fn sum_of_products(a: &[Lane], b: &[Lane], numbers: Range<usize>) -> f64 {
     let (first, last) = (numbers.start.div_ceil(WIDTH), numbers.end / WIDTH);
     if first >= last {
         return numbers.map(|i| at(a, i) * at(b, i)).sum();
@@ -243,7 +241,7 @@ impl Modal {
 impl Track {
     /// What the peaks of a lane are sure to reach.
     #[inline(always)]
-    pub(super) fn reach(&self, lane: usize) -> Lane {
+    pub(crate) fn reach(&self, lane: usize) -> Lane {
         let (peak, sure) = (&self.peak[lane], &self.sure[lane]);
         Lane::from_fn(|l| if sure[l] > peak[l] { sure[l] } else { peak[l] })
     }
@@ -274,73 +272,11 @@ impl Track {
     }
 }
 
-/// Bounds of what the displacements of the modes can do between samples beyond their values
-/// there, for these sizes of the modes and this maximum ground acceleration.
-#[inline(always)]
-pub(crate) fn modal_overshoots(
-    constants: &ContactFree,
-    size: &[Lane],
-    largest: f64,
-    modal: &mut [Lane],
-) {
-    let eighth = constants.eighth();
-    for (c, m) in constants.modes.iter().enumerate() {
-        lane_by_lane();
-        let (size, [by_size, by_ground]) = (size[c], m.acceleration_bound);
-        let mut sum = Lane::ZERO;
-        for l in 0..WIDTH {
-            sum[l] = eighth * (by_size[l] * size[l] + by_ground[l] * largest);
-        }
-        modal[c] = sum;
-    }
-}
-
-/// The same for absolute acceleration, with the maximum slope of the ground's.
-#[inline(always)]
-pub(crate) fn modal_acceleration_overshoots(
-    constants: &ContactFree,
-    size: &[Lane],
-    (largest, slope): (f64, f64),
-    modal: &mut [Lane],
-) {
-    let eighth = constants.eighth();
-    for (c, m) in constants.modes.iter().enumerate() {
-        lane_by_lane();
-        let (size, [by_size, by_ground, by_slope]) = (size[c], m.snap_bound);
-        let mut sum = Lane::ZERO;
-        for l in 0..WIDTH {
-            let ground = by_ground[l] * largest + by_slope[l] * slope;
-            sum[l] = eighth * (by_size[l] * size[l] + ground);
-        }
-        modal[c] = sum;
-    }
-}
-
-/// Whether the bound of floor acceleration, told by the overshoot of displacement and this
-/// maximum ground acceleration, is below all peaks of absolute acceleration.
-#[inline(always)]
-pub(crate) fn is_low(
-    constants: &ContactFree,
-    (displacement, largest): (&[Lane], f64),
-    peak: &[Lane],
-) -> bool {
-    let eighth = constants.eighth();
-    // Free vibration is what the floors do beside the ground's own acceleration.
-    let ground = if constants.swings { largest } else { 0.0 };
-    let mut low = true;
-    for (over, peak) in displacement.iter().zip(peak) {
-        for l in 0..WIDTH {
-            low &= over[l] <= eighth * (peak[l] - ground);
-        }
-    }
-    low
-}
-
 /// Displacement, velocity, input and viscous work of eight modes after a step, and their
 /// `|q'| + omega |q|` before it; of `SWINGS` that of their free vibration, without the motion
 /// that is linear in time as the ground's acceleration is.
 #[inline(always)]
-pub(super) fn step_modes<const SWINGS: bool>(
+pub(crate) fn step_modes<const SWINGS: bool>(
     m: &ModeLanes,
     [x, v, mut input, mut viscous]: [Lane; 4],
     ground: Ground,
@@ -382,7 +318,7 @@ pub(super) fn step_modes<const SWINGS: bool>(
 /// second and the fourth derivative of displacement, which swing freely between samples, each with
 /// its rate.
 #[inline(always)]
-pub(super) fn derive(
+pub(crate) fn derive(
     m: &ModeLanes,
     (q, p): (&Lane, &Lane),
     ground: Ground,

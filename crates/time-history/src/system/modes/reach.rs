@@ -3,16 +3,16 @@
 use std::hint::black_box;
 use std::ops::Range;
 
-use super::constants::ContactFree;
-use super::lanes::{Lane, WIDTH, add, mul, scale, sum};
+use super::lanes::{Lane, Shapes, WIDTH, add, mul, scale, sum};
+use super::rows::FloorRows;
 
 /// What floors are bounded in: displacement, drift and absolute acceleration, and the maximum of
 /// absolute acceleration.
-pub(super) const QUANTITIES: usize = 4;
+pub(crate) const QUANTITIES: usize = 4;
 
 /// Bounds of the modes over a block, all magnitudes.
 #[derive(Debug, Clone)]
-pub(super) struct Bounds {
+pub(crate) struct Bounds {
     /// What displacement and absolute acceleration depart from the cubic through both ends by.
     pub displacement: Vec<Lane>,
     pub acceleration: Vec<Lane>,
@@ -21,7 +21,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    pub(super) fn new(lanes: usize) -> Self {
+    pub(crate) fn new(lanes: usize) -> Self {
         let zeros = || vec![Lane::ZERO; lanes];
         Self {
             displacement: zeros(),
@@ -33,7 +33,7 @@ impl Bounds {
 
 /// How far the modes of a building move its floors at most.
 #[derive(Debug, Clone)]
-pub(super) struct Reach {
+pub(crate) struct Reach {
     /// First lane of its floors.
     pub lane: usize,
     /// Maximum magnitudes of its mode shapes, and of their differences from floor to floor, by
@@ -45,14 +45,12 @@ pub(super) struct Reach {
 
 impl Reach {
     /// Of all buildings.
-    pub(super) fn of_buildings(constants: &ContactFree) -> Vec<Self> {
-        let shapes = constants.shapes.iter();
-        let floors = shapes.map(|b| b.first_mode..b.first_mode + b.modes);
-        floors.map(|floors| Self::new(constants, floors)).collect()
+    pub(crate) fn of_buildings(shapes: &[Shapes], rows: &FloorRows) -> Vec<Self> {
+        let floors = shapes.iter().map(|b| b.first_mode..b.first_mode + b.modes);
+        floors.map(|floors| Self::new(rows, floors)).collect()
     }
 
-    fn new(constants: &ContactFree, floors: Range<usize>) -> Self {
-        let rows = &constants.rows;
+    fn new(rows: &FloorRows, floors: Range<usize>) -> Self {
         let (lane, end) = (floors.start / WIDTH, floors.end.div_ceil(WIDTH));
         let own = |c: usize| Lane::from_fn(|l| f64::from(floors.contains(&(c * WIDTH + l))));
         let part = |of: &[Lane]| (lane..end).map(|c| mul(own(c), of[c])).collect();
@@ -66,7 +64,7 @@ impl Reach {
 
     /// Sums of the products of sizes of modes with their bounds.
     #[inline(always)]
-    pub(super) fn sums(&self, bounds: &Bounds) -> [f64; QUANTITIES] {
+    pub(crate) fn sums(&self, bounds: &Bounds) -> [f64; QUANTITIES] {
         let count = self.own.len();
         let lanes = self.lane..self.lane + count;
         let (size, drift_size) = (&self.size[..count], &self.drift_size[..count]);
@@ -89,7 +87,7 @@ impl Reach {
 /// Buildings whose floors all stand in one lane: products with a small matrix cost less there than
 /// sums for every building.
 #[derive(Debug, Clone)]
-pub(super) struct OneLane {
+pub(crate) struct OneLane {
     /// For every mode its maximum magnitude at the floors of its building, and that of differences
     /// from floor to floor.
     size: [Lane; WIDTH],
@@ -100,8 +98,8 @@ pub(super) struct OneLane {
 
 impl OneLane {
     /// `None` for more lanes.
-    pub(super) fn of(constants: &ContactFree, buildings: &[Reach]) -> Option<Self> {
-        (constants.modes.len() == 1).then(|| Self::of_buildings(buildings))
+    pub(crate) fn of(lanes: usize, buildings: &[Reach]) -> Option<Self> {
+        (lanes == 1).then(|| Self::of_buildings(buildings))
     }
 
     fn of_buildings(buildings: &[Reach]) -> Self {
@@ -126,7 +124,7 @@ impl OneLane {
     /// What these bounds of the modes, and what the accelerations add for each building, come to at
     /// the floors.
     #[inline(always)]
-    pub(super) fn bounds(
+    pub(crate) fn bounds(
         &self,
         bounds: &Bounds,
         added: &[[f64; QUANTITIES]],

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use super::constants::{ContactFree, Fine, spread};
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
-use crate::contact_episode::{FloorRows, ModalRow};
+use super::rows::{FloorRows, ModalRow};
 
 /// Copies values out of a row of lanes, from this place on, into lanes of their own.
 pub(crate) fn take_part(all: &[Lane], first: usize, part: &mut [Lane], count: usize) {

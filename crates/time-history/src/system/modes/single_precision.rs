@@ -64,17 +64,17 @@ struct Building {
 
 /// Work space: the modes in single precision.
 #[derive(Debug, Clone)]
-pub(super) struct SinglePrecisionModes([Vec<f32>; FUNCTIONS]);
+pub(crate) struct SinglePrecisionModes([Vec<f32>; FUNCTIONS]);
 
 impl SinglePrecisionModes {
-    pub(super) fn new(lanes: usize) -> Self {
+    pub(crate) fn new(lanes: usize) -> Self {
         Self(std::array::from_fn(|_| vec![0.0; lanes * WIDTH]))
     }
 }
 
 impl SinglePrecisionShapes {
     /// Of these shapes, whose modes have these maximum magnitudes.
-    pub(super) fn new(shapes: &[Shapes], size: &[Lane]) -> Self {
+    pub(crate) fn new(shapes: &[Shapes], size: &[Lane]) -> Self {
         let mut error = vec![Lane::ZERO; size.len()];
         for building in shapes {
             for j in 0..building.modes {
@@ -93,7 +93,7 @@ impl SinglePrecisionShapes {
 
     /// Takes these displacements and velocities of the modes over, the velocities times this (s).
     /// Returns what displacements and velocities times it of any floor err by, at most.
-    pub(super) fn take(
+    pub(crate) fn take(
         &self,
         [displacement, velocity]: [&[Lane]; FUNCTIONS],
         third: f64,
@@ -103,7 +103,7 @@ impl SinglePrecisionShapes {
     }
 
     /// Works the floors out.
-    pub(super) fn floors(&self, modes: &SinglePrecisionModes, out: [&mut [Lane]; FUNCTIONS]) {
+    pub(crate) fn floors(&self, modes: &SinglePrecisionModes, out: [&mut [Lane]; FUNCTIONS]) {
         floors(self, modes, out);
     }
 }
@@ -249,8 +249,8 @@ fn add_tile<const COUNT: usize>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact_free::constants::spread;
-    use crate::contact_free::transform::transform;
+    use crate::system::modes::constants::spread;
+    use crate::system::modes::transform::transform;
 
     /// Two buildings that share a lane, with shapes of all sizes.
     fn shapes(counts: [usize; 2]) -> (Vec<Shapes>, Vec<Lane>) {

@@ -2,8 +2,8 @@
 
 use multiversion::multiversion;
 
-use super::block::Rows;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH, at, restore};
+use super::rows::Rows;
 
 /// Floors from modes: `u = Phi q`.
 #[multiversion(targets(
@@ -17,7 +17,7 @@ pub(crate) fn transform(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) 
 }
 
 #[inline(always)]
-pub(super) fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) {
+pub(crate) fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) {
     for lane in floors.iter_mut() {
         *lane = Lane::ZERO;
     }
@@ -44,7 +44,7 @@ pub(super) fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) 
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn transform_two(shapes: &[Shapes], modal: [&[Lane]; 2], floors: &mut [Vec<Lane>; 4]) {
+pub(crate) fn transform_two(shapes: &[Shapes], modal: [&[Lane]; 2], floors: &mut [Vec<Lane>; 4]) {
     let [first, second, _, _] = floors;
     to_floors_together::<2, 2>(shapes, modal, [first, second]);
 }
@@ -56,7 +56,7 @@ pub(super) fn transform_two(shapes: &[Shapes], modal: [&[Lane]; 2], floors: &mut
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn transform_four(shapes: &[Shapes], modal: [&[Lane]; 4], floors: &mut [Vec<Lane>; 4]) {
+pub(crate) fn transform_four(shapes: &[Shapes], modal: [&[Lane]; 4], floors: &mut [Vec<Lane>; 4]) {
     let floors = floors.each_mut().map(Vec::as_mut_slice);
     to_floors_together::<4, 1>(shapes, modal, floors);
 }
@@ -130,7 +130,7 @@ fn add_tile<const COUNT: usize, const TILE: usize>(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn rows_of_two(rows: &[Rows], modal: [&[Lane]; 2], floors: &mut [Vec<Lane>; 4]) {
+pub(crate) fn rows_of_two(rows: &[Rows], modal: [&[Lane]; 2], floors: &mut [Vec<Lane>; 4]) {
     let [first, second, _, _] = floors;
     by_rows::<2>(rows, modal, [first, second]);
 }
@@ -142,7 +142,7 @@ pub(super) fn rows_of_two(rows: &[Rows], modal: [&[Lane]; 2], floors: &mut [Vec<
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn rows_of_four(rows: &[Rows], modal: [&[Lane]; 4], floors: &mut [Vec<Lane>; 4]) {
+pub(crate) fn rows_of_four(rows: &[Rows], modal: [&[Lane]; 4], floors: &mut [Vec<Lane>; 4]) {
     let floors = floors.each_mut().map(Vec::as_mut_slice);
     by_rows::<4>(rows, modal, floors);
 }
@@ -195,7 +195,7 @@ pub(crate) fn sums_of_row<const COUNT: usize>(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn floor_of_eight(shapes: &[Shapes], eights: &[Lane], floor: usize) -> Lane {
+pub(crate) fn floor_of_eight(shapes: &[Shapes], eights: &[Lane], floor: usize) -> Lane {
     let holds = |b: &&Shapes| (b.first_mode..b.first_mode + b.modes).contains(&floor);
     let mut sum = Lane::ZERO;
     let Some(building) = shapes.iter().find(holds) else {
@@ -369,7 +369,7 @@ fn add_strip(columns: &[Lane], packed: &Packed, place: usize, lane: usize, four:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::contact_free::constants::spread;
+    use crate::system::modes::constants::spread;
 
     /// Two buildings that share a lane, taller than a strip.
     fn shapes(counts: [usize; 2]) -> Vec<Shapes> {

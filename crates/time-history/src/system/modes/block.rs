@@ -5,34 +5,33 @@ use std::ops::Range;
 
 use multiversion::multiversion;
 
-use super::candidates::Quantity;
+use super::block_step::BLOCK;
 use super::constants::ContactFree;
 use super::lanes::{
-    Ground, Lane, Modal, ModalState, ModeLanes, Shapes, WIDTH, at, is_low, lane_by_lane,
-    modal_acceleration_overshoots, modal_overshoots, step_modes,
+    Ground, Lane, Modal, ModalState, ModeLanes, Shapes, WIDTH, at, lane_by_lane, step_modes,
 };
+use super::overshoots::{is_low, modal_acceleration_overshoots, modal_overshoots};
+use super::rows::Rows;
 use super::transform::to_floors;
 use crate::system::System;
 
-/// Samples of a block.
-pub(super) const BLOCK: usize = 8;
+/// What has peaks.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Quantity {
+    Displacement,
+    Drift,
+    Acceleration,
+    SectionForce,
+}
 
 /// Lanes of degrees of freedom above which overshoots are first bounded for all floors of a
 /// building together: each floor's own takes a pass over the mode shapes, which are then
 /// larger than the cache.
 const LARGE: usize = 3;
 
-/// Rows of values that are linear in the displacements of the modes, eight to a lane.
-#[derive(Debug, Clone)]
-pub(crate) struct Rows {
-    pub first_mode: usize,
-    /// One lane a mode, from `first_mode` on.
-    pub columns: Vec<Lane>,
-}
-
 /// Work space.
 #[derive(Debug, Clone)]
-pub(super) struct Block {
+pub(crate) struct Block {
     /// Modal state at the end.
     pub end: Modal,
     /// Displacements and absolute accelerations of the modes at every sample, sample
@@ -64,7 +63,7 @@ pub(super) struct Block {
 
 /// Maximum values over the block, and the values at every sample.
 #[derive(Debug, Clone)]
-pub(super) struct Extremes {
+pub(crate) struct Extremes {
     pub top: Vec<Lane>,
     /// Eight lanes, one a sample, for every lane of rows.
     values: Vec<[Lane; BLOCK]>,
@@ -79,12 +78,12 @@ impl Extremes {
     }
 
     /// Value of a row after so many samples, at least one.
-    pub(super) fn after(&self, samples: usize, row: usize) -> f64 {
+    pub(crate) fn after(&self, samples: usize, row: usize) -> f64 {
         self.values[row / WIDTH][samples - 1][row % WIDTH]
     }
 
     /// All rows after so many samples.
-    pub(super) fn copy_after(&self, samples: usize, out: &mut [Lane]) {
+    pub(crate) fn copy_after(&self, samples: usize, out: &mut [Lane]) {
         for (out, values) in out.iter_mut().zip(&self.values) {
             *out = values[samples - 1];
         }
@@ -92,7 +91,7 @@ impl Extremes {
 }
 
 impl Block {
-    pub(super) fn new(system: &System) -> Self {
+    pub(crate) fn new(system: &System) -> Self {
         let lanes = system.degrees_of_freedom().div_ceil(WIDTH);
         let levels = system.levels().len();
         let sections = system.sections().len().div_ceil(WIDTH);
@@ -119,7 +118,7 @@ impl Block {
 
 impl Block {
     /// For what never takes blocks.
-    pub(super) fn none() -> Self {
+    pub(crate) fn none() -> Self {
         let extremes = || Extremes::new(0);
         Self {
             end: Modal::new(0),
@@ -141,7 +140,7 @@ impl Block {
     }
 
     /// Keeps the whole motion at every sample from now on.
-    pub(super) fn watch(&mut self) {
+    pub(crate) fn watch(&mut self) {
         if self.watched.is_none() {
             let zeros = || vec![Lane::ZERO; self.displacement.len()];
             self.watched = Some([zeros(), zeros(), zeros()]);
@@ -162,7 +161,7 @@ impl Block {
     }
 
     /// Values and extremes of one of the floors' functions.
-    pub(super) fn values(&self, quantity: Quantity) -> &Extremes {
+    pub(crate) fn values(&self, quantity: Quantity) -> &Extremes {
         match quantity {
             Quantity::Displacement => &self.floors,
             Quantity::Drift => &self.drifts,
@@ -181,7 +180,7 @@ impl Block {
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn propagate(
+pub(crate) fn propagate(
     constants: &ContactFree,
     now: &Modal,
     samples: &[f64; BLOCK + 1],
@@ -218,7 +217,7 @@ pub(super) fn propagate(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn sharpen(constants: &ContactFree, block: &mut Block, quantity: usize) -> bool {
+pub(crate) fn sharpen(constants: &ContactFree, block: &mut Block, quantity: usize) -> bool {
     let coarse = !block.own[quantity];
     if coarse {
         bound_overshoots(constants, block, [quantity], false);
@@ -228,7 +227,7 @@ pub(super) fn sharpen(constants: &ContactFree, block: &mut Block, quantity: usiz
 
 /// Bounds overshoots over the block, for all floors of a building `together` or for each.
 #[inline(always)]
-pub(super) fn bound_overshoots<const COUNT: usize>(
+pub(crate) fn bound_overshoots<const COUNT: usize>(
     constants: &ContactFree,
     block: &mut Block,
     quantities: [usize; COUNT],
@@ -294,7 +293,7 @@ fn bound_sections(constants: &ContactFree, block: &mut Block) {
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn advance(
+pub(crate) fn advance(
     constants: &ContactFree,
     (lanes, samples): (Range<usize>, &[f64]),
     now: &mut Modal,
@@ -355,7 +354,7 @@ pub(crate) fn step_over(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn follow(
+pub(crate) fn follow(
     constants: &ContactFree,
     start: &Modal,
     samples: &[f64; BLOCK + 1],
@@ -396,7 +395,7 @@ pub(super) fn follow(
     "x86_64+avx",
     "aarch64+neon"
 ))]
-pub(super) fn bound_displacements(
+pub(crate) fn bound_displacements(
     constants: &ContactFree,
     start: ModalState<'_>,
     samples: &[f64],
@@ -420,7 +419,7 @@ pub(super) fn bound_displacements(
 
 /// All modes over the block, whose ground accelerations are `samples`.
 #[inline(always)]
-pub(super) fn advance_all(
+pub(crate) fn advance_all(
     constants: &ContactFree,
     now: &Modal,
     samples: &[f64; BLOCK + 1],
@@ -530,7 +529,7 @@ fn rows(rows: &[Rows], block: &mut Block, accelerations: bool) {
 
 /// A lane of floors at so many times, `stride` lanes of modes from one to the next.
 #[inline(always)]
-pub(super) fn products<const TIMES: usize>(
+pub(crate) fn products<const TIMES: usize>(
     row: &Rows,
     modal: &[Lane],
     stride: usize,

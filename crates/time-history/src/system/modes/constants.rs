@@ -2,18 +2,17 @@
 
 use pounding_shear_building::ShearBuilding;
 
-use super::block::Rows;
-use super::block_ends::is_tall;
 use super::block_step::BlockStep;
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH};
 use super::mode_step::{ModeStep, Oscillator};
 use super::overdamped::Decay;
 use super::reach::Reach;
+use super::rows::{FloorRows, ModalRow, Rows, total};
 use super::single_precision::SinglePrecisionShapes;
 use crate::bands::Bands;
 use crate::building_rates::fastest_rate;
-use crate::contact_episode::{FloorRows, ModalRow};
 use crate::system::System;
+use multiversion::multiversion;
 
 /// Exact steps, mode shapes and bounds of all buildings for one length of step.
 #[derive(Debug, Clone)]
@@ -76,6 +75,10 @@ const COARSEST: f64 = 1.0e6;
 /// of the small differences between floors that stiff storeys join.
 const FASTEST_DECAY: f64 = 1.0e8;
 
+/// Storeys of the tallest building from which this costs less than all floors at every sample where
+/// there is no step over the block.
+pub(crate) const TALL: usize = 24;
+
 impl ContactFree {
     /// For these buildings and this step (s); `None` if the damping of a building
     /// couples its modes, or if the step holds so many periods that a whole one costs more than the run may be long.
@@ -97,7 +100,7 @@ impl ContactFree {
         this.add_rows();
         this.decays = Decay::of_modes(system, step);
         this.fastest = fastest;
-        this.rows = FloorRows::new(&this, system);
+        this.rows = FloorRows::new((&this.inverse, &this.building), system);
         this.add_sections();
         this.bands = system.bands().filter(|_| is_tall(system)).cloned();
         if let Some(bands) = &mut this.bands {
@@ -110,7 +113,7 @@ impl ContactFree {
         let first = first.map(|b| b.modes().circular_frequency[0]);
         if by_modes && BlockStep::is_worth(step, first, this.fastest) {
             let parts = this.modes_over(system, BlockStep::parts(step));
-            let buildings = Reach::of_buildings(&this);
+            let buildings = Reach::of_buildings(&this.shapes, &this.rows);
             this.block_step = Some(BlockStep::new((&this.modes, &parts), &buildings, step));
         }
         let parts = (this.fastest * step / FINE).ceil().max(1.0);
@@ -303,8 +306,32 @@ impl ContactFree {
     }
 }
 
+/// Whether a building of the system is so tall that these blocks are worth their while.
+pub(crate) fn is_tall(system: &System) -> bool {
+    let tallest = system.buildings().iter().map(|b| b.storeys()).max();
+    tallest.is_some_and(|storeys| storeys >= TALL) && system.sections().is_empty()
+}
+
+/// Kinetic energy and energy of strain (J) of the modes.
+#[multiversion(targets(
+    "x86_64+avx512f+avx512vl+avx512dq",
+    "x86_64+avx2",
+    "x86_64+avx",
+    "aarch64+neon"
+))]
+pub(crate) fn stored(constants: &ContactFree, q: &[Lane], p: &[Lane]) -> f64 {
+    let mut energies = Lane::ZERO;
+    for (c, m) in constants.modes.iter().enumerate() {
+        for l in 0..WIDTH {
+            let x = m.circular_frequency[l] * q[c][l];
+            energies[l] += 0.5 * (p[c][l] * p[c][l] + x * x);
+        }
+    }
+    total(&energies)
+}
+
 /// A square matrix over the lanes that hold rows `first..first + count`.
-pub(super) fn spread(
+pub(crate) fn spread(
     first: usize,
     count: usize,
     mut entry: impl FnMut(usize, usize) -> f64,

@@ -60,9 +60,7 @@ impl Decay {
 
     /// The cubic through values and rates of `exp(-x theta)` at 0 and 1 departs from it by less
     /// than `1 + 4 x / 27`, as `|1 - theta|^2 theta <= 4 / 27`, and a third of its rate by less than
-    /// `1 + 4 x / 9`; both by less than `x^4 / 384` too (with [`TURNS`] for the rate).
-    ///
-    /// [`TURNS`]: super::lane_candidates
+    /// `1 + 4 x / 9`; both by less than `x^4 / 384` too (with `TURNS` of `contact_free::lane_candidates` for the rate).
     fn set(&mut self, l: usize, (omega, zeta): (f64, f64), step: f64) {
         self.any = true;
         let root = (zeta * zeta - 1.0).sqrt();
@@ -77,7 +75,7 @@ impl Decay {
     /// That of a lane of modes, if one of them is damped so much: for the others there is nothing to
     /// be gained.
     #[inline(always)]
-    pub(super) fn of_lane(all: &[Self], lane: usize) -> Option<&Self> {
+    pub(crate) fn of_lane(all: &[Self], lane: usize) -> Option<&Self> {
         all.get(lane).filter(|decay| decay.any)
     }
 
@@ -89,7 +87,7 @@ impl Decay {
     /// `h^4 / 384` times the first that is returned, a bound of the fourth derivative, and the
     /// second.
     #[inline(always)]
-    pub(super) fn bound(&self, [value, rate, fourth]: [&Lane; 3]) -> [Lane; 2] {
+    pub(crate) fn bound(&self, [value, rate, fourth]: [&Lane; 3]) -> [Lane; 2] {
         let mut out = [Lane::ZERO; 2];
         for l in 0..WIDTH {
             let (slow, fast, apart) = (self.slow[l], self.fast[l], self.apart[l]);

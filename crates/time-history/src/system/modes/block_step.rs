@@ -17,11 +17,12 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use multiversion::multiversion;
 
-use super::block::BLOCK;
-use super::constants::ContactFree;
 use super::lanes::{Lane, Modal, ModeLanes, WIDTH};
 use super::reach::{Bounds, QUANTITIES, Reach};
 use crate::system::System;
+
+/// Samples of a block.
+pub(crate) const BLOCK: usize = 8;
 
 /// Samples of a block, with both ends.
 const TIMES: usize = BLOCK + 1;
@@ -88,14 +89,14 @@ pub(crate) struct Load {
 /// What the accelerations of a block do to all modes, and what they add to the bounds of the floors
 /// of every building.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct BlockLoad<'a> {
+pub(crate) struct BlockLoad<'a> {
     modes: &'a [Load],
     pub bounds: &'a [[f64; QUANTITIES]],
 }
 
 /// The same, made for one block or for many.
 #[derive(Debug, Clone, Default)]
-pub(super) struct MadeLoad {
+pub(crate) struct MadeLoad {
     modes: Vec<Load>,
     bounds: Vec<[f64; QUANTITIES]>,
 }
@@ -109,7 +110,7 @@ impl MadeLoad {
     }
 
     /// That of a single block.
-    pub(super) fn view(&self) -> BlockLoad<'_> {
+    pub(crate) fn view(&self) -> BlockLoad<'_> {
         BlockLoad {
             modes: &self.modes,
             bounds: &self.bounds,
@@ -148,7 +149,7 @@ pub(crate) struct Loads {
 
 impl Loads {
     /// Asks for those of a run to come. The results are the same with and without.
-    pub(super) fn ask(&self, system: &System) {
+    pub(crate) fn ask(&self, system: &System) {
         let Some(step) = system.contact_free().and_then(|c| c.block_step.as_ref()) else {
             return;
         };
@@ -173,14 +174,14 @@ impl Loads {
 
     /// Whether they are at hand.
     #[cfg(test)]
-    pub(super) fn is_made(&self) -> bool {
+    pub(crate) fn is_made(&self) -> bool {
         self.all.get().is_some()
     }
 
     /// That of the block from this sample on; none where it is not at hand.
-    pub(super) fn of(&self, constants: &ContactFree, sample: usize) -> Option<BlockLoad<'_>> {
+    pub(crate) fn of(&self, step: Option<&BlockStep>, sample: usize) -> Option<BlockLoad<'_>> {
         let all = self.all.get().filter(|_| sample.is_multiple_of(BLOCK))?;
-        all.of(sample / BLOCK, constants.block_step.as_ref()?.counts())
+        all.of(sample / BLOCK, step?.counts())
     }
 }
 
@@ -237,12 +238,12 @@ impl BlockStep {
     }
 
     /// Space for what one block does.
-    pub(super) fn space(&self) -> MadeLoad {
+    pub(crate) fn space(&self) -> MadeLoad {
         MadeLoad::new(1, self.counts())
     }
 
     /// What a block does whose accelerations are the first of these.
-    pub(super) fn load(&self, samples: &[f64], load: &mut MadeLoad) {
+    pub(crate) fn load(&self, samples: &[f64], load: &mut MadeLoad) {
         self.load_into(samples, (&mut load.modes, &mut load.bounds));
     }
 
@@ -254,7 +255,7 @@ impl BlockStep {
 
     /// Takes the motion over a block to its end, and bounds what it does inside beside what the
     /// accelerations add. `ends` are the accelerations there.
-    pub(super) fn advance(
+    pub(crate) fn advance(
         &self,
         (now, ends): (&Modal, (f64, f64)),
         load: BlockLoad<'_>,

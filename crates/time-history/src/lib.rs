@@ -34,7 +34,6 @@ mod outcome;
 mod peak;
 mod peaks;
 mod polynomial;
-mod propagation;
 mod rates;
 mod recorder;
 mod relative_displacement;

@@ -11,7 +11,7 @@ use crate::peaks::Peaks;
 use crate::polynomial::{
     Polynomial, absolute_maximum, derivative, hermite_range, maximum_above, septic, value,
 };
-use crate::propagation::{
+use crate::system::propagation::{
     AffineContact, ContactSeries, Courses, Ends, NARROW, RowBlocks, SeriesTerms, padded,
 };
 use crate::system::{ContactLevel, SectionPlace, Segment, System};

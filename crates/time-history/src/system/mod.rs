@@ -9,6 +9,7 @@ pub(crate) mod modes;
 mod motions;
 mod names;
 mod place;
+pub(crate) mod propagation;
 mod sections;
 mod segment;
 mod terms;
@@ -42,8 +43,8 @@ pub use unequal_floors::more_pairs;
 
 use crate::bands::Bands;
 use crate::error::TimeHistoryError;
-use crate::propagation::Propagation;
 use modes::{ContactFree, Loads};
+use propagation::Propagation;
 
 /// One pair of floors (or a floor and a rigid wall) that may touch.
 #[derive(Debug, Clone)]

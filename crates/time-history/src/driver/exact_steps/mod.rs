@@ -8,12 +8,13 @@ use pounding_gap_element::{Direction, Guard};
 
 use super::functions::{Begin, Function, Group, Place, Row};
 use super::{Driver, EVENTS_AT_ONCE, Mute};
+use crate::contact::Contacts;
 use crate::dynamics::Context;
 use crate::error::TimeHistoryError;
 use crate::events::Candidate;
 use crate::layout::Layout;
-use crate::propagation::{AffineContact, ContactSeries, HALVINGS, Propagation};
 use crate::recorder::{Recorder, wants};
+use crate::system::propagation::{AffineContact, ContactSeries, HALVINGS, Propagation};
 use crate::system::{Segment, System};
 use peaks_put_off::PeaksPutOff;
 use series_events::Scan;
@@ -94,6 +95,35 @@ impl ExactSteps {
     pub(super) fn interrupt(&mut self) {
         self.stale = true;
         self.begin = Begin::Unknown;
+    }
+}
+
+impl ContactSeries {
+    /// Takes the laws of the closed contacts; false where one is not affine, or where the
+    /// bounds would not hold.
+    fn take_laws(&mut self, system: &System, contacts: &Contacts) -> bool {
+        self.contacts.clear();
+        for &l in contacts.closed() {
+            let (level, Some(contact)) = (&system.levels()[l], contacts.contact(l)) else {
+                return false;
+            };
+            if contact.is_stuck() || !level.model.is_affine(&contact.collision, contact.phase) {
+                return false;
+            }
+            let law = contact.force(level, 0.0, 0.0);
+            if !(law.by_penetration >= 0.0 && law.by_velocity >= 0.0) {
+                return false;
+            }
+            self.contacts.push(AffineContact {
+                level: l,
+                at_rest: law.value - law.by_penetration * contacts.width(l),
+                stiffness: law.by_penetration,
+                dashpot: law.by_velocity,
+                work: 0.0,
+                impulse: 0.0,
+            });
+        }
+        true
     }
 }
 

@@ -5,7 +5,7 @@
 use super::ExactSteps;
 use crate::driver::Driver;
 use crate::driver::functions::{Begin, Place, Values};
-use crate::propagation::{HALVINGS, part_of};
+use crate::system::propagation::{HALVINGS, part_of};
 use crate::system::{Segment, System};
 
 /// States that are kept at most.

@@ -6,7 +6,6 @@ use multiversion::multiversion;
 use super::building::Building;
 use super::product::{NARROW, add_product, multiply, padded};
 use super::{BOUNDED, Ends, ORDERS};
-use crate::contact::Contacts;
 use crate::system::{Segment, System};
 
 /// Terms at most, and at least: as many as derivatives have bounds.
@@ -212,33 +211,6 @@ impl ContactSeries {
             places: n,
             place_of,
         }
-    }
-
-    /// Takes the laws of the closed contacts; false where one is not affine, or where the
-    /// bounds would not hold.
-    pub(crate) fn take_laws(&mut self, system: &System, contacts: &Contacts) -> bool {
-        self.contacts.clear();
-        for &l in contacts.closed() {
-            let (level, Some(contact)) = (&system.levels()[l], contacts.contact(l)) else {
-                return false;
-            };
-            if contact.is_stuck() || !level.model.is_affine(&contact.collision, contact.phase) {
-                return false;
-            }
-            let law = contact.force(level, 0.0, 0.0);
-            if !(law.by_penetration >= 0.0 && law.by_velocity >= 0.0) {
-                return false;
-            }
-            self.contacts.push(AffineContact {
-                level: l,
-                at_rest: law.value - law.by_penetration * contacts.width(l),
-                stiffness: law.by_penetration,
-                dashpot: law.by_velocity,
-                work: 0.0,
-                impulse: 0.0,
-            });
-        }
-        true
     }
 
     /// Longest step (s).

@@ -1,4 +1,4 @@
-//! What elements with memory remember, storeys that yield and links between floors, and when they leave a branch.
+//! Histories of storeys and links that follow a law with memory, and when they leave their branches.
 
 use pounding_hysteresis::{Guard, History, Motion};
 

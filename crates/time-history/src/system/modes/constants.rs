@@ -75,8 +75,8 @@ const COARSEST: f64 = 1.0e6;
 /// of the small differences between floors that stiff storeys join.
 const FASTEST_DECAY: f64 = 1.0e8;
 
-/// Storeys of the tallest building from which this costs less than all floors at every sample where
-/// there is no step over the block.
+/// Storeys of the tallest building from which blocks whose floors are worked out at both ends alone cost less
+/// than all floors at every sample, where there is no step over the block.
 pub(crate) const TALL: usize = 24;
 
 impl ContactFree {
@@ -306,7 +306,7 @@ impl ContactFree {
     }
 }
 
-/// Whether a building of the system is so tall that these blocks are worth their while.
+/// Whether a building of the system is so tall that blocks by their ends are worth their while.
 pub(crate) fn is_tall(system: &System) -> bool {
     let tallest = system.buildings().iter().map(|b| b.storeys()).max();
     tallest.is_some_and(|storeys| storeys >= TALL) && system.sections().is_empty()
@@ -331,7 +331,7 @@ pub(crate) fn stored(constants: &ContactFree, q: &[Lane], p: &[Lane]) -> f64 {
 }
 
 /// A square matrix over the lanes that hold rows `first..first + count`.
-pub(crate) fn spread(
+pub(super) fn spread(
     first: usize,
     count: usize,
     mut entry: impl FnMut(usize, usize) -> f64,

@@ -21,14 +21,14 @@ const ROUND_OFF: f64 = 32.0 * f64::EPSILON;
 pub enum ElementPlace {
     /// The storey of a building, both from zero.
     Storey {
-        /// Index in [`super::System::buildings`].
+        /// Index in [`System::buildings`](super::System::buildings).
         building: usize,
         /// Storey from the bottom.
         storey: usize,
     },
     /// A level of a link, both from zero.
     Link {
-        /// Index in [`super::System::links`].
+        /// Index in [`System::links`](super::System::links).
         link: usize,
         /// Level within the link, from the bottom.
         level: usize,

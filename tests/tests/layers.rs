@@ -2,7 +2,6 @@
 //! what cargo resolves.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::path::Path;
 use std::process::Command;
 
 use serde_json::Value;
@@ -96,84 +95,6 @@ fn imports_point_upwards_in_the_table() {
     }
 }
 
-/// Modules below the crate's root that a text names, seen from a module: `gap::csv` in
-/// `use super::super::gap::csv` of the module `commands::compare::files` is `commands::gap`.
-fn named_modules(text: &str, module: &[&str]) -> BTreeSet<Vec<String>> {
-    let mut named = BTreeSet::new();
-    let starts = text
-        .match_indices("crate::")
-        .chain(text.match_indices("super::"));
-    for (start, _) in starts {
-        let before = text[..start].chars().next_back();
-        if before.is_some_and(|c| c.is_alphanumeric() || c == '_' || c == ':') {
-            continue;
-        }
-        let mut rest = &text[start..];
-        let mut path: Vec<&str> = module.to_vec();
-        if let Some(absolute) = rest.strip_prefix("crate::") {
-            (rest, path) = (absolute, Vec::new());
-        }
-        while let Some(above) = rest.strip_prefix("super::") {
-            path.pop();
-            rest = above;
-        }
-        let mut names = Vec::new();
-        // Down to the second module, or to a group.
-        let mut tail = rest;
-        while path.len() + names.len() < 2 && !tail.starts_with('{') {
-            let end = tail.find(|c: char| !(c.is_alphanumeric() || c == '_'));
-            let (name, more) = tail.split_at(end.unwrap_or(tail.len()));
-            names.push(name);
-            match more.strip_prefix("::") {
-                Some(more) => tail = more,
-                None => break,
-            }
-        }
-        let group = match tail.strip_prefix('{').and_then(|t| t.split_once(';')) {
-            Some((group, _)) if path.len() + names.len() < 2 => group,
-            _ => "",
-        };
-        let mut depth = 0;
-        let mut members = vec![String::new()];
-        for c in group.chars() {
-            match c {
-                '{' => depth += 1,
-                '}' => depth -= 1,
-                ',' if depth == 0 => members.push(String::new()),
-                c if depth == 0 => members.last_mut().unwrap().push(c),
-                _ => {}
-            }
-        }
-        for member in members {
-            let mut all: Vec<String> = path.iter().chain(&names).map(|s| s.to_string()).collect();
-            all.extend(member.trim().split("::").map(str::to_owned));
-            all.retain(|name| !name.is_empty());
-            all.truncate(2);
-            named.insert(all);
-        }
-    }
-    named
-}
-
-/// All sources below a folder with the path of their module in it.
-fn sources(folder: &Path, module: &[String]) -> Vec<(Vec<String>, String)> {
-    let mut found = Vec::new();
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let mut inner = module.to_vec();
-        let stem = path.file_stem().unwrap().to_str().unwrap();
-        if stem != "mod" {
-            inner.push(stem.to_owned());
-        }
-        if path.is_dir() {
-            found.extend(sources(&path, &inner));
-        } else {
-            found.push((inner, std::fs::read_to_string(&path).unwrap()));
-        }
-    }
-    found
-}
-
 /// A module with children lies in its `mod.rs`, beside them, and not above them under the name of their folder.
 #[test]
 fn modules_with_children_lie_in_mod_rs() {
@@ -188,44 +109,6 @@ fn modules_with_children_lie_in_mod_rs() {
         folders.extend(paths.filter(|path| path.is_dir()));
     }
     assert!(looked_at > 150, "{looked_at}");
-}
-
-/// What several commands need lies beside `commands` or in a library.
-#[test]
-fn commands_do_not_import_one_another() {
-    let one = |text: &str, module: &[&str]| {
-        let named = named_modules(text, module);
-        let paths = named.iter().map(|path| path.join("::"));
-        paths.collect::<Vec<_>>().join(" ")
-    };
-    let files = ["commands", "compare", "files"];
-    assert_eq!(one("use super::super::gap::csv;", &files), "commands::gap");
-    assert_eq!(one("use crate::commands::gap;", &files), "commands::gap");
-    assert_eq!(one("use super::text::{a, b};", &files), "commands::compare");
-    assert_eq!(
-        one("use super::{print, gap::{csv, b}};", &files[..2]),
-        "commands::gap commands::print"
-    );
-    assert_eq!(one("super::gap::csv(&[x])", &files[..2]), "commands::gap");
-    assert_eq!(one("use crate::plot::figure;", &files), "plot::figure");
-
-    let source = root().join("crates/cli/src");
-    let mut commands = 0;
-    for (module, text) in sources(&source, &[]) {
-        let dispatch = ["commands", "lib", "main"].map(|m| vec![m.to_owned()]);
-        if dispatch.contains(&module) {
-            continue;
-        }
-        let path: Vec<&str> = module.iter().map(String::as_str).collect();
-        commands += usize::from(path[0] == "commands");
-        for named in named_modules(&text, &path) {
-            let of_commands = named.first().is_some_and(|m| m == "commands");
-            let own = path[0] == "commands" && named.get(1).is_none_or(|m| m == path[1]);
-            let (importing, imported) = (path.join("::"), named.join("::"));
-            assert!(!of_commands || own, "{importing} imports {imported}");
-        }
-    }
-    assert!(commands > 40, "{commands}");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! The workspace itself: what its crates import, and that all its tests are run.
 #![allow(clippy::unwrap_used)]
 
+mod modules;
 mod layers;
 mod reached;
 

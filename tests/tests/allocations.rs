@@ -1,4 +1,5 @@
 //! What a run allocates.
+#![allow(clippy::unwrap_used)]
 
 mod no_allocation;
 mod streaming;

@@ -3,7 +3,7 @@
 //!
 //! `POUNDING_ANY=2000 cargo test --release -p verification --test integration any_rows -- --nocapture` takes as many
 //! rows at random; without it they are always the same.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::print_stdout)]
 
 use std::sync::Arc;
 

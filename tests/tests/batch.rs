@@ -1,6 +1,4 @@
 //! Many runs through one call give what one run after another gives, to the last bit.
-#![allow(clippy::unwrap_used)]
-
 use pounding_time_history::{Outcome, RunOptions, System, TimeHistoryError, run, run_many};
 use verification::{reference_cases, reference_system, synthetic_motion};
 

@@ -1,5 +1,5 @@
 //! Rung 4 of the ladder: the order of each method, fitted from runs with impacts.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::print_stdout)]
 
 use std::sync::Arc;
 

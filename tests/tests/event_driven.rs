@@ -1,7 +1,5 @@
 //! The event-driven method where sampling at the record's step would fail, and against
 //! the adaptive pair, which shares no step with it.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ModelParameters, registry};

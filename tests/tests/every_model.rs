@@ -3,8 +3,6 @@
 //! A body pressed to a wall: the driver against the two-body integration of
 //! `gap-element`, which shares the law with it but no line of stepping. Then the
 //! reference buildings C2 and C3a with every model and every separation rule.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{

@@ -1,7 +1,5 @@
 //! Gaps of zero width: floors that lie against one another from the start. Truth is the
 //! adaptive pair at 1e-12, which goes another way through the program.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, SeparationRule, registry};

@@ -3,8 +3,6 @@
 //! Two undamped single storeys: piecewise-linear motion by matrix exponentials in 30
 //! digits. The bouncing ball: `t_n = t_1 (1 + 2 (e + ... + e^n))`, heights `e^(2 n) h`,
 //! accumulation at `t_1 (1 + e) / (1 - e)`.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, SeparationRule, registry};

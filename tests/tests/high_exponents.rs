@@ -1,7 +1,5 @@
 //! Laws whose force has a zero of a high order at closure let go where it changes its sign, not
 //! where a polynomial through it does: located contacts against the adaptive pair.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, SeparationRule, registry};

@@ -4,7 +4,7 @@
 //!
 //! `POUNDING_SYSTEMS=5000 cargo test --release -p verification --test integration impact_counts -- --nocapture`
 //! takes more of them.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::print_stdout)]
 
 use std::sync::Arc;
 

@@ -1,7 +1,5 @@
 //! The gap that isolated buildings demand, against an independent integration, other
 //! methods, and runs with gaps.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::sync::Arc;
 

@@ -1,8 +1,6 @@
 //! Long rows, in which some buildings touch while others move freely: the event-driven method,
 //! which takes them part by part, against the adaptive pair, which always takes all buildings
 //! together and has nothing in common with it but the laws.
-#![allow(clippy::unwrap_used)]
-
 use std::collections::BTreeMap;
 
 use pounding_time_history::{

@@ -1,7 +1,5 @@
 //! A looser tolerance costs no more steps, and impulse and loss of impacts follow the
 //! tolerance: stiff buildings that yield, beside one another without a gap.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, registry};

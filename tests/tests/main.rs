@@ -1,4 +1,5 @@
 //! The verification ladder.
+#![allow(clippy::unwrap_used)]
 
 mod any_rows;
 mod batch;

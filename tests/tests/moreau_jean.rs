@@ -1,6 +1,6 @@
 //! Moreau-Jean time stepping against Newton's law by hand, and against located impacts,
 //! to which it converges in first order.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::print_stdout)]
 
 use std::sync::Arc;
 

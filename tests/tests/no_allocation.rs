@@ -1,7 +1,5 @@
 //! Nothing is allocated while a run goes on: not between contacts, not at events, not in
 //! contacts, whatever their law.
-#![allow(clippy::unwrap_used)]
-
 use pounding_time_history::{RunOptions, run};
 use verification::{reference_cases, reference_system, synthetic_motion};
 

@@ -1,7 +1,5 @@
 //! Observers are served from the steps as they are taken: they change none of them, and what
 //! they see is the motion, also between samples and within contacts.
-#![allow(clippy::unwrap_used)]
-
 use pounding_time_history::{
     FloorForce, ForceHistory, GridRecorder, History, MethodChoice, Outcome, RelativeDisplacement,
     RunOptions, System, run,

@@ -1,7 +1,5 @@
 //! What steps of implicit methods do to the period and the height of a free swing, measured in runs, against what the
 //! warnings before the run say of it; and steps that are unstable.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::PI;
 use std::sync::Arc;
 

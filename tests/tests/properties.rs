@@ -1,6 +1,4 @@
 //! Rung 6 of the ladder: symmetry, independence, determinism.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_time_history::{GroundAcceleration, MethodChoice, Outcome, RunOptions, System, run};

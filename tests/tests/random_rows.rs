@@ -3,8 +3,6 @@
 //!
 //! `POUNDING_ROWS=2500 cargo test -p verification --test integration random_rows` takes as many rows at
 //! random; without it they are always the same.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, SeparationRule, registry};

@@ -3,7 +3,7 @@
 //! Cases C1 (pair of single storeys), C2 (three-storey pair), C3a (eight against
 //! five storeys) and C4 (row of five) under a synthetic motion of 30 s. Origin of
 //! the values: `tests/data/reference_cases.json`.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::print_stdout)]
 
 use pounding_time_history::{DEFAULT_RELATIVE_TOLERANCE, MethodChoice, Outcome, RunOptions, run};
 use verification::{

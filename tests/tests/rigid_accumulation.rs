@@ -1,7 +1,5 @@
 //! Several rigid contacts at once whose impacts follow one another ever faster: floors that
 //! lie against a wall, restitution exactly one included.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_shear_building::{Damping, ShearBuilding};

@@ -3,7 +3,7 @@
 //!
 //! `POUNDING_SYSTEMS=500 cargo test -p verification --test integration rigid_held -- --nocapture`
 //! takes more of them.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::print_stdout)]
 
 use std::sync::Arc;
 

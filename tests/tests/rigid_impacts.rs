@@ -2,8 +2,6 @@
 //!
 //! Checked against Newton's law of impact by hand, and against contact that is made
 //! ever stiffer.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, registry};

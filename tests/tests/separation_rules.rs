@@ -2,8 +2,6 @@
 //!
 //! A free body between two walls moves on straight lines, so that all times follow by
 //! hand from one two-body collision.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{

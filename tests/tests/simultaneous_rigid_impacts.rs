@@ -1,8 +1,6 @@
 //! Rows of rigid bodies without a gap between them, each with a speed of its own, against an
 //! independent solution: of all sets of pairs that an impulse may act on, the one with impulses
 //! that press and floors that part, once more from the speeds that it leaves, until none approach.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ImpactModel, ModelParameters, registry};

@@ -3,8 +3,6 @@
 //! Origin: an independent RK4 with fixed steps of 1 to 2 us whose successive
 //! halvings agree to 5 to 6 digits. `a_g = 0.3 g sin(2 pi t / 0.6)` for t < 5 s,
 //! then zero, 12 s.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ModelParameters, SeparationRule, registry};

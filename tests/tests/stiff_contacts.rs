@@ -1,7 +1,5 @@
 //! Contacts that last some microseconds, in samples of 5 ms: a series over the rest of a sample overflows, and must not
 //! be taken for the motion. Against the pair of order 8(5,3) in physical coordinates.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_gap_element::{ModelParameters, registry};

@@ -1,7 +1,5 @@
 //! A storey that is stiffer by many orders than the one below it, as what stands for a rigid part of a building, with
 //! damping in proportion to stiffness: its mode is damped far beyond critical.
-#![allow(clippy::unwrap_used)]
-
 use std::sync::Arc;
 
 use pounding_shear_building::{Damping, ShearBuilding};

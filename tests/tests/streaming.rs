@@ -1,7 +1,5 @@
 //! Responses go to the result file while the run goes on: memory does not grow with the
 //! duration, and what stands in the file is what a recorder in memory holds, to the last bit.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_assembly::{Assembly, assemble_with_record};

@@ -1,8 +1,6 @@
 //! Tall buildings, whose floors are worked out at the ends of blocks of samples alone: the
 //! event-driven method against the adaptive pair, which integrates all floors in steps of its own
 //! and has nothing in common with it but the laws.
-#![allow(clippy::unwrap_used)]
-
 use std::collections::BTreeMap;
 
 use pounding_time_history::{

@@ -1,8 +1,8 @@
 //! The workspace itself: what its crates import, and that all its tests are run.
 #![allow(clippy::unwrap_used)]
 
-mod modules;
 mod layers;
+mod modules;
 mod reached;
 
 use std::path::Path;

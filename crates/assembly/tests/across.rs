@@ -1,6 +1,4 @@
 //! The record across the row against that along it.
-#![allow(clippy::unwrap_used)]
-
 use pounding_assembly::{AssemblyError, assemble};
 use pounding_case::Case;
 

@@ -1,6 +1,4 @@
 //! Columns that floors of the neighbour hit: what cannot be.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_assembly::{AssemblyError, assemble};

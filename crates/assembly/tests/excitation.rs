@@ -1,6 +1,4 @@
 //! The record of a case as the buildings feel it.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};

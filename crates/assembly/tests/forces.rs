@@ -1,7 +1,5 @@
 //! Files of forces: what is refused where. What they do is held against closed forms in
 //! `tests/tests/structures/forces.rs`.
-#![allow(clippy::unwrap_used)]
-
 use pounding_assembly::{Assembly, AssemblyError, assemble};
 use pounding_case::Case;
 

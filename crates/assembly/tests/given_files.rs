@@ -1,8 +1,6 @@
 //! Cases whose files are given as bytes: the systems that the same files on a disk make, and the
 //! same words where one is missing or wrong.
 
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_assembly::assemble;

@@ -1,6 +1,4 @@
 //! Matrices of buildings from files: what is read, and what is refused where.
-#![allow(clippy::unwrap_used)]
-
 use std::path::PathBuf;
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};

@@ -1,6 +1,4 @@
 //! Parameters of a gap's model that differ between its contact levels.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_assembly::{AssemblyError, assemble};

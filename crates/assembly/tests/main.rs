@@ -1,4 +1,5 @@
 //! Assembly of cases: records and buildings.
+#![allow(clippy::unwrap_used)]
 
 mod across;
 mod columns;

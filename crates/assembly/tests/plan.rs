@@ -1,6 +1,4 @@
 //! Buildings that turn in plan, and kinds of structure that do not go together.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_assembly::{AssemblyError, assemble};

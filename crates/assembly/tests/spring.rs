@@ -1,7 +1,5 @@
 //! A spring of the contact that the case file gives as a table: what comes of it in a run, against
 //! the closed form of the law about any spring, and what is refused where.
-#![allow(clippy::unwrap_used)]
-
 use pounding_assembly::{AssemblyError, assemble};
 use pounding_case::Case;
 use pounding_time_history::run;

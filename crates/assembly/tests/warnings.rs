@@ -1,6 +1,4 @@
 //! What a case gives and nothing feels is told before a run.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_assembly::assemble;

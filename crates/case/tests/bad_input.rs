@@ -1,6 +1,4 @@
 //! Bad input: each error points at its place and says what to do.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_case::{Case, parse_quantity, schema};

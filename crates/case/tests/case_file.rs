@@ -1,6 +1,4 @@
 //! The example of the design, units against their definitions, hostile input.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_case::{Case, CaseTree, Damping, Dimension, Facing, Side, parse_quantity, schema};

@@ -1,6 +1,4 @@
 //! Columns that floors of the neighbour hit.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_case::{Case, CaseError, ColumnEnds, Facing};

@@ -1,6 +1,4 @@
 //! Reading tables as types: what they hold, where it stands, and all that is wrong.
-#![allow(clippy::unwrap_used)]
-
 use pounding_case::document::{
     Count, Entry, Field, FreeKeys, Kinds, Length, List, NotNegative, OneOrEach, Optional, Positive,
     Reader, Scalar, Table, TableOr, Tables, Time, schema_of,

@@ -1,6 +1,4 @@
 //! Foundations that sway and rock, and links between them.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_case::{

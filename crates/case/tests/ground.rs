@@ -1,7 +1,5 @@
 //! The ground under single buildings, walls, seats, and plans: what is read, and what is refused
 //! where.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_case::{Case, CaseError, ForceSource};

@@ -1,6 +1,4 @@
 //! The record of a case: how it is read and what is done to it.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_case::{BandSource, Case, CaseError, SpectrumSource, process_steps, schema};

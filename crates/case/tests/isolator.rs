@@ -1,6 +1,4 @@
 //! Isolators under buildings.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_case::{

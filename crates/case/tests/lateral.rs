@@ -1,6 +1,4 @@
 //! Buildings that are no chains of storeys: matrices, walls and frames.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_case::{Case, CaseError, Lateral, MatrixSource};

@@ -1,4 +1,5 @@
 //! Case files: what is read, what is refused and in which words.
+#![allow(clippy::unwrap_used)]
 
 mod bad_input;
 mod case_file;

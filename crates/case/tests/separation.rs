@@ -1,6 +1,4 @@
 //! The table `[separation]`.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_case::{Case, Separation};

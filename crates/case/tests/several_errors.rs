@@ -1,7 +1,5 @@
 //! All that is wrong in one file is reported at once, each error at its place, and nothing
 //! that only follows from another error.
-#![allow(clippy::unwrap_used)]
-
 use std::io::Write as _;
 use std::path::Path;
 

@@ -1,7 +1,5 @@
 //! Files of answers: `gap`, `compare` and `motion info` write them, `report` makes the same page of
 //! them as the command itself.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;

@@ -1,6 +1,4 @@
 //! Options of `gap` and `compare` that take texts with units.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::process::{Command, Output};
 

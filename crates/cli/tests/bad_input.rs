@@ -1,6 +1,4 @@
 //! Bad input: exit code, place, remedy; and nothing half-written.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::process::{Command, Output};
 

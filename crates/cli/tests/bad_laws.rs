@@ -1,6 +1,4 @@
 //! Laws of storeys and links that cannot be: exit code 2, place, reason, remedy.
-#![allow(clippy::unwrap_used)]
-
 use std::process::{Command, Output};
 
 const LAW: &str =

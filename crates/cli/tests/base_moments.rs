@@ -1,7 +1,5 @@
 //! Buildings with a stiffness matrix on the command line: what is understood of them, and
 //! their overturning moments at the base wherever peaks are shown.
-#![allow(clippy::unwrap_used)]
-
 use serde_json::Value;
 
 use crate::support::Bench;

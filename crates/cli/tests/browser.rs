@@ -3,7 +3,7 @@
 //! `scripts/test` names interpreter and browser in `POUNDING_PYTHON` and `POUNDING_CHROMIUM`.
 //! Where they are not named nothing can be opened: the pages are made all the same, and the
 //! test says that they were not looked at.
-#![allow(clippy::unwrap_used, clippy::print_stderr)]
+#![allow(clippy::print_stderr)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,7 +1,5 @@
 //! `pounding impact calibrate`: the search, its conditions, bad input; and the
 //! collision beside it.
-#![allow(clippy::unwrap_used)]
-
 use std::process::Output;
 
 use crate::support;

@@ -1,6 +1,4 @@
 //! Floors that hit columns on the command line: every command that answers with them.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

@@ -1,6 +1,4 @@
 //! `pounding compare`: headline numbers of the example, files, mistakes.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

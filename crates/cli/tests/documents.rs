@@ -1,7 +1,5 @@
 //! The documents of the repository are true: links lead somewhere, no page is out of
 //! reach, paths that the source names are there, and commands, keys and numbers are those of the program.
-#![allow(clippy::unwrap_used)]
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,6 +1,4 @@
 //! The examples run, and their headline numbers hold.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,8 +1,6 @@
 //! What moves and pushes buildings, on the command line: forces on floors, delays, records of
 //! buildings and across the row, in every command that answers with them; and floors that turn
 //! in studies.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use serde_json::Value;

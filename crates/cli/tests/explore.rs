@@ -3,7 +3,7 @@
 //! What the solver answers is asked for natively, and under Node from the module that pages hold:
 //! `POUNDING_NODE` names the program, or it is looked for as `node`. Without it, or in a build
 //! without the module, tests of the module say that they were skipped.
-#![allow(clippy::unwrap_used, clippy::print_stderr)]
+#![allow(clippy::print_stderr)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,6 +1,4 @@
 //! What a page that computes says of widths at which pounding brings a building to collapse.
-#![allow(clippy::unwrap_used)]
-
 use serde_json::{Value, json};
 
 use crate::explore::{asked_of, natively, part, root};

@@ -1,7 +1,5 @@
 //! What a page that computes does with input that cannot be run, or that it does not know, and what it
 //! gives away of names that nobody meant.
-#![allow(clippy::unwrap_used)]
-
 use pounding_catalogue::wording::cell;
 use serde_json::{Value, json};
 

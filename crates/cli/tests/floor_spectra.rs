@@ -1,6 +1,4 @@
 //! `pounding floor-spectrum`: what equipment on the floors feels.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

@@ -1,5 +1,5 @@
 //! Buildings on foundations that sway and rock, on the command line.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::print_stdout)]
 
 use std::collections::BTreeMap;
 use std::path::Path;

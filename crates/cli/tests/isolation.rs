@@ -1,6 +1,4 @@
 //! Isolated buildings on the command line: what is said of them, and of what cannot be.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

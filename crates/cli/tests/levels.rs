@@ -1,7 +1,5 @@
 //! Levels: floors at different elevations are refused unless they are meant, and every output
 //! says which floors, at which elevations, a level is.
-#![allow(clippy::unwrap_used)]
-
 use std::path::PathBuf;
 use std::process::{Command, Output};
 

@@ -1,7 +1,5 @@
 //! Links and rows of several buildings in `gap` and `compare`: they are the structure that
 //! `run` integrates, no other.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::process::Command;
 

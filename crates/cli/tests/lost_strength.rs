@@ -1,6 +1,4 @@
 //! Storeys that lose all their strength.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::process::{Command, Output};
 

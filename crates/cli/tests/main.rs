@@ -1,4 +1,5 @@
 //! The command line, by running the program.
+#![allow(clippy::unwrap_used)]
 
 mod answers;
 mod argument_units;

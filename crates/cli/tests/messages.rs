@@ -1,6 +1,4 @@
 //! What the program says where something is wrong, and that it says all of it.
-#![allow(clippy::unwrap_used)]
-
 use std::io::Write as _;
 use std::path::Path;
 use std::process::{Command, Output, Stdio};

@@ -1,7 +1,5 @@
 //! The pages of the impact models are what the code says, and what they tell users
 //! to type works.
-#![allow(clippy::unwrap_used)]
-
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,6 +1,4 @@
 //! Options that need another one, or would go unheard, are refused in every company.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use crate::support::Bench;

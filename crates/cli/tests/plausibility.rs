@@ -1,7 +1,5 @@
 //! What is possible but more often a mistake is said once, in `check`, in `run`, in the
 //! result file and on the page made of it.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::process::Command;
 

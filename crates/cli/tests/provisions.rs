@@ -1,6 +1,4 @@
 //! Provisions: their page, editions by date, users' rules, and what a disputed one does.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

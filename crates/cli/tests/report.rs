@@ -1,6 +1,4 @@
 //! The page of a result says what the run said.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use crate::support::part_files::no_part_file;

@@ -1,7 +1,5 @@
 //! Suites of records scaled to the spectrum of a code: the band of periods, and records that are
 //! there under several names.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::PI;
 use std::path::{Path, PathBuf};
 

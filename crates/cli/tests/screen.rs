@@ -1,7 +1,5 @@
 //! What the program says of itself and of its work: `--version --json`, `-v`, `RUST_LOG`, `--color`, and the
 //! manual pages.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

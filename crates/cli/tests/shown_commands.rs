@@ -1,5 +1,5 @@
 //! What pages show to be typed runs as it stands there.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::panic)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -1,7 +1,5 @@
 //! Sizes and extremes: what is large runs, and what would never end is refused or named
 //! before it begins.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::process::{Command, Output};
 

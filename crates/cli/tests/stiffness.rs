@@ -1,6 +1,4 @@
 //! `pounding stiffness`: numbers, units, the line for a case file, bad input.
-#![allow(clippy::unwrap_used)]
-
 use std::process::{Command, Output};
 
 use crate::support;

@@ -1,7 +1,5 @@
 //! Examples of structures beyond planar buildings on common ground run, and their headline
 //! numbers hold by both explicit methods.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::process::Command;
 

@@ -1,8 +1,6 @@
 //! Tables of the command line as they are read, by snapshots in `snapshots/`. After a change
 //! that is meant: `INSTA_UPDATE=always cargo test -p pounding-cli --test integration tables`, and
 //! read the difference.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 use std::process::Command;
 

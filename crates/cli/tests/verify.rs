@@ -1,6 +1,4 @@
 //! `pounding verify impact`: headline numbers, verdicts, exit codes, bad input.
-#![allow(clippy::unwrap_used)]
-
 use std::process::{Command, Output};
 
 use crate::support;

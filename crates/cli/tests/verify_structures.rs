@@ -1,6 +1,4 @@
 //! `pounding verify structures`: every case is printed, exit codes, numbers that users enter.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use serde_json::Value;

@@ -1,6 +1,4 @@
 //! What is printed for people is no wider than `COLUMNS` says, and says all the same.
-#![allow(clippy::unwrap_used)]
-
 use std::collections::BTreeSet;
 use std::path::Path;
 use std::process::Command;

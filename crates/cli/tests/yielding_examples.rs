@@ -2,8 +2,6 @@
 //! hold: against an independent classical Runge-Kutta solution with fixed steps (2 us;
 //! 20 us with links), plastic drifts corrected after each step, the joint as 4000
 //! discrete sliders. It agrees with itself at half the step to five digits.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

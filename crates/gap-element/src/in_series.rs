@@ -225,7 +225,6 @@ impl ImpactModel for InSeries {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::{Bodies, ModelParameters, collide, registry};

@@ -1,7 +1,5 @@
 //! The search for Papi and Toopchi-Nezhad's `alpha`, against roots of the closed form
 //! in 30 digits and an independent integration of the drop test.
-#![allow(clippy::unwrap_used)]
-
 use pounding_gap_element::calibration::{
     CalibrationError, DropTest, calibrate, free_alpha, rule_alpha,
 };

@@ -1,8 +1,6 @@
 //! Contact stiffness: numbers, integrated collisions, warnings, hostile input.
 //!
 //! Numbers of Hertz's formula: evaluated in decimals of 30 digits.
-#![allow(clippy::unwrap_used)]
-
 use pounding_gap_element::contact_stiffness::{
     Approach, ContactStiffness, ContactStiffnessError, Slab, Sphere, duration, hertz, multiple,
     penetration, slab,

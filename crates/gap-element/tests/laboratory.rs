@@ -1,6 +1,4 @@
 //! The laboratory of impact models: examples, and measured forces.
-#![allow(clippy::unwrap_used)]
-
 use pounding_gap_element::laboratory::{
     EXAMPLE_BODIES, EXAMPLE_RESTITUTION, MeasuredForce, MeasuredForceError, Specimen, unit_of,
 };

@@ -1,4 +1,5 @@
 //! Impact models, by their registry and against published results.
+#![allow(clippy::unwrap_used)]
 
 mod calibration;
 mod contact_stiffness;

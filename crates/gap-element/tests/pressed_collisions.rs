@@ -1,6 +1,4 @@
 //! Collisions under a constant pressing acceleration, against closed forms.
-#![allow(clippy::unwrap_used)]
-
 use pounding_gap_element::{
     Bodies, CollisionOptions, CollisionOutcome, ModelParameters, collide, collide_with, registry,
 };

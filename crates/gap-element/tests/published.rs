@@ -2,8 +2,6 @@
 //!
 //! Origin of the expected numbers: printed tables, closed forms in 30 digits, and an
 //! independent integration of order 8 at a tolerance of 1e-13.
-#![allow(clippy::unwrap_used)]
-
 use pounding_gap_element::published::{borovin_2014, papi_toopchi_2022, restitution, zhou_2012};
 use pounding_gap_element::{
     Bodies, CollisionOptions, ModelParameters, REQUESTED, SeparationRule, collide,

@@ -1,6 +1,4 @@
 //! Every registered model: tangents, regularity, invariance, its descriptor.
-#![allow(clippy::unwrap_used)]
-
 use pounding_catalogue::DefinitionError;
 use pounding_gap_element::{
     AchievedRestitution, Bodies, GapElementError, ImpactModel, MAXIMUM_CONSTANTS, Memory,

@@ -2,8 +2,6 @@
 //! closed forms and independent integrations.
 //!
 //! Origin of the numbers: `tests/data/impact_models.json`.
-#![allow(clippy::unwrap_used)]
-
 use pounding_gap_element::{
     AchievedRestitution, Bodies, CollisionOutcome, ImpactModel, ModelParameters, REQUESTED,
     SeparationRule, collide, published::restitution::REFERENCES, registry,

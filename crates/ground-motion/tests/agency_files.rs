@@ -1,8 +1,6 @@
 //! Files as agencies publish them, where they are at hand (`../shared` beside the
 //! repository): counts, steps and peaks as computed from the samples by an
 //! independent script and listed in their `PROVENANCE.md`.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use pounding_ground_motion::{

@@ -2,8 +2,6 @@
 //! beside the repository), against the table of their `PROVENANCE.md`: an independent
 //! program's values with the trapezoid rule and spectra at samples, to the last digit
 //! printed.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};

@@ -1,8 +1,6 @@
 //! Raw records of seven agencies as they publish them, where they are at hand (`../shared` beside
 //! the repository). Counts, steps, times and peaks are those of a script of its own that knows
 //! the layouts and nothing of this library; peaks of headers are met to their last digit.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use pounding_ground_motion::{

@@ -1,6 +1,4 @@
 //! What the header of an AT2 file says: its component, and all that it says twice.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::processing::rotate;
 use pounding_ground_motion::writers::{Written, write_peer_at2};
 use pounding_ground_motion::{

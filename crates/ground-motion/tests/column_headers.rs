@@ -1,7 +1,5 @@
 //! Names, units and decimal signs of plain columns: read where one reading fits, refused
 //! where two do.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::processing::rotate;
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, GroundMotionError, ReadOptions, read_bytes,

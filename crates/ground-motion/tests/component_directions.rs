@@ -1,6 +1,4 @@
 //! Two components that are combined must be at right angles where their names say directions.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::processing::{fault_components, rotate};
 use pounding_ground_motion::spectra::{Evaluation, rotated_spectrum};
 use pounding_ground_motion::writers::{Written, write_peer_at2, write_pounding_csv};

@@ -1,7 +1,5 @@
 //! Headers of Volume 1 state duration, step and unit more than once, in numbers and in words:
 //! what differs is refused with its line, and the user may say which is right.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{self, Fixture, fixtures};
 use pounding_ground_motion::{
     AccelerationUnit, GroundMotionError, ReadOptions, Recording, Sampling, read_all_bytes,

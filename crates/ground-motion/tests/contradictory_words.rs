@@ -1,7 +1,5 @@
 //! Words of headers that codes, other words or the samples contradict, numbers that are blank, and
 //! components by their direction: small files of our own in the layouts of the agencies.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{COUNT, Fixture, fixtures};
 use pounding_ground_motion::{
     GroundMotionError, Processing, Quantity, ReadOptions, Recording, Sampling, read_all_bytes,

@@ -1,6 +1,4 @@
 //! What raw files of COSMOS say of their instruments, against itself.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{ReadOptions, Recording, read_all_bytes};
 
 use crate::common::fixtures;

@@ -1,7 +1,5 @@
 //! Numbers that lost their end, rows that stand twice, and headers of AT2 in forms that agencies and
 //! colleagues write.
-#![allow(clippy::unwrap_used)]
-
 use std::fmt::Write as _;
 
 use pounding_ground_motion::processing::rotate;

@@ -1,6 +1,4 @@
 //! Statements that stand twice and differ, files that are cut off or lack rows, and headers behind blank lines.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::writers::{Written, write_pounding_csv};
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, GroundMotionError, Processing, ReadOptions, Recording,

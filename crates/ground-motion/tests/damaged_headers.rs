@@ -1,6 +1,4 @@
 //! Numbers of headers that are damaged: what they are held against is said not to be; and errors name their own line.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::fixtures;
 use pounding_ground_motion::{ReadOptions, Recording, read_all_bytes};
 

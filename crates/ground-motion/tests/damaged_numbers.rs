@@ -1,7 +1,5 @@
 //! Values in another form than nearly all others of their series, which come from that form by a loss of
 //! characters: in every format, wherever they stand, also beside values that are odd and right.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{ReadOptions, read_all_bytes};
 
 /// Samples of each file.

@@ -1,7 +1,5 @@
 //! Rows that stand in another order, twice or not at all, or have another number of values than
 //! their neighbours, and values that lost their exponent: errors that name the row.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{
     AccelerationUnit, GroundMotionError, ReadOptions, read_all_bytes, read_bytes,
 };

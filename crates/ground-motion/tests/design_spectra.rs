@@ -1,6 +1,4 @@
 //! Spectra of codes and of files.
-#![allow(clippy::unwrap_used)]
-
 use proptest::prelude::*;
 
 use pounding_ground_motion::GroundMotionError;

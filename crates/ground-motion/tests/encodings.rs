@@ -1,6 +1,4 @@
 //! Texts in characters of two and four bytes, in UTF-8 and Latin-1, and numbers with a dash for the minus.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::writers::{Written, write_pounding_csv};
 use pounding_ground_motion::{AccelerationUnit, ReadOptions, read_all_bytes, read_bytes};
 

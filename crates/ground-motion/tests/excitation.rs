@@ -1,6 +1,4 @@
 //! From the series of a file to an excitation, and layouts of plain columns.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{self, COUNT};
 use pounding_ground_motion::{
     Format, GroundMotionError, Offset, Processing, Quantity, ReadOptions, read_all_bytes,

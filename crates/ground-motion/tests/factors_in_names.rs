@@ -1,6 +1,4 @@
 //! Factors and signs in the names of plain columns.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{AccelerationUnit, ReadOptions, Recording, read_all_bytes};
 
 fn read(header: &str, separator: &str, options: &ReadOptions) -> Result<Recording, String> {

@@ -1,6 +1,4 @@
 //! Damaged values in rows of fixed width, by `layout` and by the format that a header states.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{AccelerationUnit, ReadOptions, read_all_bytes};
 
 /// Samples of each file.

@@ -1,6 +1,4 @@
 //! Response spectra of floors against the response spectrum of the ground and closed forms.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::TAU;
 
 use pounding_ground_motion::spectra::{Evaluation, FloorMotion, floor_spectrum, response_spectrum};

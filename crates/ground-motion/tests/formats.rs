@@ -1,6 +1,4 @@
 //! Every format from a file in its exact layout, and the traps that files set.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{self, COUNT, Fixture, all};
 use pounding_ground_motion::{
     AccelerationUnit, Format, GroundMotionError, Offset, ReadOptions, Sampling, read_all_bytes,

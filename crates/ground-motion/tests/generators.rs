@@ -1,6 +1,4 @@
 //! Random motions against theory over a thousand seeds.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::{PI, TAU};
 
 use crate::ensemble::{G, Mean, SEEDS, grid, near, two_sided};

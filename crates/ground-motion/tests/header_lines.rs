@@ -1,6 +1,4 @@
 //! Lines of headers that were changed, exchanged or filled: an error, or a warning.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{
     AccelerationUnit, GroundMotionError, ReadOptions, Recording, Sampling, read_all_bytes,
     read_bytes,

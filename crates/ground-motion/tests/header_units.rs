@@ -1,6 +1,4 @@
 //! Numbers of headers are read by the units beside them, and words by their lines.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::writers::{Written, write_peer_at2};
 use pounding_ground_motion::{
     Processing, Quantity, ReadOptions, Recording, Sampling, read_all_bytes, read_bytes,

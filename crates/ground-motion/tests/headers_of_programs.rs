@@ -1,7 +1,5 @@
 //! Headers as programs and agencies write them above plain columns: what they state is used, held against the values
 //! or told.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::fixtures;
 
 use pounding_ground_motion::{

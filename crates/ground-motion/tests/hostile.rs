@@ -1,7 +1,5 @@
 //! Damaged files: an error that names the place, never a panic, never a hang.
 //! Every reader of the registry gets the same bounded number of inputs.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{self, Fixture, all, fixtures};
 use pounding_ground_motion::{
     AccelerationUnit, Format, GroundMotionError, Offset, ReadOptions, read_all_bytes, read_bytes,

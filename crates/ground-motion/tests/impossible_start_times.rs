@@ -1,6 +1,4 @@
 //! Start times that no calendar or clock has, and headers that lack theirs.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{AccelerationUnit, Origin, ReadOptions, read_all_bytes};
 
 use crate::common::binary::sac_with;

@@ -1,6 +1,4 @@
 //! Velocity at the first sample, and the time of the first value.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::processing::{ProcessingStep, Scale, process};
 use pounding_ground_motion::writers::{Written, write_pounding_csv};
 use pounding_ground_motion::{

@@ -1,6 +1,4 @@
 //! Accelerations, velocities and displacements of one channel that do not belong together.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::read_all_bytes;
 
 use crate::common::{COUNT, volumes::csmip_2_of};

@@ -1,6 +1,4 @@
 //! Text of EarthScope (IRIS): what its header says, against the samples and against itself.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{
     AccelerationUnit, Quantity, ReadOptions, Recording, read_all_bytes, read_bytes,
 };

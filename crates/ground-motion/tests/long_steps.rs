@@ -1,6 +1,4 @@
 //! Time steps that no accelerograph has: said, used, and no reason to compute for minutes.
-#![allow(clippy::unwrap_used)]
-
 use std::time::{Duration, Instant};
 
 use pounding_ground_motion::measures::{IntensityMeasures, MeasureOptions};

@@ -1,4 +1,5 @@
 //! Records: formats, processing, measures, spectra, generators.
+#![allow(clippy::unwrap_used)]
 
 mod agency_files;
 mod agency_measures;

@@ -1,6 +1,4 @@
 //! Motions brought to a spectrum.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::generators::{RezaeianDerKiureghian2010, TimeGrid};
 use pounding_ground_motion::matching::{
     MatchOptions, Matched, match_by_fourier_amplitudes, match_by_wavelets, misfit,

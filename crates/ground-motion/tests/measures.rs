@@ -1,6 +1,4 @@
 //! Intensity measures against closed forms.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::measures::{GroundMotion, Husid, IntensityMeasures, MeasureOptions};

@@ -1,7 +1,5 @@
 //! Names, units, steps and counts that plain columns state in any usual layout: read as they say, or
 //! refused with the line.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::processing::rotate;
 use pounding_ground_motion::{
     AccelerationUnit, GroundMotionError, ReadOptions, Recording, Sampling, read_all_bytes,

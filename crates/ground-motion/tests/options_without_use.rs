@@ -1,6 +1,4 @@
 //! Options that say nothing of a record are refused, each with the record and what to do.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{AccelerationUnit, Format, ReadOptions, read_bytes};
 
 const AT2: &str =

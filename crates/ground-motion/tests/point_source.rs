@@ -1,6 +1,4 @@
 //! Boore's point source: its formulas, and a thousand motions against theory.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::{PI, TAU};
 
 use crate::ensemble::{G, Mean, SEEDS, grid, near, two_sided};

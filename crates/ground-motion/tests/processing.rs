@@ -1,6 +1,4 @@
 //! Filters, baselines and windows against closed forms.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::measures::{GroundMotion, Husid};

@@ -1,6 +1,4 @@
 //! Pulses and envelopes against their closed forms.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::GroundMotionError;

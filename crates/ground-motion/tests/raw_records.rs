@@ -1,8 +1,6 @@
 //! Raw records of UNAM, SMC, USC, COSMOS, BHRC and the network of Turkey: what their headers say
 //! and the samples, or another line, contradict is refused with both numbers; so is what is
 //! missing or damaged, with its true reason.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{COUNT, Fixture, fixtures};
 use pounding_ground_motion::{
     AccelerationUnit, GroundMotionError, Quantity, ReadOptions, Recording, Sampling,

@@ -1,7 +1,5 @@
 //! Readers against synthetic files of each form, the records of the repository,
 //! and, where they are at hand, real agency files.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_ground_motion::{

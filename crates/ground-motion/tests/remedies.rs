@@ -1,7 +1,5 @@
 //! Messages about files that colleagues made of those of agencies say what is wrong with them, and what to
 //! give instead.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{AccelerationUnit, Format, ReadOptions, read_all_bytes, read_bytes};
 
 use crate::common::fixtures;

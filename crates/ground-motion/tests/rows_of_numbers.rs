@@ -1,6 +1,4 @@
 //! Rows of plain numbers that say nothing of their columns, and Fortran formats of them.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::processing::{ProcessingStep, process};
 use pounding_ground_motion::{
     AccelerationUnit, Accelerogram, GroundMotionError, ReadOptions, read_bytes,

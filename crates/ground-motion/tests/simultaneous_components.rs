@@ -1,6 +1,4 @@
 //! Components are combined sample by sample: they must start together, and be two.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::processing::{ProcessingStep, Trim, distinct, process, rotate};
 use pounding_ground_motion::spectra::{Evaluation, response_spectrum, rotated_spectrum};
 use pounding_ground_motion::{Accelerogram, ReadOptions, read_bytes};

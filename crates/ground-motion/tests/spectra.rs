@@ -1,7 +1,5 @@
 //! Response and Fourier spectra against closed forms and against their own definition
 //! on finer samples.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::processing::rotate;

@@ -1,6 +1,4 @@
 //! Times of first samples: read from headers, moved by what is done to a record, kept in files.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::processing::{
     Butterworth, Phase, ProcessingStep, Trim, process, rotate,
 };

@@ -1,6 +1,4 @@
 //! Directions that the header of a volume states twice.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{ReadOptions, Recording, read_all_bytes};
 
 use crate::common::fixtures;

@@ -1,7 +1,5 @@
 //! Durations in headers are held against count and time step, in every format that states
 //! one.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use crate::common::{Fixture, fixtures};

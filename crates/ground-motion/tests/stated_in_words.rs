@@ -1,6 +1,4 @@
 //! What headers state of units, steps and factors in sentences rather than under keys.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{
     AccelerationUnit, GroundMotionError, ReadOptions, Recording, Sampling, read_all_bytes,
 };

@@ -1,6 +1,4 @@
 //! Keys before plain columns in the spellings of those who write them.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{
     AccelerationUnit, GroundMotionError, ReadOptions, Series, read_all_bytes,
 };

@@ -1,7 +1,5 @@
 //! The sensitivity of miniSEED records by StationXML, named or beside the record: by hand, counts
 //! over counts per unit. What the metadata do not say, or say twice, is refused with its reason.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use crate::common::binary::{Seed, record};

@@ -1,6 +1,4 @@
 //! A comma in one of many rows of numbers with blanks between them: a minus that was damaged.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{AccelerationUnit, ReadOptions, read_all_bytes};
 
 const COUNT: usize = 400;

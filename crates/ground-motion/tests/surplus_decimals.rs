@@ -1,6 +1,4 @@
 //! Values with more decimals than all others: a digit came in, or the point moved to the left.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{ReadOptions, read_all_bytes, read_bytes};
 
 /// 240 values of a decaying motion as `print` writes them; that of `at` is damaged by `change`.

@@ -1,6 +1,4 @@
 //! Separators of thousands in plain columns, which would pass for decimal signs.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{ReadOptions, Recording, read_all_bytes};
 
 fn read(text: &str) -> Result<Recording, String> {

@@ -1,7 +1,5 @@
 //! The step of a column of times, whatever its printer: decimals, significant digits, exponents,
 //! single and double precision.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::fixtures;
 use pounding_ground_motion::{
     GroundMotionError, ReadOptions, Sampling, read_all_bytes, read_bytes,

@@ -1,6 +1,4 @@
 //! Other time steps, scales, rotation, and the records of what was done.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::{PI, TAU};
 
 use pounding_ground_motion::measures::{GroundMotion, Husid};

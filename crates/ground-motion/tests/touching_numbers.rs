@@ -1,6 +1,4 @@
 //! Numbers that fill their columns and touch: never read as another number.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{AccelerationUnit, ReadOptions, read_bytes};
 
 fn options(layout: Option<&str>) -> ReadOptions {

@@ -1,6 +1,4 @@
 //! Headers that state two units of one quantity.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{AccelerationUnit, Accelerogram, ReadOptions, read_bytes};
 
 fn read(text: &str, unit: Option<AccelerationUnit>) -> Result<Accelerogram, String> {

@@ -1,7 +1,5 @@
 //! Headers that are no header of a record, or that the program does not use: what they say of units
 //! and quantities holds all the same. Counts that are one too small, and times in single precision.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::{
     AccelerationUnit, GroundMotionError, Processing, ReadOptions, Sampling, read_all_bytes,
     read_bytes,

@@ -1,7 +1,5 @@
 //! Words of headers that say another quantity, peak, rate, duration or unit than the values have, formats that the file
 //! has not, and sentences that state the unit.
-#![allow(clippy::unwrap_used)]
-
 use std::fmt::Write as _;
 
 use crate::common::fixtures;

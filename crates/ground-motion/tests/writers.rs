@@ -1,6 +1,4 @@
 //! What is written is read back.
-#![allow(clippy::unwrap_used)]
-
 use pounding_ground_motion::processing::{OffsetCorrection, ProcessingStep, process};
 use pounding_ground_motion::writers::{
     Column, Written, write_peer_at2, write_plain_columns, write_pounding_csv,

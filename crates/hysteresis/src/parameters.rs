@@ -55,7 +55,6 @@ pub(crate) const HARDENING_RATIO: ParameterDescriptor = non_negative(
 .default_to(0.0);
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

@@ -1,6 +1,4 @@
 //! Laws on paths that can be worked out by hand from their rules.
-#![allow(clippy::unwrap_used)]
-
 use pounding_hysteresis::laboratory::{Cycling, cycle_dissipation, history};
 use pounding_hysteresis::{HysteresisLaw, LawParameters, Motion, build};
 

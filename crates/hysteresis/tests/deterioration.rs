@@ -1,7 +1,5 @@
 //! The deteriorating laws of Ibarra, Medina and Krawinkler on paths worked out by
 //! hand from the rules of the paper.
-#![allow(clippy::unwrap_used)]
-
 use pounding_hysteresis::laboratory::{LaboratoryPoint, history};
 use pounding_hysteresis::{HysteresisError, LawParameters, build};
 

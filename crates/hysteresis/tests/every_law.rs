@@ -1,6 +1,4 @@
 //! What every law of the registry must satisfy, in one loop each.
-#![allow(clippy::unwrap_used)]
-
 use std::collections::BTreeSet;
 
 use crate::common::{Explicit, example, motion, times};

@@ -1,6 +1,4 @@
 //! The Iwan family against tabulated values, discrete sliders and limits.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{motion, times};
 use pounding_hysteresis::iwan::{IwanDensity, dimensionless_dissipation};
 use pounding_hysteresis::laboratory::{Cycling, cycle_dissipation, dissipation_curve, history};

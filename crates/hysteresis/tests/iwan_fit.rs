@@ -1,6 +1,4 @@
 //! Parameters of an Iwan density from dissipation curves.
-#![allow(clippy::unwrap_used)]
-
 use pounding_hysteresis::HysteresisError;
 use pounding_hysteresis::LawParameters;
 use pounding_hysteresis::iwan::{

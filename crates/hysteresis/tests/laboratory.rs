@@ -1,6 +1,4 @@
 //! The laboratory: loops against closed forms, and tests that cannot be made.
-#![allow(clippy::unwrap_used)]
-
 use std::f64::consts::PI;
 
 use pounding_hysteresis::iwan::{

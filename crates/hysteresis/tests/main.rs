@@ -1,4 +1,5 @@
 //! Hysteresis laws, against closed forms, published results and one another.
+#![allow(clippy::unwrap_used)]
 
 mod closed_forms;
 mod common;

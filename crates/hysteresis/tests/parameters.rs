@@ -1,6 +1,4 @@
 //! Bad parameters are refused with the reason and a remedy.
-#![allow(clippy::unwrap_used)]
-
 use pounding_catalogue::DefinitionError;
 use pounding_hysteresis::{HysteresisError, build, descriptors, find};
 

@@ -1,6 +1,4 @@
 //! Properties of every law on random histories.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::example;
 use pounding_hysteresis::laboratory::history;
 use pounding_hysteresis::{LawDescriptor, LawParameters, Motion, build, descriptors};

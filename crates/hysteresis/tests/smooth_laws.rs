@@ -1,6 +1,4 @@
 //! Bouc-Wen, Baber-Noori, viscous and Maxwell laws against independent solutions.
-#![allow(clippy::unwrap_used)]
-
 use crate::common::{path, times};
 use pounding_hysteresis::laboratory::{Cycling, cycle_dissipation, drive, history};
 use pounding_hysteresis::{HysteresisLaw, LawParameters, Motion, build};

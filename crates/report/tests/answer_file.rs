@@ -1,6 +1,4 @@
 //! Files of answers: what is read is what was written, and what is not as it was written is refused.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use pounding_files::checksum::hexadecimal;

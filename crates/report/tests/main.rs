@@ -1,4 +1,5 @@
 //! Pages, in one program.
+#![allow(clippy::unwrap_used)]
 
 mod answer_file;
 mod page;

@@ -1,6 +1,4 @@
 //! Pages of results that are made by hand: nothing that a result can hold breaks one.
-#![allow(clippy::unwrap_used)]
-
 use pounding_files::checksum::{Checksum, WithoutChecksum, append};
 use pounding_report::{
     BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, LevelResponses,

@@ -1,6 +1,4 @@
 //! Pages of commands with many runs, from answers that are made by hand.
-#![allow(clippy::unwrap_used)]
-
 use pounding_report::page::{Inputs, comparison, gap, ida, motion};
 use serde_json::{Value, json};
 

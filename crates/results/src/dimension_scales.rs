@@ -80,7 +80,6 @@ fn checked(status: c_int, what: &str) -> hdf5::Result<()> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use hdf5::ReferencedObject;

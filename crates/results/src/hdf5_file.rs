@@ -44,7 +44,6 @@ pub(crate) fn create(path: &Path) -> Result<File> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::{create, open};
 

@@ -361,7 +361,6 @@ const ROUND_OFF: f64 = 1.0e-12;
 const MOST_STALE: f64 = 1.0e-6;
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::foundation::Soil;

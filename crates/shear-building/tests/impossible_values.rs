@@ -1,6 +1,4 @@
 //! Values that no building has, which would be lost in maxima without a word.
-#![allow(clippy::unwrap_used)]
-
 use nalgebra::DMatrix;
 use pounding_shear_building::{
     Damping, Foundation, GeneralBuilding, ShearBuilding, ShearBuildingError, SpringDashpot,

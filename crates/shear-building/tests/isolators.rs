@@ -1,6 +1,4 @@
 //! Buildings on isolators.
-#![allow(clippy::unwrap_used)]
-
 use pounding_shear_building::{
     Damping, DampingMatrix, Isolator, IsolatorError, IsolatorKind, PostYield, ShearBuilding,
     ShearBuildingError, Strength,

@@ -1,4 +1,5 @@
 //! Storeys, damping and modes.
+#![allow(clippy::unwrap_used)]
 
 mod impossible_values;
 mod isolators;

@@ -1,6 +1,4 @@
 //! Modes and damping against closed forms and definitions.
-#![allow(clippy::unwrap_used)]
-
 use pounding_shear_building::{
     Damping, DampingMatrix, ShearBuilding, ShearBuildingError, SymmetricTridiagonal,
     TridiagonalFactor,

@@ -6,8 +6,6 @@
 //! reading in which the ground starts from zero and the first tabulated value is at
 //! t = 0.02 s, and to g = 9.81 m/s2; with that value at t = 0 and g = 9.80665 m/s2
 //! the roof reaches 0.173896 m. Responses are sampled each 0.02 s.
-#![allow(clippy::unwrap_used)]
-
 use pounding_shear_building::{Damping, ShearBuilding};
 
 fn frame() -> ShearBuilding {

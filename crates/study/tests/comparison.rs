@@ -1,6 +1,4 @@
 //! All models on the three-storey pair of the examples.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use pounding_case::Case;

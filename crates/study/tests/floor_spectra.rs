@@ -1,6 +1,4 @@
 //! Response spectra of floors, called as a library.
-#![allow(clippy::unwrap_used)]
-
 use std::ops::ControlFlow;
 use std::path::Path;
 

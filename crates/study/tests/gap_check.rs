@@ -1,6 +1,4 @@
 //! The gap check on the three-storey pair of the examples.
-#![allow(clippy::unwrap_used)]
-
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 use std::sync::Mutex;

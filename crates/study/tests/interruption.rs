@@ -1,6 +1,4 @@
 //! A study that its caller breaks off.
-#![allow(clippy::unwrap_used)]
-
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Duration;

@@ -1,4 +1,5 @@
 //! Studies, called as a library.
+#![allow(clippy::unwrap_used)]
 
 mod comparison;
 mod floor_spectra;

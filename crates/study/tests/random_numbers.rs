@@ -1,7 +1,5 @@
 //! Random numbers of studies: their samples, and what is refused.
 
-#![allow(clippy::unwrap_used)]
-
 use std::fmt::Write as _;
 
 use pounding_study::{Study, StudyError, Value, case_of_run};

@@ -1,6 +1,4 @@
 //! The motions of studies: what is done to records, and runs shown as cases of their own.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::assemble;

@@ -1,7 +1,5 @@
 //! Variables of several entries, and of multiples of what the case has.
 
-#![allow(clippy::unwrap_used)]
-
 use pounding_assembly::assemble;
 use pounding_case::Case;
 use pounding_files::checksum::WithoutChecksum;

@@ -1,7 +1,5 @@
 //! Studies as a library: sharing changes nothing, designs sample what they say, runs keep
 //! their identity.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::assemble;

@@ -1,6 +1,4 @@
 //! Ductilities and residual drifts in studies and comparisons.
-#![allow(clippy::unwrap_used)]
-
 use std::path::Path;
 
 use pounding_assembly::assemble;

@@ -98,7 +98,6 @@ pub(crate) fn row(a: &[f64], z: &[f64], q: f64) -> (f64, f64) {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

@@ -1,3 +1,4 @@
 //! Tests of this crate, one program.
+#![allow(clippy::unwrap_used)]
 
 mod structures;

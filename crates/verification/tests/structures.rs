@@ -1,7 +1,5 @@
 //! Structures that others published: every number of `pounding verify structures`, against what its
 //! source prints or what follows in closed form, written down here a second time.
-#![allow(clippy::unwrap_used)]
-
 use std::path::{Path, PathBuf};
 
 use pounding_verification::{Entered, Line, Part, Structures, Value, Verdict, holds};

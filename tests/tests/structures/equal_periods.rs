@@ -1,8 +1,6 @@
 //! Neighbours of equal period at a gap of no width: masses, stiffnesses and damping in proportion.
 //! They move alike, so that round-off alone decides on which side of zero their gap is, and a third
 //! building that stands apart must not learn of it. The reference is every building alone.
-#![allow(clippy::unwrap_used)]
-
 use pounding_time_history::{MethodChoice, Outcome, RunOptions};
 use rand_chacha::ChaCha20Rng;
 use rand_chacha::rand_core::SeedableRng;

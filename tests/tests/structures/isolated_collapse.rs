@@ -1,7 +1,5 @@
 //! Buildings by themselves, of which one collapses under gravity: those that stand have the peaks of
 //! a case of their own, on a ground of their own, with forces, under an initial state.
-#![allow(clippy::unwrap_used)]
-
 use pounding_time_history::{IsolatedRun, Outcome, TimeHistoryError, run, run_isolated};
 
 use super::motions::assembled;

@@ -1,6 +1,6 @@
 //! Structures beyond shear buildings, held against converged references of independent
 //! codes and against their limits.
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
+#![allow(clippy::print_stdout)]
 
 mod abutment;
 mod base_moments;

@@ -1,8 +1,6 @@
 //! Rigid floors in lasting touch beside elements whose branches end at a speed: dampers of a power
 //! law and storeys by Bouc and Wen. At every event floors that are held are brought to rest within
 //! round-off, which must lead no element off the branch that it has just entered.
-#![allow(clippy::unwrap_used)]
-
 use pounding_time_history::{MethodChoice, Outcome, RunOptions};
 use rand_chacha::ChaCha20Rng;
 use rand_chacha::rand_core::SeedableRng;

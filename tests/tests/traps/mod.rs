@@ -4,8 +4,6 @@
 //! each mode (`exact`) or in closed form; naively, with the one rule that makes the
 //! trap; and with the program, by its default method and by the adaptive pair. It
 //! asserts that the naive answer is wrong and that the program's is right.
-#![allow(clippy::unwrap_used)]
-
 mod approach_velocity;
 mod case;
 mod chatter;

@@ -1,6 +1,4 @@
 //! What commands write, and what they never write over.
-#![allow(clippy::unwrap_used)]
-
 mod fixture;
 mod inputs;
 #[cfg(unix)]

@@ -1,6 +1,4 @@
 //! `pounding gap`.
-#![allow(clippy::unwrap_used)]
-
 mod answers;
 mod codes;
 mod collapse;

@@ -1,6 +1,4 @@
 //! `pounding hysteresis` and `pounding verify hysteresis`.
-#![allow(clippy::unwrap_used)]
-
 mod documentation;
 mod laboratory;
 mod pages;

@@ -1,6 +1,4 @@
 //! `pounding impact`: every mode, its numbers, its files, and bad input.
-#![allow(clippy::unwrap_used)]
-
 mod arguments;
 mod collisions;
 mod measured;

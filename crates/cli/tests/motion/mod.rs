@@ -1,6 +1,4 @@
 //! `pounding motion`: what it prints, what it writes, what it refuses.
-#![allow(clippy::unwrap_used)]
-
 mod code_spectra;
 mod examples;
 mod files;

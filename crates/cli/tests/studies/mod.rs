@@ -1,6 +1,4 @@
 //! Studies from the command line: examples, interruption, failure, shards.
-#![allow(clippy::unwrap_used)]
-
 mod checks;
 mod collapsing;
 mod damaged;

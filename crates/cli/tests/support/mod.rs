@@ -1,6 +1,4 @@
 //! The program under test, run with arguments that are separated by blanks.
-#![allow(clippy::unwrap_used)]
-
 pub mod part_files;
 
 use std::path::Path;

@@ -219,7 +219,6 @@ fn iterate<A: Adjustment>(
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
     use crate::unit::AccelerationUnit;

@@ -1,7 +1,5 @@
 //! What several tests share: smooth paths and an explicit, event-located driver.
 #![allow(dead_code)]
-#![allow(clippy::unwrap_used)]
-
 use pounding_hysteresis::{Guard, History, HysteresisLaw, LawDescriptor, Motion, build};
 use pounding_runge_kutta::Dop853;
 

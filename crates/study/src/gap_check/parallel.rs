@@ -128,7 +128,6 @@ pub(crate) fn runs_in_parallel<T: Send>(
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use super::*;
 

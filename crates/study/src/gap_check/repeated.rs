@@ -153,7 +153,6 @@ fn place_of_peak(samples: &[f64]) -> Option<usize> {
 }
 
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use pounding_ground_motion::AccelerationUnit;
 

@@ -782,7 +782,6 @@ fn unless_below(upper: Lane, peak: &Lane) -> Option<Lane> {
 /// sample, in blocks of [`crate::system::modes::block`], which know nothing of hulls. They have the same bits
 /// where the modes go from sample to sample too.
 #[cfg(test)]
-#[allow(clippy::unwrap_used)]
 mod tests {
     use std::sync::Arc;
 

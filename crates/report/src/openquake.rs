@@ -4,6 +4,7 @@
 //! analysis are none of each other: every one is a function by itself, with the one limit state [`REACHED`].
 
 use pounding_catalogue::STANDARD_GRAVITY;
+use pounding_catalogue::numbers::rounded_up;
 use pounding_study::{FragilityFit, IdaReport, IntensityMeasure};
 use thiserror::Error;
 use xmlwriter::{Indent, Options, XmlWriter};
@@ -15,6 +16,9 @@ pub const REACHED: &str = "reached";
 
 /// Damping ratio of spectral accelerations in OpenQuake.
 const DAMPING: f64 = 0.05;
+
+/// Decimals of the least widths (mm), which suffice as they are shown.
+const DECIMALS: usize = 2;
 
 /// Characters that the name of a function may have.
 const LONGEST: usize = 75;
@@ -98,11 +102,14 @@ pub fn fragility_model(
     let limits = limits.map(|state| (state.name.clone(), state));
     let widths = report.gaps.iter().flat_map(|gap| {
         let least = gap.minimum.iter().filter_map(|minimum| {
-            let width = minimum.width?;
-            Some((of_width(&gap.gap, width), &minimum.result))
+            let width = rounded_up(1.0e3 * minimum.width?, DECIMALS);
+            Some((of_width(&gap.gap, &width), &minimum.result))
         });
         let asked = gap.widths.iter();
-        let asked = asked.map(|width| (of_width(&gap.gap, width.width), &width.result));
+        let asked = asked.map(|width| {
+            let shown = (1.0e5 * width.width).round() / 100.0;
+            (of_width(&gap.gap, &shown.to_string()), &width.result)
+        });
         asked.chain(least)
     });
     let mut taken: Vec<String> = Vec::new();
@@ -165,11 +172,9 @@ pub fn fragility_model(
     }
 }
 
-/// Pounding at a width of a gap (m).
-fn of_width(gap: &str, width: f64) -> String {
-    // Hundredths of a millimetre.
-    let shown = (1.0e5 * width).round() / 100.0;
-    format!("pounding of {gap} at {shown} mm")
+/// Pounding at a width of a gap (mm).
+fn of_width(gap: &str, width: &str) -> String {
+    format!("pounding of {gap} at {width} mm")
 }
 
 /// All digits of a number.

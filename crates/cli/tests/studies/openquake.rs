@@ -30,7 +30,9 @@ fn attribute(xml: &str, behind: &str, name: &str) -> String {
 #[test]
 fn fragilities_are_read_by_openquake() {
     let bench = Bench::new("");
-    bench.study(&STUDY.replace("MEASURE", "intensity = \"peak_ground_acceleration\""));
+    let hazard = "[ida]\nhazard = [[\"0.01 g\", 1], [\"4 g\", 1e-6]]\ntarget_frequency = 8e-3";
+    let study = STUDY.replace("MEASURE", "intensity = \"peak_ground_acceleration\"");
+    bench.study(&study.replace("[ida]", hazard));
     let out = bench.run("ida study.toml -o out.h5 --openquake model.xml --json");
     let said = String::from_utf8(out.stderr).unwrap();
     let told: Value = serde_json::from_slice(&out.stdout).unwrap();
@@ -60,6 +62,17 @@ fn fragilities_are_read_by_openquake() {
         assert!((median / of("median") - 1.0).abs() < 1e-12, "{id} {median}");
         assert!((variance.sqrt() / of("dispersion") - 1.0).abs() < 1e-12);
     }
+    // The least width suffices as it is shown.
+    let least = 1e3 * told["gaps"][0]["minimum"]["width"].as_f64().unwrap();
+    let behind = xml.split("pounding of light-heavy at ").skip(1);
+    let shown = behind.map(|rest| rest.split(" mm").next().unwrap().parse::<f64>().unwrap());
+    let shown: Vec<f64> = shown.collect();
+    let suffices = |shown: &&f64| (0.0..0.010_001).contains(&(**shown - least));
+    assert_eq!(
+        shown.iter().filter(suffices).count(),
+        1,
+        "{least} {shown:?}"
+    );
     assert!(
         !xml.contains("5000_mm") && said.contains("pounding of light-heavy at 5000 mm"),
         "{said}"

@@ -143,11 +143,13 @@ impl StepLength {
     }
 
     /// Longest step (s) of a series of powers, which must keep clear of the times at which
-    /// penetrations are zero; `None` where the pair gets further. `penetrations` come with
-    /// their rates.
+    /// penetrations are zero; `None` where the pair gets further, or where a penetration is below
+    /// `least` (m), beside which last terms are small whether the series converges or not.
+    /// `penetrations` come with their rates.
     pub(crate) fn of_series(
         &self,
         penetrations: impl Iterator<Item = (f64, f64)>,
+        least: f64,
         rest: f64,
     ) -> Option<f64> {
         if self.short_series >= SHORT_SERIES && self.since_series < SHORT_SERIES {
@@ -155,7 +157,7 @@ impl StepLength {
         }
         let mut longest = rest;
         for (delta, rate) in penetrations {
-            if delta <= 0.0 {
+            if delta <= least {
                 return None;
             }
             let away = delta / rate.abs();

@@ -17,6 +17,8 @@ use crate::system::{Segment, System};
 
 /// Part of the tolerance that the remainder of a series of powers may have.
 const NEGLIGIBLE: f64 = 1.0e-9;
+/// Size (m) of penetrations beside which the last terms of a series of powers are small.
+const SERIES_SIZE: f64 = 1.0e-5;
 
 /// Exact contact-free motion, and contacts between contact-free phases.
 pub(super) struct Open<'a> {
@@ -43,9 +45,10 @@ pub(super) struct ContactEpisode {
     pub lengths: StepLength,
     pub absolute: Vec<Lane>,
     pub tolerance: f64,
-    /// Terms of a series of powers, and what its remainder may be beside the motion.
+    /// Terms of a series of powers, what its remainder may be beside the motion, and what its last terms may be (m).
     pub terms: usize,
     pub negligible: f64,
+    pub last_terms: f64,
     /// Whether the list of closed levels holds, and whether they all are affine.
     pub listed: bool,
     pub affine: bool,
@@ -113,6 +116,7 @@ impl ContactEpisode {
             tolerance: relative_tolerance,
             terms: series_terms(relative_tolerance),
             negligible: Series::ROUND_OFF.max(NEGLIGIBLE * relative_tolerance),
+            last_terms: SERIES_SIZE * relative_tolerance,
             listed: false,
             affine: false,
             powers: false,
@@ -274,7 +278,7 @@ impl Driver<'_> {
                 let penetrations = &open.phase.penetration;
                 let touches = e.touches.iter();
                 let touches = touches.map(|t| (penetrations[t.level], t.motion.1));
-                e.lengths.of_series(touches, longest)
+                e.lengths.of_series(touches, e.last_terms, longest)
             } else {
                 None
             };

@@ -23,8 +23,6 @@ const BELOW_PEAK: f64 = 1.0 - 1.0e-3;
 /// at: as much errs the fit.
 const CORRECTION: f64 = 1.0e-3;
 
-/// Size (m) of penetrations beside which the last terms of a series of powers are small.
-const SERIES_SIZE: f64 = 1.0e-5;
 /// Part of the step tried from which on such a series is worth its while.
 const FAR_ENOUGH: f64 = 0.3;
 
@@ -83,7 +81,7 @@ impl Driver<'_> {
         }
         let mut whole = whole;
         if !e.affine {
-            let reach = e.series.reach(SERIES_SIZE * e.tolerance);
+            let reach = e.series.reach(e.last_terms);
             if reach < FAR_ENOUGH {
                 e.lengths.refuse_series();
                 return Ok(false);

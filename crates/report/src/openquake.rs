@@ -107,6 +107,7 @@ pub fn fragility_model(
         });
         let asked = gap.widths.iter();
         let asked = asked.map(|width| {
+            // Hundredths of a millimetre.
             let shown = (1.0e5 * width.width).round() / 100.0;
             (of_width(&gap.gap, &shown.to_string()), &width.result)
         });

@@ -1,4 +1,4 @@
-//! What the user should know, in words.
+//! A warning: its causes, and what is told of each. Where they are found: [`crate::warnings`].
 
 use std::fmt;
 

@@ -1,4 +1,4 @@
-//! What the user should know of a system, of its options and of a run: one warning a cause.
+//! Warnings as they are found, of a system, of its options and of a run: one a cause. Their words: [`crate::warning`].
 
 use std::f64::consts::PI;
 use std::sync::Arc;

@@ -427,7 +427,7 @@ impl StationFile {
         // The epoch of the first sample counts.
         let changes = epochs
             .iter()
-            .filter(|epoch| **epoch != *channel && covers(epoch, name.end));
+            .filter(|epoch| **epoch != *channel && overlaps(epoch, name));
         for epoch in changes {
             let later = descendant(epoch, "InstrumentSensitivity");
             let other = later
@@ -442,6 +442,28 @@ impl StationFile {
                 line(epoch),
                 name.label()
             ));
+        }
+        if !epochs.iter().any(|epoch| covers(epoch, name.end)) {
+            warnings.push(format!(
+                "{}: line {}: the epoch of {} ends at {}, within the record, and no other follows: its sensitivity is used for all samples",
+                self.file,
+                line(channel),
+                name.label(),
+                channel.attribute("endDate").unwrap_or_default()
+            ));
+        }
+        for epoch in &now {
+            for attribute in ["startDate", "endDate"] {
+                let date = epoch.attribute(attribute);
+                if let Some(date) = date.filter(|date| microseconds(date).is_none()) {
+                    warnings.push(format!(
+                        "{}: line {}: {attribute} \"{date}\" of {} is no date, and bounds nothing",
+                        self.file,
+                        line(epoch),
+                        name.label()
+                    ));
+                }
+            }
         }
         let angles = (number(channel, "Azimuth"), number(channel, "Dip"));
         let orientation = angles.0.zip(angles.1);
@@ -610,9 +632,19 @@ fn is_same(first: &Node<'_, '_>, second: &Node<'_, '_>) -> bool {
 
 /// Whether the epoch of a channel covers a time: its end is the first moment that it does not.
 fn covers(channel: &Node<'_, '_>, time: i64) -> bool {
+    is_within(channel, time, time)
+}
+
+/// Whether the epoch of a channel covers a sample of a record.
+fn overlaps(channel: &Node<'_, '_>, record: &ChannelName) -> bool {
+    is_within(channel, record.start, record.end)
+}
+
+/// Whether the epoch of a channel covers some of the time from a first moment to a last.
+fn is_within(channel: &Node<'_, '_>, first: i64, last: i64) -> bool {
     let bound = |attribute| channel.attribute(attribute).and_then(microseconds);
-    bound("startDate").is_none_or(|start| start <= time)
-        && bound("endDate").is_none_or(|end| time < end)
+    bound("startDate").is_none_or(|start| start <= last)
+        && bound("endDate").is_none_or(|end| first < end)
 }
 
 /// `2019-07-06T03:19:53.0000Z` in microseconds after the year 1900.

@@ -308,13 +308,19 @@ fn epochs_that_begin_within_the_record() {
     let until = format!(r#"startDate="1990-01-01T00:00:00" endDate="{record_seconds}""#);
     let from = format!(r#"startDate="2000-01-01T{first_seconds}""#);
     let later = format!(r#"startDate="{}""#, record_seconds.replace(".52", ".56"));
+    let short = format!(
+        r#"{from} endDate="{}""#,
+        record_seconds.replace(".52", ".53")
+    );
     let folder = tempfile::tempdir().unwrap();
     let record = write(folder.path(), "record.mseed", seed(b"HNE"));
     for (attributes, value, input, is_said) in [
         (&from, "4", "M/S**2", true),
         (&from, "1", "CM/S**2", true),
         (&from, "1", "M/S**2", false),
-        // Behind the last sample, at 0.54 s.
+        // It ends before the last sample, at 0.54 s.
+        (&short, "4", "M/S**2", true),
+        // Behind the last sample.
         (&later, "4", "M/S**2", false),
     ] {
         let first = Epoch {
@@ -335,6 +341,49 @@ fn epochs_that_begin_within_the_record() {
         let said = |w: &String| w.contains("begins within the record");
         let warnings = &one.origin.warnings;
         assert_eq!(warnings.iter().any(said), is_said, "{value}: {warnings:?}");
+    }
+}
+
+/// Where the metadata end within the record, or have dates that are none, the record is read and it is said.
+#[test]
+fn dates_of_epochs_that_bound_nothing_or_too_much() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    let began = r#"startDate="1990-01-01T00:00:00""#;
+    for (end, words) in [
+        (
+            r#"endDate="2000-01-01T00:00:00.52""#,
+            "within the record, and no other follows",
+        ),
+        (r#"endDate="2599-12-31T23:59:59""#, ""),
+        ("", ""),
+        (
+            r#"endDate="open""#,
+            "endDate \"open\" of XX.XXXXX..HNE is no date, and bounds nothing",
+        ),
+        (r#"endDate="2000-13-01""#, "is no date, and bounds nothing"),
+    ] {
+        let attributes = format!("{began} {end}");
+        let epoch = Epoch {
+            attributes: &attributes,
+            ..HNE
+        };
+        let file = write(folder.path(), "station.xml", station(&[epoch]));
+        let found = read_all(&record, &with(&file)).unwrap();
+        let warnings = &found.series[0].origin.warnings;
+        let said = |w: &&String| w.contains("no other follows") || w.contains("bounds nothing");
+        let said: Vec<&String> = warnings.iter().filter(said).collect();
+        match words {
+            "" => assert!(said.is_empty(), "{end}: {said:?}"),
+            _ => assert!(
+                said.len() == 1 && said[0].contains(words),
+                "{end}: {said:?}"
+            ),
+        }
+        assert!(
+            said.iter().all(|w| w.contains("station.xml: line ")),
+            "{said:?}"
+        );
     }
 }
 

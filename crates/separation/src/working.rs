@@ -92,6 +92,16 @@ impl Working {
         }
     }
 
+    /// With the numbers of two requirements, one for either side, of which each is named.
+    pub(crate) fn of_sides(sides: [&Requirement; 2]) -> Self {
+        let factors = sides.iter().flat_map(|side| side.factors.iter().cloned());
+        let mut working = Self::new("", crate::remedy::where_it_does_not_apply);
+        for factor in factors {
+            working.note(factor.name, factor.value, factor.unit);
+        }
+        working
+    }
+
     /// The requirement with its explanation: the width by the code, and what the ground on
     /// both sides of the gap adds to it. A negative zero is zero.
     pub(crate) fn finish(

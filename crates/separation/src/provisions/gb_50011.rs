@@ -64,7 +64,7 @@ pub(crate) static BETWEEN: ProvisionDescriptor = ProvisionDescriptor {
     edition: &EDITION,
     clause: "6.1.4, 8.1.4",
     basis: Basis::Prescriptive,
-    height: HeightDatum::NotUsed,
+    height: HeightDatum::NotSeen,
     ground: Ground::NotAsked,
     elastic_displacement_factor: None,
     formula: "w = 100 mm + 20 mm for each begun step above 15 m; frame w, frame-wall max(100 mm, 0.7 w), wall max(100 mm, 0.5 w), steel 1.5 w",

@@ -147,6 +147,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::ALL;
+    use crate::assumptions::HeightDatum;
     use crate::descriptor::{Basis, Place};
     use crate::error::SeparationError;
     use crate::inputs::{Input, Site, Situation, SoilZone, StructuralSystem, Structure};
@@ -572,6 +573,27 @@ mod tests {
             // No rule speaks of it.
             assert_eq!(refusal(&|s| s.height = value).len(), ALL.len());
             assert_eq!(refusal(&|s| s.elevation = value).len(), ALL.len());
+        }
+    }
+
+    /// What says that it takes no height has the same width at any, and only that.
+    #[test]
+    fn whether_a_height_is_taken_is_said() {
+        for descriptor in ALL {
+            let of = |factor: f64| {
+                let mut situation = complete(0.1, 0.05);
+                for s in [&mut situation.left, &mut situation.right] {
+                    s.height *= factor;
+                    s.elevation *= factor;
+                }
+                descriptor.between(&situation).map(|r| r.width).ok()
+            };
+            // Other terms of a rule may hide its height at some of these.
+            let varies = [0.1, 0.5, 2.0, 4.0, 8.0]
+                .iter()
+                .any(|factor| of(*factor) != of(1.0));
+            let is_said = descriptor.height != HeightDatum::NotUsed;
+            assert_eq!(varies, is_said, "{}", descriptor.name);
         }
     }
 

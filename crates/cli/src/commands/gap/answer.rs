@@ -401,7 +401,10 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
             widths(governing),
             in_millimetres(*provided),
             reached.to_owned(),
-            width.provision.name().to_owned(),
+            match &width.beside {
+                Some(other) => format!("{} and {}", width.provision.name(), other.name()),
+                None => width.provision.name().to_owned(),
+            },
             width.provision.status().name().to_owned(),
         ]);
     }
@@ -443,12 +446,18 @@ fn explained(case: &OwnershipAnswer) -> String {
     };
     let mut text = format!("  {ownership}{clause}{}\n", requirement.explanation);
     let mut add = |what: &str, said: &str| text.push_str(&format!("    {what}: {said}\n"));
-    add(provision.status().name(), &provision.source());
-    for (what, said) in provision.assumptions().list() {
-        add(what, said);
-    }
-    for remark in provision.remarks() {
-        add("to know", remark);
+    let beside = governing.width.beside.iter();
+    for rule in std::iter::once(provision).chain(beside.clone()) {
+        if beside.len() > 0 {
+            add("by", rule.name());
+        }
+        add(rule.status().name(), &rule.source());
+        for (what, said) in rule.assumptions().list() {
+            add(what, said);
+        }
+        for remark in rule.remarks() {
+            add("to know", remark);
+        }
     }
     if let Some(undecided) = requirement.undecided() {
         // Where every reading asks for more than is provided, none need be chosen.

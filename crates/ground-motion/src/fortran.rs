@@ -23,6 +23,8 @@ pub(crate) struct Layout {
     pub more: bool,
     /// Whether every number is printed with an exponent, which those of `G` formats may lack.
     pub exponents: bool,
+    /// Whether every number is a whole one: those of `I` formats.
+    pub wholes: bool,
     /// Digits that are decimals where a number has no point: `-241` under F10.5 is -0.00241.
     decimals: i32,
     /// Power of ten by which numbers without an exponent are printed larger: `kP`.
@@ -40,6 +42,7 @@ impl Layout {
             gap: 0,
             more: false,
             exponents: false,
+            wholes: false,
             decimals: 0,
             scale: 0,
         }
@@ -150,6 +153,7 @@ impl Layout {
                     }
                     if kind == 'I' {
                         (layout.decimals, layout.scale) = (0, 0);
+                        layout.wholes = true;
                     }
                     let other = rest.trim_start().starts_with(',');
                     let uneven = layout.gap > 0 && number.is_some_and(|n| n > 1);

@@ -343,7 +343,21 @@ impl<'a> Source<'a> {
         field: &[u8],
         layout: Layout,
     ) -> Result<f64, GroundMotionError> {
-        Ok(layout.value(field, self.number(line, column, field)?))
+        let number = self.number(line, column, field)?;
+        let is_of_whole = |b: &u8| b.is_ascii_digit() || b"+-".contains(b);
+        if layout.wholes && !field.trim_ascii().iter().all(is_of_whole) {
+            let blanks = field.len() - field.trim_ascii_start().len();
+            return Err(self.error(
+                line.number,
+                column + blanks,
+                format!(
+                    "\"{}\" is no whole number, as all are in the format of the values",
+                    number::shown(field.trim_ascii())
+                ),
+                REMEDY_VALUE,
+            ));
+        }
+        Ok(layout.value(field, number))
     }
 
     /// Refuses NUL bytes, which no text has: they stand where a program or a system did not write

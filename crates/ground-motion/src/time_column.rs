@@ -267,7 +267,7 @@ fn even_step_of(times: &[f64], printed: PrintedDigits, unit: f64, may_be_cut: bo
     };
     let found = common(&rounded).or_else(|| may_be_cut.then(|| common(&cut))?);
     let found = found.or_else(|| from_zero().filter(|_| first > 0.0));
-    let found = found.or_else(|| in_single(times, digit(last)).filter(|_| is_single));
+    let found = found.or_else(|| in_single(times, digit).filter(|_| is_single));
     let decimals = printed.decimals - libm::log10(unit).round() as i32;
     let Some((low, high)) = found else {
         let is_one = may_be_cut && digit(first) == digit(last);
@@ -333,21 +333,28 @@ fn coarse_step(times: &[f64], digit: f64, decimals: i32) -> Option<f64> {
 
 /// Steps (s) that times may have which were added up in single precision, or are multiples of a step
 /// in it: each is after the one before it by the same step, but for the spacing of numbers of
-/// single precision at the last time and one printed digit.
-fn in_single(times: &[f64], digit: f64) -> Option<(f64, f64)> {
+/// single precision at the last time and one digit as it is printed there. Of the whole time between first and last
+/// the digits leave no more open than of one step.
+fn in_single(times: &[f64], digit: impl Fn(f64) -> f64) -> Option<(f64, f64)> {
     let [first, .., last] = *times else {
         return None;
     };
-    let mean = (last - first) / (times.len() - 1) as f64;
-    let largest = last.abs().max(first.abs());
-    let open = f64::from(f32::EPSILON) * largest + digit;
-    let even = |w: &[f64]| (w[1] - w[0] - mean).abs() <= open;
-    (open <= MOST_OPEN * mean && times.windows(2).all(even)).then_some((mean - open, mean + open))
+    let intervals = (times.len() - 1) as f64;
+    let mean = (last - first) / intervals;
+    let spacing = f64::from(f32::EPSILON) * last.abs().max(first.abs());
+    let coarsest = digit(first).max(digit(last));
+    let even = |w: &[f64]| {
+        let open = spacing + digit(w[0]).max(digit(w[1]));
+        (w[1] - w[0] - mean).abs() <= open
+    };
+    let open = spacing + 2.0 * coarsest / intervals;
+    (spacing + coarsest <= MOST_OPEN * mean && times.windows(2).all(even))
+        .then_some((mean - open, mean + open))
 }
 
 /// The even step (s) of times in single precision.
 pub(crate) fn even_step_in_single(times: &[f64]) -> Option<f64> {
-    let (low, high) = in_single(times, 0.0)?;
+    let (low, high) = in_single(times, |_| 0.0)?;
     let mean = 0.5 * (low + high);
     let round = round_steps(mean, ROUND_DECIMALS).find(|step| (low..=high).contains(step));
     Some(round.unwrap_or(mean))

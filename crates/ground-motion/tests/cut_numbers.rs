@@ -251,6 +251,31 @@ fn files_that_end_within_a_number() {
     }
 }
 
+/// So is a file with a column for each component, whose last row is left out.
+#[test]
+fn components_that_end_within_a_number() {
+    let value = |i: u32| 20.0 * f64::sin(0.7 * f64::from(i) + 0.1);
+    let rows: String = (0..70)
+        .map(|i| format!("{0:.6} {0:.6} {0:.6}\n", value(i)))
+        .collect();
+    let header = "STRONG GROUND MOTION RECORDS OF TURKIYE\nSTATION ID : 0000\nSAMPLING INTERVAL (sec) : 0.01\nRAW PGA VALUES (gal) :\nN-S E-W U-D\n";
+    let read = |last: &str, options: &ReadOptions| {
+        let text = format!("{header}{rows}1.000000 1.000000 {last}");
+        read_all_bytes("f", text.as_bytes(), options).map_err(|e| e.to_string())
+    };
+    for last in ["0.00010", "0.0001", "0.00", "0."] {
+        let said = read(last, &ReadOptions::default()).unwrap_err();
+        let told = "the file ends within its last value: \"0.";
+        assert!(said.starts_with("f:76:") && said.contains(told), "{said}");
+        let found = read(last, &lenient()).unwrap();
+        for series in &found.series {
+            assert_eq!(series.samples.len(), 70);
+        }
+    }
+    let found = read("0.000108", &ReadOptions::default()).unwrap();
+    assert_eq!(found.series[2].samples.len(), 71);
+}
+
 /// So are plain columns, whose last row is left out.
 #[test]
 fn columns_that_end_within_a_number() {

@@ -5,7 +5,7 @@ use pounding_ground_motion::{ReadOptions, read_all_bytes};
 /// Samples of each file.
 const COUNT: usize = 400;
 
-const FORMATS: [&str; 10] = [
+const FORMATS: [&str; 11] = [
     "peer_at2",
     "npts_dt",
     "midas_sgs",
@@ -14,6 +14,7 @@ const FORMATS: [&str; 10] = [
     "dyna",
     "isesd",
     "jma_csv",
+    "nsmn",
     "plain_columns",
     "pounding_csv",
 ];
@@ -70,6 +71,10 @@ fn file(format: &str, values: &[String]) -> String {
         "jma_csv" => format!(
             "SITE CODE= 1\nSAMPLING RATE= 100Hz\nUNIT = gal(cm/s/s)\nNS,EW,UD\n{}",
             pairs(values, |i, v| format!("{v},{0},{0}", of_c(-sample(i + 5))))
+        ),
+        "nsmn" => format!(
+            "STRONG GROUND MOTION RECORDS OF TURKIYE\nSTATION ID : 0000\nNUMBER OF DATA : {n}\nSAMPLING INTERVAL (sec) : 0.01\nRAW PGA VALUES (gal) :\nN-S E-W U-D\n{}",
+            pairs(values, |i, v| format!("{v} {0} {0}", of_c(-sample(i + 5))))
         ),
         "plain_columns" => format!(
             "time (s),NS (cm/s2)\n{}",
@@ -490,11 +495,11 @@ fn points_of_mantissas_that_are_lost() {
     assert!(said.contains(told), "{said}");
 }
 
-/// Three components in fixed columns, whose layout gives decimals to numbers without a point.
+/// Components in fixed columns, whose layout gives decimals to numbers without a point.
 #[test]
-fn decimals_of_cwa_that_are_lost() {
+fn decimals_in_columns_that_are_lost() {
     let values = of_three_decimals();
-    let file = |values: &[String]| {
+    let cwa = |values: &[String]| {
         let row = |i: usize, v: &str| format!("{:10.3}{v:>10}{v:>10}{v:>10}", 0.01 * i as f64);
         format!(
             "#Earthquake Information\n#StationCode: HWA014\n#StartTime: 2018/02/06-23:50:39.000\n#RecordLength(sec): {:.2}\n#SampleRate(Hz): 100\n#AmplitudeUnit:  gal. DCoffset(corr)\n#DataSequence: Time U(+); N(+); E(+)\n#Data: 4F10.3\n{}",
@@ -502,31 +507,44 @@ fn decimals_of_cwa_that_are_lost() {
             pairs(values, row)
         )
     };
-    let read = |values: &[String]| {
-        let text = file(values);
-        let found = read_all_bytes("f", text.as_bytes(), &ReadOptions::default());
-        found.map_err(|e| e.to_string())
+    let asa = |values: &[String]| {
+        let list = |entry: &str| format!("/{entry}/{entry}");
+        format!(
+            "ARCHIVO ESTANDAR DE ACELERACION:\nVERSION DEL FORMATO                    : 2.0\nNUMERO DE CANALES                      : 2\nORIENTACION C1-C6 (rumbo;orientacion)  : /V/N90E\nINTERVALO DE MUESTREO, C1-C6 (s)       : {}\nNUM. TOTAL DE MUESTRAS, C1-C6          : {}\nUNIDADES DE LOS DATOS                  : Gal (cm/s/s)\nFACTOR DE DECIMACION                   : 1\nFORMATO DATOS (FORTRAN,10 campos/dato) : 2F10.3\n\nDATOS DE ACELERACION:\n{}\n   CANAL-1   CANAL-2\n         V      N90E\n{}\n{}",
+            list("0.01"),
+            list(&values.len().to_string()),
+            "---------+".repeat(2),
+            "---------+".repeat(2),
+            pairs(values, |_, v| format!("{:>10}{v:>10}", "1.234"))
+        )
     };
-    let whole = read(&values).unwrap();
-    assert_eq!(whole.series[2].samples.len(), COUNT);
-    let moved = |text: &str| {
-        let (whole, decimals) = text.split_once('.')?;
-        Some(format!("{whole}{}.{}", &decimals[..1], &decimals[1..]))
-    };
-    for (value, values) in damaged(&values, moved) {
-        let said = read(&values).unwrap_err();
-        assert!(
-            said.contains(&format!("\"{value}\" lacks a digit")),
-            "{said}"
-        );
-    }
-    // The layout gives as many decimals to some of these, but to a value that lost a digit for its point too.
-    for (value, values) in damaged(&values, |text| Some(text.replace('.', ""))) {
-        let said = read(&values).unwrap_err();
-        assert!(
-            said.contains(&format!("\"{value}\" has no decimal point")),
-            "{said}"
-        );
+    for file in [&cwa as &dyn Fn(&[String]) -> String, &asa] {
+        let read = |values: &[String]| {
+            let text = file(values);
+            let found = read_all_bytes("f", text.as_bytes(), &ReadOptions::default());
+            found.map_err(|e| e.to_string())
+        };
+        let whole = read(&values).unwrap();
+        assert_eq!(whole.series[1].samples.len(), COUNT);
+        let moved = |text: &str| {
+            let (whole, decimals) = text.split_once('.')?;
+            Some(format!("{whole}{}.{}", &decimals[..1], &decimals[1..]))
+        };
+        for (value, values) in damaged(&values, moved) {
+            let said = read(&values).unwrap_err();
+            assert!(
+                said.contains(&format!("\"{value}\" lacks a digit")),
+                "{said}"
+            );
+        }
+        // The layout gives as many decimals to some of these, but to a value that lost a digit for its point too.
+        for (value, values) in damaged(&values, |text| Some(text.replace('.', ""))) {
+            let said = read(&values).unwrap_err();
+            assert!(
+                said.contains(&format!("\"{value}\" has no decimal point")),
+                "{said}"
+            );
+        }
     }
 }
 

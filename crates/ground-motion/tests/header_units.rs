@@ -374,6 +374,77 @@ fn values_that_cosmos_marks_as_unknown() {
     read("cosmos", "End-of-data for Chan 1", "/&   end of data").unwrap();
 }
 
+/// Among counts it may be one of them: it is none where it leaps out of the record. A count is a whole number.
+#[test]
+fn counts_that_cosmos_marks_as_unknown() {
+    let fixture = fixtures("cosmos", 0).remove(1);
+    let text: String = fixture.bytes.iter().map(|b| char::from(*b)).collect();
+    let (channel, _) = text.split_once("End-of-data").unwrap();
+    let at = channel.find("raw accel. ").unwrap();
+    let (header, rest) = channel.split_at(channel[..at].rfind('\n').unwrap() + 1);
+    let (_, announcement) = rest.lines().next().unwrap().split_once("raw").unwrap();
+    let data: Vec<f64> = rest
+        .lines()
+        .skip(1)
+        .map(|l| l.trim().parse().unwrap())
+        .collect();
+    // A record of 60 counts, as large as the header says and where it says.
+    let place = (0..data.len())
+        .max_by(|a, b| data[*a].abs().total_cmp(&data[*b].abs()))
+        .unwrap();
+    let smooth = |i: usize, spread: f64| {
+        let from = (i as f64 - place as f64) / spread;
+        (data[place] * f64::exp(-from * from)).round()
+    };
+    let read = |spread: f64, changed: &[(usize, &str)], lenient: bool| {
+        let mut counts: Vec<String> = (0..60).map(|i| format!("{}", smooth(i, spread))).collect();
+        for (at, value) in changed {
+            (*value).clone_into(&mut counts[*at]);
+        }
+        let counts: String = counts.iter().map(|c| format!("{c:>8}\n")).collect();
+        let header = header.replace(".115000", ".300000");
+        let text = format!("{header}      60 raw{announcement}\n{counts}End-of-data\n");
+        let options = ReadOptions {
+            lenient,
+            ..fixture.options.clone()
+        };
+        read_all_bytes("f", text.as_bytes(), &options).map_err(|e| e.to_string())
+    };
+    let row = header.lines().count() + 2;
+    assert_eq!(read(15.0, &[], false).unwrap().series[0].samples.len(), 60);
+    let told = "is -999, by which line 13 marks a value that is unknown";
+    for changed in [
+        &[(25, "-999")][..],
+        &[(25, "-999"), (26, "-999"), (27, "-999")],
+    ] {
+        let said = read(15.0, changed, false).unwrap_err();
+        assert_eq!(said, format!("f:{}:1: sample 26 {told}", row + 25));
+        let found = read(15.0, changed, true).unwrap();
+        let warnings = &found.series[0].origin.warnings;
+        assert!(warnings.iter().any(|w| w.contains(told)), "{warnings:?}");
+    }
+    // Also at an end, and behind the motion.
+    for (spread, at) in [(15.0, 0), (8.0, 58), (8.0, 59)] {
+        assert!(
+            read(spread, &[(at, "-999")], false).is_err(),
+            "{spread} {at}"
+        );
+    }
+    // It follows its neighbours.
+    let along = [(57, "-930"), (58, "-960"), (59, "-999")];
+    assert!(read(8.0, &along, false).is_ok());
+    let around = [(24, "400000"), (25, "-999"), (26, "-300000")];
+    assert!(read(15.0, &around, false).is_ok());
+    for (value, column) in [("-999.00", 2), ("-16088.", 2), ("-1.6E+5", 2)] {
+        let said = read(15.0, &[(25, value)], false).unwrap_err();
+        let told = format!(
+            "f:{}:{column}: \"{value}\" is no whole number, as all are in the format of the values",
+            row + 25
+        );
+        assert_eq!(said, told);
+    }
+}
+
 /// A second record in a file of a format that holds one is not dropped.
 #[test]
 fn second_records() {

@@ -161,6 +161,27 @@ proptest! {
     }
 }
 
+/// The last of these times has lost a zero at its end, and seems to be coarser than all others: they jitter by three
+/// of their digits all the same.
+#[test]
+fn one_short_time_excuses_none_before_it() {
+    let signs = [1.0, -1.0, -1.0];
+    let time = |i: usize| match i {
+        0 => 1.0 / 300.0,
+        30 => 0.10333,
+        _ => (i + 1) as f64 / 300.0 + signs[(i + 2) % 3] * 3.4e-6,
+    };
+    let times: Vec<String> = (0..31)
+        .map(|i| format!("{:?}", (time(i) * 1e6).round() / 1e6))
+        .collect();
+    assert!(times[..30].iter().any(|t| t.len() == 8) && times[30] == "0.10333");
+    let found = read(&times);
+    assert!(
+        matches!(found, Err(GroundMotionError::Uneven { .. })),
+        "{found:?}"
+    );
+}
+
 /// As Python and pandas write multiples of 1/128 s and 1/300 s: `0.0` says nothing of the digits.
 #[test]
 fn a_short_zero_is_no_coarse_digit() {

@@ -1,6 +1,7 @@
 //! Archivo Estandar de Aceleracion 2.0 (UNAM, CICESE, CENAPRED): Spanish key lines,
 //! then a column for each channel, gal.
 
+use crate::cut_numbers::Forms;
 use crate::direction::Direction;
 use crate::draft::{Draft, DraftPeak, DraftUnit, StatedDuration};
 use crate::error::{GroundMotionError, bound};
@@ -194,6 +195,7 @@ fn columns(
             Vec::with_capacity(room.min(stated.max(0.0) as usize))
         })
         .collect();
+    let mut forms: Vec<Forms> = columns.iter().map(|_| Forms::of(layout)).collect();
     let mut row = Vec::with_capacity(layout.per_line);
     let mut rows = 0_usize;
     for line in lines.by_ref().filter(|l| !l.is_blank()) {
@@ -248,10 +250,20 @@ fn columns(
                 ));
             }
             column.push(value);
+            // Rows with tabs have no columns of characters.
+            if !line.bytes.contains(&b'\t') {
+                forms[k].see(line.number, at, field);
+            }
+        }
+        if line.bytes.contains(&b'\t') {
+            for ((at, field), forms) in line.fields().zip(&mut forms) {
+                forms.see(line.number, at, field);
+            }
         }
         row.clear();
         rows += 1;
     }
+    forms.iter().try_for_each(|forms| forms.are_whole(source))?;
     Ok(columns)
 }
 

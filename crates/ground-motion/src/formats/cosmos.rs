@@ -18,6 +18,11 @@ use crate::volume::unit_of_number;
 const TEXT_LINES: usize = 13;
 /// Numbers that a header block may have: the format defines 100.
 const MOST_NUMBERS: usize = 1000;
+/// Counts before and behind one, with which it is compared; times the largest step between them from which on it is
+/// no count of the record, and a step that instruments at rest have.
+const AROUND: usize = 20;
+const APART: f64 = 4.0;
+const STEP_AT_REST: f64 = 10.0;
 const REMEDY: &str = "the header is not that of COSMOS 1.20: get the record again";
 
 pub(super) static FORMAT: Format = Format {
@@ -62,16 +67,13 @@ fn ends_channel(line: Line<'_>) -> bool {
 
 /// Refuses samples that are the value of which the header says that it stands for unknown, as
 /// `Values used when parameter or data value is unknown/unspecified:   -999, -999.00`. Counts
-/// are whole numbers, of which it is one.
+/// are whole numbers, of which it is one: among them it is refused where it does not follow its neighbours.
 fn without_unknown(
     source: &Source<'_>,
     text: &[Line<'_>],
     draft: &Draft,
     layout: Layout,
 ) -> Result<(), GroundMotionError> {
-    if !matches!(draft.unit, DraftUnit::Stated(_)) {
-        return Ok(());
-    }
     let declared = text.iter().find_map(|line| {
         let lower = line.lower();
         let (_, values) = lower.split_once("unknown/unspecified:")?;
@@ -83,11 +85,11 @@ fn without_unknown(
     let Some((line, value)) = declared else {
         return Ok(());
     };
-    let used = draft
-        .samples
-        .iter()
-        .take(draft.header_count.unwrap_or(usize::MAX));
-    let Some(at) = used.into_iter().position(|sample| *sample == value) else {
+    let count = draft.header_count.unwrap_or(usize::MAX);
+    let used = &draft.samples[..draft.samples.len().min(count)];
+    let is_stated = matches!(draft.unit, DraftUnit::Stated(_));
+    let mut marked = (0..used.len()).filter(|at| used[*at] == value);
+    let Some(at) = marked.find(|at| is_stated || is_apart(used, *at)) else {
         return Ok(());
     };
     let message = format!(
@@ -104,6 +106,25 @@ fn without_unknown(
         message,
         "the record has gaps: get it again, or set `lenient = true` to use the value as it is",
     ))
+}
+
+/// Whether a count, with those equal to it beside it, lies farther from both neighbours than any step of the record
+/// around it, many times.
+fn is_apart(counts: &[f64], at: usize) -> bool {
+    let value = counts[at];
+    let equal = |c: &&f64| **c == value;
+    let first = at - counts[..at].iter().rev().take_while(equal).count();
+    let end = at + counts[at..].iter().take_while(equal).count();
+    let before = &counts[first.saturating_sub(AROUND)..first];
+    let behind = &counts[end..counts.len().min(end + AROUND)];
+    let steps = [before, behind]
+        .into_iter()
+        .flat_map(|side| side.windows(2));
+    let largest = steps.map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
+    let neighbours = [before.last(), behind.first()];
+    let mut jumps = neighbours.into_iter().flatten().map(|c| (c - value).abs());
+    (before.len() + behind.len() >= AROUND)
+        && jumps.all(|jump| jump > APART * largest.max(STEP_AT_REST))
 }
 
 fn channel(

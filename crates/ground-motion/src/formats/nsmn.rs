@@ -1,6 +1,7 @@
 //! National Strong-Motion Network of Turkey, the layout of 2017: lines `KEY : value`, a line
 //! that names the columns, then a column for each component.
 
+use crate::cut_numbers::Forms;
 use crate::draft::{Draft, DraftPeak, DraftUnit};
 use crate::error::GroundMotionError;
 use crate::format::Format;
@@ -56,8 +57,16 @@ pub(super) fn read(source: &Source<'_>) -> Result<Vec<Series>, GroundMotionError
     let room = lines.remaining() / (2 * count) + 1;
     let room = room.min(header.count.unwrap_or(0));
     let mut columns: Vec<Vec<f64>> = (0..count).map(|_| Vec::with_capacity(room)).collect();
+    let mut forms: Vec<Forms> = columns.iter().map(|_| Forms::default()).collect();
     for line in lines.by_ref().filter(|l| !l.is_blank()) {
-        row(source, line, &mut columns)?;
+        row(source, line, &mut columns, &mut forms)?;
+    }
+    match source.ends_whole()? {
+        true => forms.iter().try_for_each(|forms| forms.are_whole(source))?,
+        // The components are of one length.
+        false => columns
+            .iter_mut()
+            .for_each(|column| column.truncate(column.len().saturating_sub(1))),
     }
     let mut series = Vec::new();
     for (k, samples) in columns.into_iter().enumerate() {
@@ -74,6 +83,7 @@ fn row(
     source: &Source<'_>,
     line: Line<'_>,
     columns: &mut [Vec<f64>],
+    forms: &mut [Forms],
 ) -> Result<(), GroundMotionError> {
     let count = columns.len();
     let has = |sign: u8| line.bytes.contains(&sign);
@@ -102,7 +112,7 @@ fn row(
         bytes,
     });
     let mut fields = pointed.fields();
-    for column in columns {
+    for (column, forms) in columns.iter_mut().zip(forms) {
         let (at, field) = fields.next().ok_or_else(|| {
             source.error(
                 line.number,
@@ -112,6 +122,7 @@ fn row(
             )
         })?;
         column.push(source.number(line, at, field)?);
+        forms.see(line.number, at, field);
     }
     match fields.next() {
         None => Ok(()),

@@ -182,6 +182,31 @@ fn one_short_time_excuses_none_before_it() {
     );
 }
 
+/// Digits of a quarter of a step and more, of which ties are rounded to even digits: 1/256 s from 10.8125 s on. A row that
+/// is missing is none of them, wherever it is.
+#[test]
+fn digits_of_nearly_half_a_step() {
+    for (rate, count) in [(256.0, 5769), (256.0, 40), (400.0, 21), (440.0, 3000)] {
+        let time = |i: usize| format!("{:.3}", 10.8125 + i as f64 / rate);
+        let times: Vec<String> = (0..count).map(time).collect();
+        let found = read(&times).unwrap();
+        assert!(
+            (found * rate - 1.0).abs() < 2e-3 / found / (count - 1) as f64,
+            "{found}"
+        );
+        let places = [1, 2, 5, 8, count / 2, count - 3, count - 2];
+        for missing in places {
+            let mut fewer = times.clone();
+            fewer.remove(missing);
+            let found = read(&fewer);
+            assert!(
+                matches!(found, Err(GroundMotionError::Uneven { .. })),
+                "{rate} {count} {missing}: {found:?}"
+            );
+        }
+    }
+}
+
 /// As Python and pandas write multiples of 1/128 s and 1/300 s: `0.0` says nothing of the digits.
 #[test]
 fn a_short_zero_is_no_coarse_digit() {

@@ -495,7 +495,8 @@ fn what_every_reading_asks_for_decides() {
         .collect();
     readings.sort_by(f64::total_cmp);
     close(&(readings[1] / readings[0]).into(), 2.0, 1e-9);
-    let between = format!("{} mm", 1.2e3 * readings[0]);
+    // Across a property line, where the heavy building keeps its 18 mm, both readings are less apart.
+    let between = format!("{} mm", 1.4e3 * readings[0]);
     let (shown, code) = widths(&between);
     assert!(
         shown.contains("NO ANSWER") && shown.contains("none is chosen"),

@@ -300,7 +300,7 @@ impl Rules {
                 structure: Box::new(structure.clone()),
                 site: Site {
                     relative_ground_displacement: 0.0,
-                    ..situation.site.clone()
+                    ..situation.site
                 },
             };
             self.width(&sides)
@@ -1056,7 +1056,6 @@ mod tests {
                         };
                         let own = |structure: Structure| {
                             let structure = Box::new(structure);
-                            let site = site.clone();
                             rules.width(&Sides::Wall { structure, site })
                         };
                         let (Ok(one), Ok(other)) = (own(of(left)), own(of(right))) else {

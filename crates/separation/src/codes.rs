@@ -320,7 +320,7 @@ impl Rules {
         let total = |of: &dyn Fn(&CodeWidth) -> f64| sides.iter().map(of).sum::<f64>();
         let names = sides.each_ref().map(|side| side.provision.name());
         let required = sides.each_ref().map(|side| &side.requirement);
-        let mut working = Working::of_sides(required);
+        let mut working = Working::of_sides(required, remedy::where_it_does_not_apply);
         let widths = required.map(|r| r.width);
         let width = working.summed(widths[0], widths[1]);
         let caution = required.iter().find_map(|r| r.caution.clone());

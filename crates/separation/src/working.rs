@@ -93,9 +93,9 @@ impl Working {
     }
 
     /// With the numbers of two requirements, one for either side, of which each is named.
-    pub(crate) fn of_sides(sides: [&Requirement; 2]) -> Self {
+    pub(crate) fn of_sides(sides: [&Requirement; 2], remedy: Remedy) -> Self {
         let factors = sides.iter().flat_map(|side| side.factors.iter().cloned());
-        let mut working = Self::new("", crate::remedy::where_it_does_not_apply);
+        let mut working = Self::new("", remedy);
         for factor in factors {
             working.note(factor.name, factor.value, factor.unit);
         }

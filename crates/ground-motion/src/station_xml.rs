@@ -445,7 +445,7 @@ impl StationFile {
         }
         if !epochs.iter().any(|epoch| covers(epoch, name.end)) {
             warnings.push(format!(
-                "{}: line {}: the epoch of {} ends at {}, within the record, and no other follows: its sensitivity is used for all samples",
+                "{}: line {}: the epoch of {} ends at {}, and none covers the last sample: its sensitivity is used for all samples",
                 self.file,
                 line(channel),
                 name.label(),

@@ -185,10 +185,18 @@ const SINGLE: f64 = 2.0e-7;
 /// Round-off of times that were added up, as a part of their sum.
 const SUM: f64 = 1.0e-10;
 
-/// Times of which a line that is open by less than half a step, 0.45, passes by none before a missing row and none
-/// behind it: one missing behind the first `k` rows asks for `n <= k (1 + 0.45) / (1 - 0.45)` rows in all, and for
-/// `(1 - 0.45) (k - 1) <= 0.45 k`, which only five rows and fewer meet. By less than a third, 0.25, of any number.
+/// Part of a step that the digits of a time may leave open: a third would let a row be missing behind the first.
+const OPEN: f64 = 0.25;
+/// The same of many times, for which nothing else is found: a line that is open by less than half a step passes by none
+/// before a missing row and none behind it. One that is missing behind the first `k` rows asks for
+/// `n <= k (1 + 0.45) / (1 - 0.45)` rows in all, and for `(1 - 0.45) (k - 1) <= 0.45 k`, which only five rows and fewer meet.
+const OPEN_OF_MANY: f64 = 0.45;
 const MANY_TIMES: usize = 20;
+/// Largest part of a step that the digits of all of them leave open: rates up to a thousand samples a second are told
+/// from the next whole one.
+const PINNED_OF_MANY: f64 = 0.001;
+/// Part of a step that round-off may be then.
+const ROUND_OFF: f64 = 0.05;
 
 /// Decimals of a step (s) that is rounder than a whole number of samples a second.
 const ROUND_DECIMALS: i32 = 5;
@@ -241,15 +249,14 @@ fn even_step_of(times: &[f64], printed: PrintedDigits, unit: f64, may_be_cut: bo
     };
     let rounded = |time: f64| 0.5 * digit(time) + start;
     let cut = |time: f64| 1.01 * digit(time).max(digit(first));
-    let common = |half_width: &dyn Fn(f64) -> f64| {
+    let common = |half_width: &dyn Fn(f64) -> f64, most_open: f64| {
         let (mut low, mut high) = (0.0_f64, f64::INFINITY);
         for (i, time) in times.iter().enumerate().skip(1) {
             // A missing row must not pass for coarse digits: with fewer than two digits a step
             // times are even as they are printed, or not at all.
             let most = match digit(*time) > 0.51 * mean {
                 true => 0.01,
-                false if times.len() > MANY_TIMES => 0.45,
-                false => 0.25,
+                false => most_open,
             };
             let open = (half_width(*time) + round_off(*time)).min(most * mean);
             low = low.max((time - first - open) / i as f64);
@@ -270,13 +277,22 @@ fn even_step_of(times: &[f64], printed: PrintedDigits, unit: f64, may_be_cut: bo
         }
         (low <= high).then_some((low, high))
     };
-    let found = common(&rounded).or_else(|| may_be_cut.then(|| common(&cut))?);
+    let found = common(&rounded, OPEN).or_else(|| may_be_cut.then(|| common(&cut, OPEN))?);
     let found = found.or_else(|| from_zero().filter(|_| first > 0.0));
     let found = found.or_else(|| in_single(times, digit).filter(|_| is_single));
     let decimals = printed.decimals - libm::log10(unit).round() as i32;
     let Some((low, high)) = found else {
         let is_one = may_be_cut && digit(first) == digit(last);
-        return coarse_step(times, digit(last), decimals).filter(|_| is_one);
+        let coarse = coarse_step(times, digit(last), decimals).filter(|_| is_one);
+        // What single precision leaves open is not to be that much.
+        let wider = || {
+            let is_exact = round_off(last) <= ROUND_OFF * mean && times.len() > MANY_TIMES;
+            let (low, high) = is_exact.then(|| common(&rounded, OPEN_OF_MANY))??;
+            let mut round = round_steps(mean, decimals);
+            let found = round.find(|step| (low..=high).contains(step));
+            (high - low <= PINNED_OF_MANY * mean).then(|| found.unwrap_or(mean.clamp(low, high)))
+        };
+        return coarse.or_else(wider);
     };
     let mean = mean.clamp(low, high);
     let in_common = |step: &f64| *step > 0.0 && (low..=high).contains(step);

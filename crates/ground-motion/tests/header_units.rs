@@ -416,6 +416,7 @@ fn counts_that_cosmos_marks_as_unknown() {
     for changed in [
         &[(25, "-999")][..],
         &[(25, "-999"), (26, "-999"), (27, "-999")],
+        &[(25, "-999"), (27, "-999"), (35, "-999")],
     ] {
         let said = read(15.0, changed, false).unwrap_err();
         assert_eq!(said, format!("f:{}:1: sample 26 {told}", row + 25));

@@ -1,6 +1,7 @@
 //! Codes as a whole: which of their provisions hold on one property and across a property
 //! line, and what they take of many records.
 
+use pounding_catalogue::numbers::rounded_up;
 use pounding_catalogue::{Descriptor, Registry};
 
 use crate::descriptor::{Basis, Place, ProvisionDescriptor};
@@ -272,6 +273,7 @@ impl Rules {
             None | Some(Err(SeparationError::NotApplicable { .. })) => Ok(first),
             Some(least) => {
                 let least = least?;
+                let first = first.no_less_than(&least);
                 let takes_displacements = first.takes_displacements || least.takes_displacements;
                 // The width of a disputed rule is that of its widest reading.
                 let wider = least.requirement.width > first.requirement.width;
@@ -286,8 +288,8 @@ impl Rules {
         }
     }
 
-    /// The sum of the distances of both buildings, where they go by different rules for one building;
-    /// `None` where one rule holds for both, or some rule is for the pair.
+    /// The sum of the distances of both buildings, where they go by different rules for one building, or by different
+    /// ones by some reading of a disputed rule; `None` where one rule holds for both, or some rule is for the pair.
     fn of_unlike_sides(&self, situation: &Situation) -> Result<Option<CodeWidth>, SeparationError> {
         let rules = || self.either.iter().chain(&self.minimum);
         if rules().count() < 2 || !rules().all(|p| p.place() == Place::Boundary) {
@@ -313,37 +315,52 @@ impl Rules {
         }
         let [left, right] = sides;
         let (left, right) = (left?, right?);
-        if left.provision.name() == right.provision.name() {
-            return Ok(None);
-        }
         let sides = [left, right];
-        let total = |of: &dyn Fn(&CodeWidth) -> f64| sides.iter().map(of).sum::<f64>();
-        let names = sides.each_ref().map(|side| side.provision.name());
         let required = sides.each_ref().map(|side| &side.requirement);
-        let mut working = Working::of_sides(required, remedy::where_it_does_not_apply);
         let widths = required.map(|r| r.width);
+        let disputed = required.iter().position(|r| !r.readings.is_empty());
+        // By each reading; a side without has the same width by all.
+        let readings: Vec<ReadingWidth> = match disputed {
+            None => Vec::new(),
+            Some(side) => (0..required[side].readings.len())
+                .map(|k| {
+                    let of = |r: &Requirement| r.readings.get(k).map_or(r.width, |own| own.width);
+                    ReadingWidth {
+                        text: required[side].readings[k].text,
+                        width: of(required[0]) + of(required[1]) + ground,
+                    }
+                })
+                .collect(),
+        };
+        let is_alike = sides[0].provision.name() == sides[1].provision.name();
+        if is_alike {
+            let both = Sides::Between(Box::new(situation.clone())).asks(&sides[0].provision)?;
+            let is_same =
+                |(a, b): (&ReadingWidth, &ReadingWidth)| (a.width - b.width).abs() <= 1.0e-12;
+            if readings.iter().zip(&both.readings).all(is_same) {
+                return Ok(None);
+            }
+        }
+        let total = |of: &dyn Fn(&CodeWidth) -> f64| sides.iter().map(of).sum::<f64>();
+        let mut working = Working::new("", remedy::where_it_does_not_apply);
         let width = working.summed(widths[0], widths[1]);
         let caution = required.iter().find_map(|r| r.caution.clone());
+        let explained = |k: usize, name: &str| {
+            let (rule, told) = (sides[k].provision.name(), &required[k].explanation);
+            format!("{name} by {rule}: {told}")
+        };
         let formula = format!(
-            "{} by {}, and {} by {}, summed over both sides",
-            situation.left.name, names[0], situation.right.name, names[1]
+            "{}; {}; summed over both sides",
+            explained(0, &situation.left.name),
+            explained(1, &situation.right.name)
         );
         let mut requirement = working.finish(&formula, (width, &situation.site), caution)?;
-        // One side at most has readings: those of the other would be of the same rule.
-        let disputed = required.iter().position(|r| !r.readings.is_empty());
-        if let Some(side) = disputed {
-            let beside = widths[1 - side] + ground;
-            let readings = required[side].readings.iter();
-            requirement.readings = readings
-                .map(|reading| ReadingWidth {
-                    text: reading.text,
-                    width: reading.width + beside,
-                })
-                .collect();
-        }
+        let factors = required.iter().flat_map(|r| r.factors.iter().cloned());
+        requirement.factors = factors.chain(requirement.factors).collect();
+        requirement.readings = readings;
         let least = total(&|side| side.without_displacements.as_ref().map_or(0.0, |w| w.width));
         let takes = sides.each_ref().map(|side| side.takes_displacements);
-        // Named is the rule that the verdict hangs on: a disputed one, one that takes displacements, the wider.
+        // Named is the rule that the verdict depends on: a disputed one, one that takes displacements, the wider.
         let wider = usize::from(widths[1] > widths[0]);
         let named = disputed.unwrap_or(match takes {
             [true, false] => 0,
@@ -355,11 +372,30 @@ impl Rules {
         let of_least = of_least.max_by(|a, b| a.width.total_cmp(&b.width));
         Ok(Some(CodeWidth {
             provision: sides[named].provision.clone(),
-            beside: Some(sides[1 - named].provision.clone()),
+            beside: (!is_alike).then(|| sides[1 - named].provision.clone()),
             takes_displacements: takes.contains(&true),
             without_displacements: of_least.map(|of| LeastWidth { width: least, ..of }),
             requirement,
         }))
+    }
+}
+
+impl CodeWidth {
+    /// The same with readings that all ask for what a minimum does.
+    fn no_less_than(mut self, least: &Self) -> Self {
+        let width = least.requirement.width;
+        let readings = &mut self.requirement.readings;
+        if readings.iter().any(|reading| reading.width < width) {
+            for reading in readings {
+                reading.width = reading.width.max(width);
+            }
+            self.requirement.explanation.push_str(&format!(
+                "; no less than {} mm by {}",
+                rounded_up(width * 1e3, 1),
+                least.provision.name()
+            ));
+        }
+        self
     }
 }
 
@@ -1025,6 +1061,25 @@ mod tests {
         }
         assert_eq!(readings.len(), 2);
         assert!(found.requirement.undecided().is_some());
+        // By the narrow reading of 40 mm, 13.3 mm, the right one keeps its 18 mm; by the wide one 26.7 mm.
+        let Sides::Between(mut sides) = between(true) else {
+            unreachable!()
+        };
+        (sides.left.importance, sides.right.importance) = (Some(1.0), Some(1.0));
+        sides.right.displacement = Some(0.04);
+        sides.site.relative_ground_displacement = 0.005;
+        let found = rules.width(&Sides::Between(sides)).unwrap();
+        let readings: Vec<f64> = found.requirement.readings.iter().map(|r| r.width).collect();
+        for (found, own) in readings.iter().zip([0.08 / 3.0 + 0.018, 0.24 / 3.0]) {
+            assert!((found - own - 0.005).abs() < 1e-12, "{readings:?}");
+        }
+        assert!((found.requirement.width - 0.085).abs() < 1e-12);
+        assert!(found.beside.is_none());
+        let told = &found.requirement.explanation;
+        assert!(
+            told.contains("no less than 18.0 mm by nch_433_boundary_minimum"),
+            "{told}"
+        );
     }
 
     /// Where all rules of a code are for one building, the distances of both make the width, as either keeps

@@ -92,16 +92,6 @@ impl Working {
         }
     }
 
-    /// With the numbers of two requirements, one for either side, of which each is named.
-    pub(crate) fn of_sides(sides: [&Requirement; 2], remedy: Remedy) -> Self {
-        let factors = sides.iter().flat_map(|side| side.factors.iter().cloned());
-        let mut working = Self::new("", remedy);
-        for factor in factors {
-            working.note(factor.name, factor.value, factor.unit);
-        }
-        working
-    }
-
     /// The requirement with its explanation: the width by the code, and what the ground on
     /// both sides of the gap adds to it. A negative zero is zero.
     pub(crate) fn finish(

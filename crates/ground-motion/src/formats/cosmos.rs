@@ -108,22 +108,31 @@ fn without_unknown(
     ))
 }
 
-/// Whether a count, with those equal to it beside it, lies farther from both neighbours than any step of the record
-/// around it, many times.
+/// Whether a count lies farther from both neighbours than any step of the record around it, several times; those equal
+/// to it are none of the record either.
 fn is_apart(counts: &[f64], at: usize) -> bool {
     let value = counts[at];
-    let equal = |c: &&f64| **c == value;
-    let first = at - counts[..at].iter().rev().take_while(equal).count();
-    let end = at + counts[at..].iter().take_while(equal).count();
-    let before = &counts[first.saturating_sub(AROUND)..first];
-    let behind = &counts[end..counts.len().min(end + AROUND)];
-    let steps = [before, behind]
+    let other = |c: &&f64| **c != value;
+    let before: Vec<f64> = counts[..at]
+        .iter()
+        .rev()
+        .filter(other)
+        .take(AROUND)
+        .copied()
+        .collect();
+    let behind: Vec<f64> = counts[at..]
+        .iter()
+        .filter(other)
+        .take(AROUND)
+        .copied()
+        .collect();
+    let steps = [&before, &behind]
         .into_iter()
         .flat_map(|side| side.windows(2));
     let largest = steps.map(|w| (w[1] - w[0]).abs()).fold(0.0, f64::max);
-    let neighbours = [before.last(), behind.first()];
+    let neighbours = [before.first(), behind.first()];
     let mut jumps = neighbours.into_iter().flatten().map(|c| (c - value).abs());
-    (before.len() + behind.len() >= AROUND)
+    before.len() + behind.len() >= AROUND
         && jumps.all(|jump| jump > APART * largest.max(STEP_AT_REST))
 }
 

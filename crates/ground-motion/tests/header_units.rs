@@ -436,6 +436,12 @@ fn counts_that_cosmos_marks_as_unknown() {
     assert!(read(8.0, &along, false).is_ok());
     let around = [(24, "400000"), (25, "-999"), (26, "-300000")];
     assert!(read(15.0, &around, false).is_ok());
+    // A million of them are looked at once.
+    let counts = "    -999\n".repeat(1_000_000);
+    let header_of_many = header.replace(".115000", "5000.000000");
+    let many = format!("{header_of_many} 1000000 raw{announcement}\n{counts}End-of-data\n");
+    let found = read_all_bytes("f", many.as_bytes(), &fixture.options).unwrap();
+    assert_eq!(found.series[0].samples.len(), 1_000_000);
     for (value, column) in [("-999.00", 2), ("-16088.", 2), ("-1.6E+5", 2)] {
         let said = read(15.0, &[(25, value)], false).unwrap_err();
         let told = format!(

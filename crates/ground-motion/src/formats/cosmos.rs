@@ -88,7 +88,9 @@ fn without_unknown(
     let count = draft.header_count.unwrap_or(usize::MAX);
     let used = &draft.samples[..draft.samples.len().min(count)];
     let is_stated = matches!(draft.unit, DraftUnit::Stated(_));
-    let mut marked = (0..used.len()).filter(|at| used[*at] == value);
+    // Of those that follow one another the first, as a record may be full of them.
+    let is_first = |at: &usize| used[*at] == value && (*at == 0 || used[*at - 1] != value);
+    let mut marked = (0..used.len()).filter(is_first);
     let Some(at) = marked.find(|at| is_stated || is_apart(used, *at)) else {
         return Ok(());
     };

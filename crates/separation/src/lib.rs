@@ -14,6 +14,7 @@
 
 mod application;
 mod assumptions;
+mod code_width;
 mod codes;
 mod combination;
 mod country;
@@ -25,6 +26,7 @@ mod effective_properties;
 mod error;
 mod inputs;
 mod own;
+mod ownership;
 mod provision;
 mod provisions;
 mod registry;
@@ -36,9 +38,8 @@ mod worked_example;
 mod working;
 
 pub use assumptions::{Assumptions, Ground, HeightDatum};
-pub use codes::{
-    Cases, Code, CodeDescriptor, CodeWidth, LeastWidth, Ownership, Rules, Sides, codes, find_code,
-};
+pub use code_width::{CodeWidth, LeastWidth, Rules, Sides};
+pub use codes::{Cases, Code, CodeDescriptor, codes, find_code};
 pub use combination::{CombinationRule, Oscillator, correlation_coefficient};
 pub use descriptor::{Basis, Place, ProvisionDescriptor, Unavailable};
 pub use edition::{Date, Edition, InForce, Validity};
@@ -47,6 +48,7 @@ pub use effective_properties::{EffectiveProperties, YieldingOscillator};
 pub use error::SeparationError;
 pub use inputs::{Input, Site, Situation, SoilZone, StructuralSystem, Structure};
 pub use own::{OwnRule, RuleName, arithmetic, rule_names};
+pub use ownership::Ownership;
 pub use provision::Provision;
 pub use registry::{descriptors, find, unavailable};
 pub use status::{Reading, Status};

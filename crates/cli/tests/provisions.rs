@@ -395,6 +395,72 @@ fn a_code_says_what_is_to_be_known_of_its_rule() {
     }
 }
 
+/// Across a property line each building goes by its own rule: table, `--json` and page name both.
+#[test]
+fn both_rules_of_a_property_line_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let case = std::fs::read_to_string(root().join("examples/three_storey_pair/case.toml"))
+        .unwrap()
+        .replace(
+            "name = \"heavy\"\nstoreys = 3",
+            "name = \"heavy\"\nstoreys = 9",
+        )
+        .replace("../..", root().to_str().unwrap())
+        .replace("31 s", "5 s");
+    let file = folder.path().join("case.toml");
+    std::fs::write(&file, case).unwrap();
+    let file = file.to_str().unwrap();
+    let page = folder.path().join("page.html");
+    let arguments = [
+        "gap",
+        file,
+        "--points",
+        "0",
+        "--set",
+        "importance=1.0",
+        "--code",
+        "iran_2800",
+    ];
+    let shown = plain(&text(&pounding(&arguments).stdout));
+    let rules = [
+        "iran_2800_boundary_by_height",
+        "iran_2800_boundary_by_analysis",
+    ];
+    for rule in rules {
+        assert!(shown.contains(&format!("by: {rule}")), "{shown}");
+    }
+    let more = ["--json", "--report", page.to_str().unwrap()];
+    let output = pounding(&[&arguments[..], &more].concat());
+    let answer = json(&output);
+    let cases = answer["gaps"][0]["code"]["cases"].as_array().unwrap();
+    let across = |c: &&Value| c["ownership"] == "different properties";
+    let across = cases.iter().find(across).unwrap();
+    let level = &across["levels"][2];
+    let mut found =
+        ["provision", "other_provision"].map(|key| level[key]["name"].as_str().unwrap());
+    found.sort_unstable();
+    assert_eq!(
+        found,
+        [
+            "iran_2800_boundary_by_analysis",
+            "iran_2800_boundary_by_height"
+        ]
+    );
+    let remarks: Vec<_> = across["remarks"].as_array().unwrap().iter().collect();
+    let has = |part: &str| remarks.iter().any(|r| r.as_str().unwrap().contains(part));
+    assert!(
+        has("this width holds for others only") && has("Above 8 storeys"),
+        "{remarks:?}"
+    );
+    let page = std::fs::read_to_string(page).unwrap();
+    for rule in rules {
+        assert!(
+            page.contains(&format!("what {rule} takes for granted")),
+            "{rule}"
+        );
+    }
+}
+
 /// Where a code has no rule for a gap the answer says what there is beside it.
 #[test]
 fn a_code_without_a_rule_for_the_gap_says_what_else_there_is() {

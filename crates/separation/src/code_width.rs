@@ -38,6 +38,13 @@ pub struct CodeWidth {
     pub without_displacements: Option<LeastWidth>,
 }
 
+impl CodeWidth {
+    /// The provisions that give it: one, or that of either building.
+    pub fn provisions(&self) -> impl Iterator<Item = &Provision> {
+        std::iter::once(&self.provision).chain(&self.beside)
+    }
+}
+
 /// What a code asks for at least, as one of its provisions does without displacements.
 #[derive(Debug, Clone)]
 pub struct LeastWidth {

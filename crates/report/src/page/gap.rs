@@ -71,139 +71,24 @@ pub fn gap(answer: &Value, drawn: &[Picture], inputs: &Inputs) -> String {
     inputs.page(&body)
 }
 
+/// The answer in words.
+fn judged(adequate: bool) -> &'static str {
+    match adequate {
+        true => "is wide enough",
+        false => "is too small",
+    }
+}
+
 /// What is answered for a gap: the answer, why, and what would be wide enough.
 fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
     let at = |path: &str| format!("/gaps/{g}/{path}");
     let name = answer.quote(&at("name"));
-    let adequate = answer.at(&at("adequate")).as_bool() == Some(true);
-    let word = |adequate| {
-        if adequate {
-            "is wide enough"
-        } else {
-            "is too small"
-        }
-    };
     let mut points = Vec::new();
-    let code = at("code");
-    if answer.at(&code).is_object() {
-        // Its own answer: what the records say without it stands below.
-        let satisfied = answer.at(&at("code/satisfied")).as_bool();
-        let edition = answer.quote(&at("code/edition"));
-        let said = match satisfied {
-            Some(yes) => format!("By {edition} gap {name} {}.", word(yes)),
-            None => format!("{edition} gives no answer for gap {name}."),
-        };
-        points.push(format!(
-            "<strong>{said}</strong> Demand of the suite by its rule ({}): {} mm.",
-            answer.quote(&at("code/statistic")),
-            answer.say(&at("code/demand"), 1.0e3),
-        ));
-        points.push(statistic(answer, &at("code")));
-        for c in 0..answer.list(&at("code/cases")).len() {
-            let case = format!("{code}/cases/{c}");
-            let ownership = match answer.text(&format!("{case}/ownership")) {
-                "" => String::new(),
-                ownership => format!("{}: ", named(ownership)),
-            };
-            let refusal = answer.quote(&format!("{case}/refusal"));
-            if !refusal.is_empty() {
-                points.push(format!("{ownership}{refusal}."));
-                continue;
-            }
-            let governing = answer.at(&format!("{case}/governing_level")).as_u64();
-            let level = governing.map_or(0, |level| level.saturating_sub(1));
-            let of_level = format!("{case}/levels/{level}");
-            let rule = format!("{of_level}/provision");
-            let place = answer.quote(&at(&format!("levels/{level}/level")));
-            let name = answer.quote(&format!("{rule}/name"));
-            let clause = match answer.text(&format!("{rule}/clause")) {
-                "" => String::new(),
-                clause => format!(", clause {}", named(clause)),
-            };
-            let provided = answer.say(&format!("{case}/provided"), 1.0e3);
-            let readings = answer.list(&format!("{of_level}/readings")).len();
-            let required = if readings == 0 {
-                let required = answer.say(&format!("{case}/required"), 1.0e3);
-                format!("{required} mm are required and {provided} mm are provided")
-            } else {
-                let reading = |r: usize| {
-                    let of = format!("{of_level}/readings/{r}");
-                    format!(
-                        "{} mm by {}",
-                        answer.say(&format!("{of}/width"), 1.0e3),
-                        answer.quote(&format!("{of}/text"))
-                    )
-                };
-                let all: Vec<_> = (0..readings).map(reading).collect();
-                let chosen = match answer.at(&format!("{of_level}/satisfied")).as_bool() {
-                    Some(_) => "",
-                    None => ", and none is chosen",
-                };
-                format!(
-                    "the texts differ{chosen}: {}; {provided} mm are provided",
-                    all.join(", ")
-                )
-            };
-            let short = format!("{case}/short_anyway");
-            if answer.at(&short).is_object() {
-                let level = answer.at(&format!("{short}/level")).as_u64();
-                let level = level.map_or(0, |level| level.saturating_sub(1));
-                points.push(format!(
-                    "{ownership}<strong>too small under any records</strong>: {} asks for {} mm at level {}, whatever the displacements are.",
-                    answer.quote(&format!("{short}/provision")),
-                    answer.say(&format!("{short}/required"), 1.0e3),
-                    answer.quote(&at(&format!("levels/{level}/level"))),
-                ));
-            }
-            points.push(format!(
-                "{ownership}{required}, at level {place} ({name}{clause}, <strong>{}</strong>: {}).",
-                answer.quote(&format!("{rule}/status")),
-                answer.quote(&format!("{rule}/source")),
-            ));
-            points.push(format!(
-                "{ownership}what the rule takes for granted &ndash; {}.",
-                taken(answer, &format!("{rule}/assumptions"))
-            ));
-            let remarks = 0..answer.list(&format!("{case}/remarks")).len();
-            let remarks: Vec<String> = remarks
-                .map(|r| answer.quote(&format!("{case}/remarks/{r}")))
-                .collect();
-            if !remarks.is_empty() {
-                points.push(format!(
-                    "{ownership}to know &ndash; {}.",
-                    remarks.join(" ").trim_end_matches('.')
-                ));
-            }
-        }
-        let in_force = answer.quote(&at("code/in_force"));
-        if !in_force.is_empty() {
-            let chosen = match answer.text("/date") {
-                "" => String::new(),
-                date => format!(" It is the edition in force on {}.", named(date)),
-            };
-            let next = match answer.text(&at("code/superseded_by")) {
-                "" => String::new(),
-                next => format!(" Superseded by {}.", named(next)),
-            };
-            points.push(format!("The edition is in force {in_force}.{chosen}{next}"));
-        }
-        let stated = answer.quote(&at("code/ownership"));
-        if !stated.is_empty() {
-            points.push(format!(
-                "The case states who owns the ground: {stated} decides."
-            ));
-        }
-        let satisfied = answer.at(&at("code/satisfied")).as_bool();
-        let contacts = answer.at(&at("records_in_contact")).as_u64();
-        if satisfied == Some(true) && contacts.is_some_and(|count| count > 0) {
-            points.push(
-                "<strong>The code accepts a width that records close.</strong> What pounding does there is said \
-                 below."
-                    .to_owned(),
-            );
-        }
+    if answer.at(&at("code")).is_object() {
+        points.extend(by_code(answer, g));
     } else {
-        points.push(format!("<strong>Gap {name} {}.</strong>", word(adequate)));
+        let adequate = answer.at(&at("adequate")).as_bool() == Some(true);
+        points.push(format!("<strong>Gap {name} {}.</strong>", judged(adequate)));
     }
     for c in 0..answer.list(&at("columns")).len() {
         let column = |key: &str| at(&format!("columns/{c}/{key}"));
@@ -336,6 +221,150 @@ fn verdict(answer: Answer<'_>, g: usize) -> Vec<String> {
         ));
     }
     points.push(required);
+    points
+}
+
+/// What a code says of a gap.
+fn by_code(answer: Answer<'_>, g: usize) -> Vec<String> {
+    let at = |path: &str| format!("/gaps/{g}/{path}");
+    let name = answer.quote(&at("name"));
+    let mut points = Vec::new();
+    // Its own answer: what the records say without it stands below.
+    let satisfied = answer.at(&at("code/satisfied")).as_bool();
+    let edition = answer.quote(&at("code/edition"));
+    let said = match satisfied {
+        Some(yes) => format!("By {edition} gap {name} {}.", judged(yes)),
+        None => format!("{edition} gives no answer for gap {name}."),
+    };
+    points.push(format!(
+        "<strong>{said}</strong> Demand of the suite by its rule ({}): {} mm.",
+        answer.quote(&at("code/statistic")),
+        answer.say(&at("code/demand"), 1.0e3),
+    ));
+    points.push(statistic(answer, &at("code")));
+    for c in 0..answer.list(&at("code/cases")).len() {
+        points.extend(by_ownership(answer, g, &at(&format!("code/cases/{c}"))));
+    }
+    let in_force = answer.quote(&at("code/in_force"));
+    if !in_force.is_empty() {
+        let chosen = match answer.text("/date") {
+            "" => String::new(),
+            date => format!(" It is the edition in force on {}.", named(date)),
+        };
+        let next = match answer.text(&at("code/superseded_by")) {
+            "" => String::new(),
+            next => format!(" Superseded by {}.", named(next)),
+        };
+        points.push(format!("The edition is in force {in_force}.{chosen}{next}"));
+    }
+    let stated = answer.quote(&at("code/ownership"));
+    if !stated.is_empty() {
+        points.push(format!(
+            "The case states who owns the ground: {stated} decides."
+        ));
+    }
+    let satisfied = answer.at(&at("code/satisfied")).as_bool();
+    let contacts = answer.at(&at("records_in_contact")).as_u64();
+    if satisfied == Some(true) && contacts.is_some_and(|count| count > 0) {
+        points.push(
+            "<strong>The code accepts a width that records close.</strong> What pounding does there is said \
+             below."
+                .to_owned(),
+        );
+    }
+    points
+}
+
+/// What a code says of a gap for one kind of ownership of the ground.
+fn by_ownership(answer: Answer<'_>, g: usize, case: &str) -> Vec<String> {
+    let mut points = Vec::new();
+    let ownership = match answer.text(&format!("{case}/ownership")) {
+        "" => String::new(),
+        ownership => format!("{}: ", named(ownership)),
+    };
+    let refusal = answer.quote(&format!("{case}/refusal"));
+    if !refusal.is_empty() {
+        return vec![format!("{ownership}{refusal}.")];
+    }
+    let governing = answer.at(&format!("{case}/governing_level")).as_u64();
+    let level = governing.map_or(0, |level| level.saturating_sub(1));
+    let of_level = format!("{case}/levels/{level}");
+    // Across a property line either building may go by a rule of its own.
+    let rules: Vec<String> = ["provision", "other_provision"]
+        .map(|key| format!("{of_level}/{key}"))
+        .into_iter()
+        .filter(|rule| answer.at(rule).is_object())
+        .collect();
+    let place = answer.quote(&format!("/gaps/{g}/levels/{level}/level"));
+    let by = rules.iter().map(|rule| {
+        let clause = match answer.text(&format!("{rule}/clause")) {
+            "" => String::new(),
+            clause => format!(", clause {}", named(clause)),
+        };
+        format!(
+            "{}{clause}, <strong>{}</strong>: {}",
+            answer.quote(&format!("{rule}/name")),
+            answer.quote(&format!("{rule}/status")),
+            answer.quote(&format!("{rule}/source")),
+        )
+    });
+    let by = by.collect::<Vec<_>>().join("; and ");
+    let provided = answer.say(&format!("{case}/provided"), 1.0e3);
+    let readings = answer.list(&format!("{of_level}/readings")).len();
+    let required = if readings == 0 {
+        let required = answer.say(&format!("{case}/required"), 1.0e3);
+        format!("{required} mm are required and {provided} mm are provided")
+    } else {
+        let reading = |r: usize| {
+            let of = format!("{of_level}/readings/{r}");
+            format!(
+                "{} mm by {}",
+                answer.say(&format!("{of}/width"), 1.0e3),
+                answer.quote(&format!("{of}/text"))
+            )
+        };
+        let all: Vec<_> = (0..readings).map(reading).collect();
+        let chosen = match answer.at(&format!("{of_level}/satisfied")).as_bool() {
+            Some(_) => "",
+            None => ", and none is chosen",
+        };
+        format!(
+            "the texts differ{chosen}: {}; {provided} mm are provided",
+            all.join(", ")
+        )
+    };
+    let short = format!("{case}/short_anyway");
+    if answer.at(&short).is_object() {
+        let level = answer.at(&format!("{short}/level")).as_u64();
+        let level = level.map_or(0, |level| level.saturating_sub(1));
+        points.push(format!(
+            "{ownership}<strong>too small under any records</strong>: {} asks for {} mm at level {}, whatever the displacements are.",
+            answer.quote(&format!("{short}/provision")),
+            answer.say(&format!("{short}/required"), 1.0e3),
+            answer.quote(&format!("/gaps/{g}/levels/{level}/level")),
+        ));
+    }
+    points.push(format!("{ownership}{required}, at level {place} ({by})."));
+    for rule in &rules {
+        let which = match rules.len() {
+            1 => "the rule".to_owned(),
+            _ => answer.quote(&format!("{rule}/name")),
+        };
+        points.push(format!(
+            "{ownership}what {which} takes for granted &ndash; {}.",
+            taken(answer, &format!("{rule}/assumptions"))
+        ));
+    }
+    let remarks = 0..answer.list(&format!("{case}/remarks")).len();
+    let remarks: Vec<String> = remarks
+        .map(|r| answer.quote(&format!("{case}/remarks/{r}")))
+        .collect();
+    if !remarks.is_empty() {
+        points.push(format!(
+            "{ownership}to know &ndash; {}.",
+            remarks.join(" ").trim_end_matches('.')
+        ));
+    }
     points
 }
 

@@ -393,6 +393,8 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
             Some(false) => "too small",
             None => "no answer",
         };
+        let mut statuses: Vec<_> = width.provisions().map(|p| p.status().name()).collect();
+        statuses.dedup();
         table.add_row([
             ownership,
             gap.levels[level].place.label(),
@@ -401,11 +403,12 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
             widths(governing),
             in_millimetres(*provided),
             reached.to_owned(),
-            match &width.beside {
-                Some(other) => format!("{} and {}", width.provision.name(), other.name()),
-                None => width.provision.name().to_owned(),
-            },
-            width.provision.status().name().to_owned(),
+            width
+                .provisions()
+                .map(|p| p.name())
+                .collect::<Vec<_>>()
+                .join(" and "),
+            statuses.join(" and "),
         ]);
     }
     format!("{table}\n")
@@ -446,9 +449,8 @@ fn explained(case: &OwnershipAnswer) -> String {
     };
     let mut text = format!("  {ownership}{clause}{}\n", requirement.explanation);
     let mut add = |what: &str, said: &str| text.push_str(&format!("    {what}: {said}\n"));
-    let beside = governing.width.beside.iter();
-    for rule in std::iter::once(provision).chain(beside.clone()) {
-        if beside.len() > 0 {
+    for rule in governing.width.provisions() {
+        if governing.width.beside.is_some() {
             add("by", rule.name());
         }
         add(rule.status().name(), &rule.source());

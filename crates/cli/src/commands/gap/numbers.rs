@@ -436,8 +436,8 @@ struct CodeCase<'c> {
     required: Option<f64>,
     provided: Option<f64>,
     refusal: Option<String>,
-    /// What else is to be known of the provision that governs.
-    remarks: &'static [&'static str],
+    /// What else is to be known of the provisions that govern.
+    remarks: Vec<&'static str>,
     /// What makes the gap too small under any records, where the widths that take them are no answer.
     #[serde(skip_serializing_if = "Option::is_none")]
     short_anyway: Option<ShortAnyway<'c>>,
@@ -458,6 +458,9 @@ struct ShortAnyway<'c> {
 enum CodeLevel<'c> {
     Required {
         provision: Box<Descriptor>,
+        /// Across a property line that of the other building, where it goes by another one.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        other_provision: Option<Box<Descriptor>>,
         displacement: [Option<f64>; 2],
         /// `null` for a disputed provision, whose readings stand beside it.
         required: Option<f64>,
@@ -502,6 +505,11 @@ impl<'c> CodeCase<'c> {
         let level = |level: &'c Result<gap_check::LevelAnswer, _>| match level {
             Ok(answer) => CodeLevel::Required {
                 provision: Box::new(Descriptor::of(&answer.width.provision)),
+                other_provision: answer
+                    .width
+                    .beside
+                    .as_ref()
+                    .map(|p| Box::new(Descriptor::of(p))),
                 displacement: answer.displacement,
                 required: decided(&answer.width.requirement),
                 readings: Reading::of_all(&answer.width.requirement),
@@ -521,7 +529,13 @@ impl<'c> CodeCase<'c> {
             required: governing.and_then(|(_, l)| decided(&l.width.requirement)),
             provided: governing.map(|(_, l)| l.provided),
             refusal: case.refusal().map(ToString::to_string),
-            remarks: governing.map_or(&[], |(_, l)| l.width.provision.remarks()),
+            remarks: governing.map_or(Vec::new(), |(_, l)| {
+                l.width
+                    .provisions()
+                    .flat_map(|p| p.remarks())
+                    .copied()
+                    .collect()
+            }),
             short_anyway: case.falls_short_anyway().map(|(level, least)| ShortAnyway {
                 level: level + 1,
                 provision: least.provision.name(),

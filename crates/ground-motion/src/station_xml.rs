@@ -9,7 +9,7 @@ use sha2::{Digest, Sha256};
 
 use crate::direction::Orientation;
 use crate::error::GroundMotionError;
-use crate::quantity::SeriesUnit;
+use crate::quantity::{Quantity, SeriesUnit};
 use crate::start_times::days_after_1900;
 
 /// Elements of StationXML nest some ten deep; the parser calls itself for each.
@@ -406,7 +406,12 @@ impl StationFile {
                 self.refused(at, message, remedy)
             })?;
         let input = unit_name(&whole, "InputUnits").unwrap_or_default();
-        let output = unit_name(&whole, "OutputUnits").unwrap_or_default();
+        let stated = unit_name(&whole, "OutputUnits").unwrap_or_default();
+        // Some networks write "None" there; what the last stage gives is what the chain gives.
+        let of_stages = Some(())
+            .filter(|()| stated.is_empty() || stated.eq_ignore_ascii_case("none"))
+            .and_then(|()| output_of_stages(channel));
+        let output = of_stages.as_ref().unwrap_or(&stated);
         let unit = SeriesUnit::parse(&input).ok_or_else(|| {
             let message = format!(
                 "channel {} records \"{input}\", which is no acceleration, velocity or displacement",
@@ -424,6 +429,22 @@ impl StationFile {
         }
         let frequency = number(&whole, "Frequency").filter(|f| f.is_finite() && *f >= 0.0);
         let mut warnings = self.doubts(channel, name, value, frequency);
+        if let Some(output) = &of_stages {
+            warnings.push(format!(
+                "{}: line {at}: the sensitivity of {} names no unit of its output: {output} of the last stage are taken",
+                self.file,
+                name.label()
+            ));
+        }
+        if unit.quantity != Quantity::Acceleration && is_of_accelerograph(&name.channel) {
+            warnings.push(format!(
+                "{}: line {at}: channel {} is that of an accelerograph by its code, but its sensitivity is one to {} (\"{input}\"){}: is that right?",
+                self.file,
+                name.label(),
+                unit.quantity.name(),
+                frequency.map_or(String::new(), |f| format!(", which for an accelerograph holds at {f} Hz alone"))
+            ));
+        }
         // The epoch of the first sample counts.
         let changes = epochs
             .iter()
@@ -615,6 +636,20 @@ fn number(node: &Node<'_, '_>, tag: &str) -> Option<f64> {
 fn unit_name(sensitivity: &Node<'_, '_>, element: &str) -> Option<String> {
     let units = child(sensitivity, element)?;
     child(&units, "Name")?.text().map(|t| t.trim().to_owned())
+}
+
+/// The unit of what the last stage of a channel gives.
+fn output_of_stages(channel: &Node<'_, '_>) -> Option<String> {
+    let response = child(channel, "Response")?;
+    let is_stage = |n: &Node<'_, '_>| n.tag_name().name() == "Stage";
+    let last = response.children().filter(is_stage).last()?;
+    let names = last.children().filter_map(|n| unit_name(&n, "OutputUnits"));
+    names.last()
+}
+
+/// Whether a channel is one of an accelerograph by the second letter of its code (SEED manual, appendix A).
+fn is_of_accelerograph(channel: &str) -> bool {
+    channel.as_bytes().get(1).is_some_and(|b| *b == b'N')
 }
 
 /// Whether two epochs say the same of samples: sensitivity and direction.

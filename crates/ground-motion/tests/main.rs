@@ -61,5 +61,6 @@ mod time_steps_and_scales;
 mod touching_numbers;
 mod two_units;
 mod undeclared_headers;
+mod wide_numbers;
 mod words_of_headers;
 mod writers;

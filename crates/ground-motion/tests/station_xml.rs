@@ -908,3 +908,52 @@ fn channels_of_low_gain() {
         );
     }
 }
+
+/// Networks write "None" for the unit of the whole sensitivity, where the last stage gives counts (NP of 2017); without that
+/// it stays refused.
+#[test]
+fn an_output_of_no_unit_is_that_of_the_last_stage() {
+    let stage = |unit: &str| {
+        format!(
+            "<Stage number=\"1\"><PolesZeros><InputUnits><Name>m/s**2</Name></InputUnits><OutputUnits><Name>V</Name></OutputUnits></PolesZeros></Stage><Stage number=\"2\"><Coefficients><InputUnits><Name>V</Name></InputUnits><OutputUnits><Name>{unit}</Name></OutputUnits></Coefficients></Stage>"
+        )
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    for output in ["None", ""] {
+        let (counts, volts) = (stage("count"), stage("V"));
+        let of = |more| Epoch {
+            output,
+            more: ("<SampleRate>100</SampleRate>", more),
+            ..HNE
+        };
+        write(folder.path(), "station.xml", station(&[of(&counts)]));
+        let found = read_all(&record, &ReadOptions::default()).unwrap();
+        let series = &found.series[0];
+        for (a, count) in series.samples.iter().zip(COUNTS) {
+            assert_eq!(*a, f64::from(count) * (1.0 / 2.5e5));
+        }
+        let told = "names no unit of its output: count of the last stage are taken";
+        assert!(series.origin.warnings.iter().any(|w| w.contains(told)));
+        for stages in ["", &volts] {
+            assert!(refused(station(&[of(stages)])).contains("not counts"));
+        }
+    }
+}
+
+/// An accelerograph whose metadata say displacement (UU of 2020) is asked about: a sensitivity to that holds at one frequency.
+#[test]
+fn an_accelerograph_that_records_no_acceleration_is_asked_about() {
+    let folder = tempfile::tempdir().unwrap();
+    let record = write(folder.path(), "record.mseed", seed(b"HNE"));
+    write(
+        folder.path(),
+        "station.xml",
+        station(&[Epoch { input: "m", ..HNE }]),
+    );
+    let found = read_all(&record, &ReadOptions::default()).unwrap();
+    assert_eq!(found.series[0].quantity, Quantity::Displacement);
+    let told = "is that of an accelerograph by its code, but its sensitivity is one to displacement (\"m\"), which for an accelerograph holds at 1 Hz alone";
+    let warnings = &found.series[0].origin.warnings;
+    assert!(warnings.iter().any(|w| w.contains(told)), "{warnings:?}");
+}

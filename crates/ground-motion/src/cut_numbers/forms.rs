@@ -162,6 +162,8 @@ pub(crate) struct Forms {
     long_wholes: Odd,
     /// The decimals that the layout gives to numbers without a point.
     implied_decimals: i32,
+    /// Columns that the layout has for a number; none where it is no layout.
+    columns: Option<usize>,
     /// Smallest value whose exponent has up to two digits.
     least: Option<f64>,
     list: ListDirected,
@@ -265,6 +267,8 @@ impl WholeParts {
 #[derive(Debug, Default)]
 struct Wholes {
     count: usize,
+    /// Characters of the shortest one.
+    shortest: Option<usize>,
     before: Option<(f64, bool)>,
     /// Sizes of the two largest.
     largest: [f64; 2],
@@ -274,9 +278,10 @@ struct Wholes {
 }
 
 impl Wholes {
-    fn see(&mut self, value: f64, is_whole: bool) {
+    fn see(&mut self, value: f64, is_whole: bool, width: usize) {
         self.count += usize::from(is_whole);
         if is_whole {
+            self.shortest = Some(self.shortest.map_or(width, |least| least.min(width)));
             let [first, second] = self.largest;
             let size = value.abs();
             self.largest = [first.max(size), second.max(size.min(first))];
@@ -412,6 +417,7 @@ impl Forms {
         Self {
             is_always: layout.exponents,
             implied_decimals: layout.implied_decimals(),
+            columns: Some(layout.width),
             ..Self::default()
         }
     }
@@ -424,7 +430,7 @@ impl Forms {
         };
         let parts = Parts::of(field);
         let is_whole = parts.exponent.is_none() && parts.decimals.is_none() && value != 0.0;
-        self.wholes.see(value, is_whole);
+        self.wholes.see(value, is_whole, field.len());
         if value == 0.0 {
             return;
         }
@@ -623,6 +629,10 @@ impl Forms {
             let are_some = wholes.count <= SOME_LOST.min(pointed / SOME_OF);
             return (is_other && are_some).then_some((&wholes.largest, usual));
         }
+        if usual == 1 && self.has_no_room() {
+            let is_far = self.wholes.far > FAR * self.wholes.usual;
+            return is_far.then_some((&wholes.largest, usual));
+        }
         let has_zeros = keeps_zeros(most);
         let is_fixed = has_zeros && self.has_constant_decimals() && are_few(wholes.count, pointed);
         if is_fixed && (pointed > MANY_DECIMALS || !self.wholes.follow()) {
@@ -642,6 +652,13 @@ impl Forms {
         let is_of_size = at.digits < most_digits || is_alone && size > OF_ANOTHER_SIZE * largest;
         (is_far && is_of_size && self.may_have_had_point(at, has_zeros, largest))
             .then_some((at, usual))
+    }
+
+    /// Whether no whole number has room for its point and a decimal with a blank before it: GeoNet prints `-11026` in eight
+    /// columns among numbers such as `-9865.4`.
+    fn has_no_room(&self) -> bool {
+        let shortest = self.wholes.shortest.zip(self.columns);
+        shortest.is_some_and(|(shortest, columns)| 1 + shortest + 2 > columns)
     }
 
     /// Whether a whole number may be one of the others without its point, by its digits: with the point behind the

@@ -138,9 +138,9 @@ struct Width<'a> {
 #[derive(Serialize)]
 struct Minimum {
     width: Option<f64>,
-    mean_annual_frequency: f64,
+    mean_annual_frequency: Option<f64>,
     /// Whether that is an estimate, an upper bound or an assumption.
-    mean_annual_frequency_is: &'static str,
+    mean_annual_frequency_is: Option<&'static str>,
     mean_annual_frequency_bounds: Option<[Option<f64>; 2]>,
     goodness_of_fit: Option<Goodness>,
     /// Whether the width is an upper bound, as runs are missing at narrower ones or the hazard
@@ -224,10 +224,11 @@ impl Goodness {
 
 impl Minimum {
     fn of(minimum: &MinimumGap) -> Self {
+        let frequency = Some(minimum.frequency()).filter(|frequency| !frequency.is_nan());
         Self {
             width: minimum.width,
-            mean_annual_frequency: minimum.frequency(),
-            mean_annual_frequency_is: minimum.result.frequency_is(),
+            mean_annual_frequency: frequency,
+            mean_annual_frequency_is: frequency.map(|_| minimum.result.frequency_is()),
             mean_annual_frequency_bounds: bounds(&minimum.result),
             goodness_of_fit: Goodness::of(&minimum.result),
             upper_bound: minimum.is_at_most(),

@@ -12,7 +12,7 @@ use std::path::{Path, PathBuf};
 use sha2::{Digest, Sha256};
 
 /// Crates whose sources decide the numbers of a run.
-const COMPUTING: [&str; 11] = [
+const COMPUTING: [&str; 12] = [
     "assembly",
     "case",
     "catalogue",
@@ -24,6 +24,7 @@ const COMPUTING: [&str; 11] = [
     "shear-building",
     "study",
     "time-history",
+    "vectorised",
 ];
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

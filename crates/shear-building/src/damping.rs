@@ -1,7 +1,7 @@
 //! Viscous damping of a building.
 
-use multiversion::multiversion;
 use nalgebra::DMatrix;
+use pounding_vectorised::vectorised;
 
 use crate::dense::multiply;
 use crate::lateral::{LateralStiffnessError, symmetric};
@@ -349,12 +349,7 @@ fn outer_product(n: usize, entry: impl Fn(usize, usize) -> f64) -> DMatrix<f64> 
 }
 
 /// Products of eight rows with eight rows.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn tile(left: &[[f64; WIDTH]], right: &[[f64; WIDTH]]) -> [[f64; WIDTH]; WIDTH] {
     let mut sums = [[0.0; WIDTH]; WIDTH];
     for (a, b) in left.iter().zip(right) {

@@ -1,7 +1,7 @@
 //! Products of full matrices.
 
-use multiversion::multiversion;
 use nalgebra::DMatrix;
+use pounding_vectorised::vectorised;
 
 /// Columns that are taken in one go.
 const COLUMNS: usize = 4;
@@ -26,12 +26,7 @@ pub(crate) fn multiply(matrix: &DMatrix<f64>, x: &[f64], out: &mut [f64]) {
 }
 
 /// Adds multiples of a few columns, one after another in every place.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn add_columns(columns: &[f64], x: &[f64; COLUMNS], out: &mut [f64]) {
     let n = out.len();
     let [a, b, c, d] = std::array::from_fn(|k| &columns[k * n..(k + 1) * n]);

@@ -5,8 +5,8 @@
 //! Handbook for Automatic Computation II (1971), II/18; LAPACK `dstebz` and `dstein`):
 //! work that grows with the square of the size, and the same bits on every processor.
 
-use multiversion::multiversion;
 use nalgebra::DMatrix;
+use pounding_vectorised::vectorised;
 
 use crate::tridiagonal::SymmetricTridiagonal;
 
@@ -156,12 +156,7 @@ impl Bracket {
 
 /// Number of eigenvalues below each shift: that of negative pivots. Groups of shifts are
 /// independent, so that the processor need not wait for the divisions of one.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn counts_below(
     diagonal: &[f64],
     squares: &[f64],

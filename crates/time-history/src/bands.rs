@@ -1,7 +1,7 @@
 //! Stiffness and damping of all buildings as two bands of three.
 
-use multiversion::multiversion;
 use pounding_shear_building::{DampingMatrix, ShearBuilding, StiffnessMatrix};
+use pounding_vectorised::vectorised;
 use std::sync::Arc;
 
 /// Tridiagonal stiffness and damping of all buildings, without links between them.
@@ -39,12 +39,7 @@ impl Band {
 }
 
 /// All rows of [`Bands::internal_forces`] but the first and the last.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn inner(bands: &Bands, u: &[f64], v: &[f64], out: &mut [f64], damping: &mut [f64]) {
     let m = out.len() - 2;
     let (k, c) = (&bands.stiffness, &bands.damping);

@@ -1,7 +1,7 @@
 //! One row of responses from the motion of the floors.
 
-use multiversion::multiversion;
 use pounding_shear_building::{ResponseKind, StiffnessMatrix};
+use pounding_vectorised::vectorised;
 
 use crate::contact::Contacts;
 use crate::history::History;
@@ -209,12 +209,7 @@ pub(crate) struct FreeMotion<'a> {
     pub close: f64,
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn append_free(
     (storeys, between): (&Storeys, &[[usize; 2]]),
     motion: &FreeMotion<'_>,
@@ -289,12 +284,7 @@ impl Storeys {
 }
 
 /// Works out storey shears. Returns kinetic energy and that of strain (J).
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn shears(storeys: &[Storeys], [u, v]: [&[f64]; 2], shear: &mut [f64]) -> (f64, f64) {
     let mut energies = [Lane::ZERO; 2];
     let mut last = 0.0;

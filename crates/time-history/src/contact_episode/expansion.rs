@@ -1,6 +1,6 @@
 //! Sums over the terms of a series, in lanes.
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::series::{Series, SeriesStep, Works};
 use super::tables::{
@@ -130,12 +130,7 @@ const fn count_terms(x: f64, negligible: f64) -> usize {
 
 /// Expands the motion of the modes and of the closed levels, which starts from these displacements
 /// and velocities of the modes, and from this penetration and rate of each of the levels.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(super) fn expand(
     series: &mut Series,
     (modes, levels): (&[ModeLanes], &[ModalRow]),
@@ -339,12 +334,7 @@ fn factors_of(theta: f64, last: usize) -> Terms {
 }
 
 /// Cuts the step at `theta`.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(super) fn shorten(series: &mut Series, theta: f64) {
     shorten_here(series, theta);
 }
@@ -420,23 +410,13 @@ pub(crate) struct EndOfStep<'a> {
 }
 
 /// Works out the end of the step, of the modes and of the levels.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(super) fn finish(series: &mut Series, places: Places<'_>, end: &mut EndOfStep<'_>) {
     finish_here(series, places, end);
 }
 
 /// The same of a step that is cut at `theta` before.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(super) fn cut(series: &mut Series, theta: f64, places: Places<'_>, end: &mut EndOfStep<'_>) {
     shorten_here(series, theta);
     finish_here(series, places, end);
@@ -458,12 +438,7 @@ fn finish_here(series: &mut Series, places: Places<'_>, end: &mut EndOfStep<'_>)
 }
 
 /// Displacements, velocities and absolute accelerations of the modes at the end.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(super) fn end(series: &Series, modes: &[ModeLanes], out: [&mut [Lane]; 3]) {
     end_here(series, modes, out);
 }
@@ -559,12 +534,7 @@ fn put_end<const LANES: usize>(
 
 /// Works of ground motion and damping over the step; those on the closed levels, and the ends of
 /// their forces, go to their series.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(super) fn account(series: &mut Series, modes: &[ModeLanes]) -> Works {
     let works = if series.is_slow() {
         works_by::<FEW>(series, modes, &series.tables.few)
@@ -630,12 +600,7 @@ fn works_by<const NODES: usize>(series: &Series, modes: &[ModeLanes], rule: &Rul
 }
 
 /// The polynomial that fits a scalar series.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(super) fn fitted(series: &Series, terms: &Terms) -> Polynomial {
     let Tables { fit, basis, .. } = series.tables;
     combine(&sample(terms, series.last, fit).0, basis)
@@ -646,12 +611,7 @@ const CORRECTIONS: usize = 12;
 
 /// Where a scalar series has this value, by Newton's method from a place that is nearly right;
 /// with value and derivative there.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(super) fn polished(terms: &Terms, last: usize, theta: f64, target: f64) -> (f64, (f64, f64)) {
     let mut x = theta;
     for _ in 0..CORRECTIONS {

@@ -1,8 +1,8 @@
 //! One step of the explicit pair of order 8(5,3) on the modes with contacts of any law.
 
-use multiversion::multiversion;
 use pounding_gap_element::PowerLaw;
 use pounding_runge_kutta::tableau::{ERROR_3, ERROR_5, NODES, ROWS, STAGES, WEIGHTS};
+use pounding_vectorised::vectorised;
 
 use super::clock::Clock;
 use super::point::{Point, TouchPoint};
@@ -107,12 +107,7 @@ const SOLUTION: [f64; STAGES] = {
     weights
 };
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn step(pair: &mut Pair, scene: &Scene<'_>, clock: &Clock) -> f64 {
     match pair.lanes {
         1 => step_in_place::<1>(pair, scene, clock),

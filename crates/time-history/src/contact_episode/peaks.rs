@@ -1,6 +1,6 @@
 //! Peaks of floors inside a step.
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::pair::Scene;
 use super::series::Series;
@@ -139,12 +139,7 @@ pub(crate) fn note_sections_of_span(
 
 /// Takes the values at the end of a series, and says which of displacement, drift and
 /// acceleration could exceed a peak.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn values(
     constants: &ContactFree,
     series: &Series,
@@ -187,12 +182,7 @@ fn floors_at_end(constants: &ContactFree, modal: [&[Lane]; 2], tracks: &mut Trac
 }
 
 /// The same at the end of a step of the pair, for which `modal` is work space.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn values_of_span(
     scene: &Scene<'_>,
     span: &Span<'_>,
@@ -429,12 +419,7 @@ pub(crate) fn note_floors_of_span(
 
 /// Of which floors the hull of the cubic through both ends exceeds the peak: ones in `open`, where
 /// zeros are not.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn may_exceed(
     track: &Track,
     [first, last]: &[Vec<Lane>; 2],
@@ -479,12 +464,7 @@ fn accelerations(scene: &Scene<'_>, span: &Span<'_>, nodes: &mut [Vec<Lane>; COE
 }
 
 /// The same without the forces of the closed levels.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn without_contacts(
     modes: &[ModeLanes],
     span: &Span<'_>,

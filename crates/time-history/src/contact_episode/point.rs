@@ -1,6 +1,6 @@
 //! The motion at one time with two derivatives more than the state.
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::touch::Touch;
 use crate::system::System;
@@ -71,12 +71,7 @@ fn differentiate(modes: &[ModeLanes], (q, p): (&[Lane], &[Lane]), ground: f64, o
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn derive(
     point: &mut Point,
     constants: &ContactFree,

@@ -8,7 +8,7 @@
 //! higher one in the block. The rest is put off, eight floors together, and looked at from the
 //! state at the start of the block ([`super::lane_candidates`]).
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use crate::bands::Bands;
 use crate::contact::Contacts;
@@ -319,12 +319,7 @@ impl BlockEnds {
 
 /// Advances all modes and bounds what floors may exceed the hull by. Returns whether no
 /// acceleration can be a peak.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn advance_modes(
     constants: &ContactFree,
     (now, samples): (&Modal, &[f64; BLOCK + 1]),
@@ -350,12 +345,7 @@ fn advance_modes(
 
 /// Bounds what floors may exceed the hull by, where the modes are bounded. Returns whether no
 /// acceleration can be a peak, under a ground that has these accelerations at the ends.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn bound_all(
     ground: (f64, f64),
     load: Option<BlockLoad<'_>>,
@@ -516,12 +506,7 @@ fn third(constants: &ContactFree) -> f64 {
 }
 
 /// What is transformed to floors beside displacements, or thirds of speeds alone.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn derive_end(
     constants: &ContactFree,
     (displacement, velocity, ground): (&[Lane], &[Lane], f64),
@@ -558,12 +543,7 @@ fn derive_end(
 
 /// Absolute accelerations of all floors with their rates, from displacements and velocities that
 /// err by at most this. Returns what they err by at most.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn accelerate(
     bands: &Bands,
     ([error, third_error], third): ([f64; 2], f64),
@@ -605,12 +585,7 @@ fn accelerate(
 
 /// Whether the displacements of all floors in the block are at most this one (m); those that are
 /// no numbers are not.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn are_within(limit: f64, ends: &BlockEnds) -> bool {
     let (start, end) = (&ends.start, &ends.end);
     let mut all = true;
@@ -626,12 +601,7 @@ fn are_within(limit: f64, ends: &BlockEnds) -> bool {
 }
 
 /// Compares the hulls of all functions with their peaks, after those at the end were taken.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn compare(
     constants: &ContactFree,
     ends: &mut BlockEnds,

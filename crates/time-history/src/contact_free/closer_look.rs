@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use crate::polynomial::{Polynomial, difference, septic};
 use crate::system::modes::{
@@ -133,12 +133,7 @@ impl Point {
 }
 
 /// Derivatives of the modes from their displacements and velocities.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn derive(
     (constants, lanes): (&ContactFree, &Range<usize>),
     (ground, slope): (f64, f64),
@@ -431,12 +426,7 @@ fn gather_eight(values: &[Lane; WIDTH], eights: &mut [Lane; WIDTH]) {
 /// Derivatives of displacement (0), and of absolute acceleration (1), where they are wanted, at
 /// both ends of a step from these displacements and velocities of some lanes of the modes. They go
 /// from register to register, and have the bits of one function after another.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn step_in_eights(
     modes: &[ModeLanes],
     ground: Ground,
@@ -499,12 +489,7 @@ fn derivatives(m: &ModeLanes, (q, p): (&Lane, &Lane), (ground, slope): (f64, f64
 /// What floors' functions depart from their cubics by over a step of this length (s) from these
 /// modes on: `h^4 / 384` times a bound of their fourth derivatives, which swing freely
 /// ([`super::lane_candidates`]).
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn departures(
     (constants, lanes): (&ContactFree, &Range<usize>),
     (start, step): (&[Vec<Lane>; 5], f64),
@@ -532,12 +517,7 @@ fn departures(
 }
 
 /// Displacements and velocities of all modes after a step.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn step(modes: &[ModeLanes], ground: Ground, from: [&[Lane]; 2], to: [&mut [Lane]; 2]) {
     let [displacement, velocity] = to;
     for (c, m) in modes.iter().enumerate() {

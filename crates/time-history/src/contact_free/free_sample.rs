@@ -1,6 +1,6 @@
 //! One sample in which some buildings of a row are in contact and the others are not.
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::phase::{ContactFreePhase, SampleRange};
 use crate::system::System;
@@ -37,12 +37,7 @@ impl FreeSample {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn look(
     phase: &mut ContactFreePhase,
     constants: &ContactFree,
@@ -84,12 +79,7 @@ fn look(
 }
 
 /// Drifts of all floors, and their accelerations unless these are low.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn look_closer(phase: &mut ContactFreePhase, constants: &ContactFree, free: &mut FreeSample) {
     let (floors, drift) = (&phase.displacement.next, &mut phase.drift);
     to_floors(

@@ -6,7 +6,7 @@ use crate::system::modes::{
     BLOCK, ContactFree, Decay, Ground, Lane, Quantity, Track, WIDTH, derive, products, step_modes,
     sum_of_products,
 };
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 /// Samples at which a block is looked at, its start included.
 const TIMES: usize = BLOCK + 1;
@@ -203,12 +203,7 @@ impl BlockLook {
 }
 
 /// A lane of floors from two functions of the modes, at all samples.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn floors_of(constants: &ContactFree, lane: usize, modes: [&[Lane]; 2]) -> [[Lane; TIMES]; 2] {
     let (row, count) = (&constants.floor_rows[lane], constants.modes.len());
     let mut floors = [[Lane::ZERO; TIMES]; 2];
@@ -225,12 +220,7 @@ fn floors_of(constants: &ContactFree, lane: usize, modes: [&[Lane]; 2]) -> [[Lan
 /// Follows eight modes over a block. The fourth derivatives swing freely between samples, so that
 /// `y'^2 + omega^2 y^2` of a derivative from the second on never grows, and
 /// `|y''| <= (omega + 2 zeta omega) (|y'| + omega |y|)`; beyond critical damping by their decay.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn follow(
     constants: &ContactFree,
     (c, (displacement, velocity)): (usize, (&[Lane], &[Lane])),

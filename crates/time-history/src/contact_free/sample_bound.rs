@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use crate::polynomial::hermite_range;
 use crate::system::modes::{
@@ -68,12 +68,7 @@ impl SampleBound {
 
 /// Values and rates of a function at both ends, bound of its fourth derivative, and what fast decays
 /// depart by, if there are any.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn values(bound: &SampleBound, (row, of): (&ModalRow, usize), slow: bool) -> ([f64; 4], f64, f64) {
     let ends = [
         &bound.start[2 * of],
@@ -90,12 +85,7 @@ fn values(bound: &SampleBound, (row, of): (&ModalRow, usize), slow: bool) -> ([f
     (ends.map(|x| row.dot(x)), fourth, rest)
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn take(
     constants: &ContactFree,
     (lanes, now): (Range<usize>, &Modal),

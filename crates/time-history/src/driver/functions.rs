@@ -1,8 +1,8 @@
 //! What has peaks, over an exact step: bounds, and the peaks where the bounds tell where they
 //! are.
 
-use multiversion::multiversion;
 use nalgebra::DMatrix;
+use pounding_vectorised::vectorised;
 use std::ops::Range;
 
 use crate::contact::{Contact, Contacts};
@@ -654,12 +654,7 @@ impl Group {
 /// Bounds of the magnitudes of functions from values and slopes at the start and at the end, as
 /// [`hermite_range`] has them for one, with one bound for those before a place and another from there
 /// on. Returns whether all are at most these peaks.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn reaches(
     [x0, v0, x1, v1]: [&[f64]; 4],
     (mobility, [first, second]): (&[f64], [f64; 2]),

@@ -1,6 +1,6 @@
 //! Terms of the Taylor series of buildings with tridiagonal matrices.
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use crate::bands::Bands;
 use crate::system::{System, Terms};
@@ -201,12 +201,7 @@ impl Chain {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn series(chain: &mut Chain, springs: &[Spring], load: [f64; 2], h: f64) -> u64 {
     let n = chain.acceleration.len();
     for k in 1..TERMS {

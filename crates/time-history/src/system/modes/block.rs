@@ -3,7 +3,7 @@
 
 use std::ops::Range;
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::block_step::BLOCK;
 use super::constants::ContactFree;
@@ -174,12 +174,7 @@ impl Block {
 /// Advances a block of samples, whose ground accelerations are `samples` (one more than
 /// steps), and finds the extremes of all rows at the samples: those of accelerations only if
 /// these are not all below `peak`, their peaks. Returns whether they are.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn propagate(
     constants: &ContactFree,
     now: &Modal,
@@ -211,12 +206,7 @@ pub(crate) fn propagate(
 
 /// Bounds the overshoot of displacement (0), drift (1) or acceleration (2) at each floor by
 /// itself. Returns false if that was done.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn sharpen(constants: &ContactFree, block: &mut Block, quantity: usize) -> bool {
     let coarse = !block.own[quantity];
     if coarse {
@@ -287,12 +277,7 @@ fn bound_sections(constants: &ContactFree, block: &mut Block) {
 }
 
 /// Advances these lanes of the modes alone by some samples.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn advance(
     constants: &ContactFree,
     (lanes, samples): (Range<usize>, &[f64]),
@@ -325,12 +310,7 @@ pub(crate) fn advance(
 
 /// Advances displacements and velocities by one step with these constants. Returns the work of
 /// ground motion and that of damping (J).
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn step_over(
     modes: &[ModeLanes],
     ground: Ground,
@@ -348,12 +328,7 @@ pub(crate) fn step_over(
 }
 
 /// Follows a block from this state on for those who watch it.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn follow(
     constants: &ContactFree,
     start: &Modal,
@@ -389,12 +364,7 @@ pub(crate) fn follow(
 
 /// Bounds what the displacement of every floor may exceed its values at samples by (m), from this
 /// motion on under these ground accelerations at samples; the others are space for the modes.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn bound_displacements(
     constants: &ContactFree,
     start: ModalState<'_>,

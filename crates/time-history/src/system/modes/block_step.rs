@@ -15,7 +15,7 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::lanes::{Lane, Modal, ModeLanes, WIDTH};
 use super::reach::{Bounds, QUANTITIES, Reach};
@@ -267,12 +267,7 @@ impl BlockStep {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn advance_all(
     (starts, loads): (&[Start], &[Load]),
     (now, ground, slope): (&Modal, f64, f64),
@@ -325,12 +320,7 @@ fn advance_all(
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn load_all(
     step: &BlockStep,
     samples: &[f64; TIMES],
@@ -436,12 +426,7 @@ fn coefficient(form: &[Row; INPUTS], i: usize, j: usize) -> Lane {
 }
 
 /// All factors of eight modes.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn lanes(m: &ModeLanes, part: &ModeLanes, step: f64) -> (Start, Weights, BoundWeights<[Lane; 3]>) {
     let mut x = [Lane::ZERO; INPUTS];
     let mut v = [Lane::ZERO; INPUTS];

@@ -12,7 +12,7 @@ use super::single_precision::SinglePrecisionShapes;
 use crate::bands::Bands;
 use crate::building_rates::fastest_rate;
 use crate::system::System;
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 /// Exact steps, mode shapes and bounds of all buildings for one length of step.
 #[derive(Debug, Clone)]
@@ -313,12 +313,7 @@ pub(crate) fn is_tall(system: &System) -> bool {
 }
 
 /// Kinetic energy and energy of strain (J) of the modes.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn stored(constants: &ContactFree, q: &[Lane], p: &[Lane]) -> f64 {
     let mut energies = Lane::ZERO;
     for (c, m) in constants.modes.iter().enumerate() {

@@ -1,11 +1,11 @@
 //! Arithmetic on lanes: eight degrees of freedom, or modes, side by side.
 //!
 //! The functions are compiled for several instruction sets and chosen at run time
-//! (`multiversion`); without fused operations their bits are the same on all.
+//! ([`vectorised`]); without fused operations their bits are the same on all.
 
 use std::hint::black_box;
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 use std::ops::{Index, IndexMut, Range};
 
 /// Eight values side by side, in one line of the cache.
@@ -353,12 +353,7 @@ pub(crate) fn drifts(shapes: &[Shapes], floors: &[Lane], drifts: &mut [Lane]) {
 }
 
 /// Takes the values at the end of the step as peaks.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn raise(track: &mut Track, time: f64) {
     let count = track.now.len();
     let (next, peak) = (&track.next[..count], &mut track.peak[..count]);
@@ -390,12 +385,7 @@ pub(crate) fn raise_now(track: &mut Track, time: f64) {
 }
 
 /// Largest imbalance of every mode's energy so far, and the whole input energy.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn balance(
     modes: &[ModeLanes],
     now: &Modal,
@@ -423,12 +413,7 @@ pub(crate) fn balance(
 }
 
 /// Absolute accelerations of the modes, `-(2 zeta omega q' + omega^2 q)`.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn restoring(modes: &[ModeLanes], q: &[Lane], p: &[Lane], out: &mut [Lane]) {
     restore(modes, q, p, out);
 }

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::lanes::{Lane, Shapes, WIDTH};
 use crate::system::{ContactLevel, SectionForce, System};
@@ -217,45 +217,25 @@ pub(crate) fn total(x: &Lane) -> f64 {
 }
 
 /// Four values of a row.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn dot_motion(row: &ModalRow, [q, p, a, j]: &[Vec<Lane>; 4]) -> [f64; 4] {
     row.dot_four([q, p, a, j])
 }
 
 /// Two values of a row.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn dot_two(row: &ModalRow, x: [&[Lane]; 2]) -> [f64; 2] {
     x.map(|x| row.dot(x))
 }
 
 /// Three values of a row.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn dot_three(row: &ModalRow, [a, b, c]: [&[Lane]; 3]) -> [f64; 3] {
     [row.dot(a), row.dot(b), row.dot(c)]
 }
 
 /// Values of a row for displacements that stand one after another.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn dot_all(row: &ModalRow, x: &[Lane], lanes: usize, out: &mut [f64]) {
     let mut place = 0;
     let at = |k: usize| &x[k * lanes..(k + 1) * lanes];
@@ -270,12 +250,7 @@ fn dot_all(row: &ModalRow, x: &[Lane], lanes: usize, out: &mut [f64]) {
 }
 
 /// Closings of these levels (m) at these displacements of the modes.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn closings(rows: &LevelRows, levels: &[usize], q: &[Lane], out: &mut [f64]) {
     for l in levels {
         out[*l] = rows.levels[*l].dot(q);

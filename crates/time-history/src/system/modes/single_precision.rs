@@ -7,7 +7,7 @@
 
 use std::hint::black_box;
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::lanes::{Lane, Shapes, WIDTH, add, at};
 
@@ -139,12 +139,7 @@ impl Building {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn take(
     shapes: &SinglePrecisionShapes,
     of: [&[Lane]; FUNCTIONS],
@@ -175,12 +170,7 @@ fn take(
     bounds
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn floors(
     shapes: &SinglePrecisionShapes,
     modes: &SinglePrecisionModes,

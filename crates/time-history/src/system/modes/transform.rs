@@ -1,17 +1,12 @@
 //! From modes to floors.
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::lanes::{Lane, ModeLanes, Shapes, WIDTH, at, restore};
 use super::rows::Rows;
 
 /// Floors from modes: `u = Phi q`.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn transform(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) {
     to_floors(shapes, modal, floors);
 }
@@ -38,24 +33,14 @@ pub(crate) fn to_floors(shapes: &[Shapes], modal: &[Lane], floors: &mut [Lane]) 
 }
 
 /// The first two of four transformations, in one pass over the mode shapes.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn transform_two(shapes: &[Shapes], modal: [&[Lane]; 2], floors: &mut [Vec<Lane>; 4]) {
     let [first, second, _, _] = floors;
     to_floors_together::<2, 2>(shapes, modal, [first, second]);
 }
 
 /// All four of them.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn transform_four(shapes: &[Shapes], modal: [&[Lane]; 4], floors: &mut [Vec<Lane>; 4]) {
     let floors = floors.each_mut().map(Vec::as_mut_slice);
     to_floors_together::<4, 1>(shapes, modal, floors);
@@ -124,24 +109,14 @@ fn add_tile<const COUNT: usize, const TILE: usize>(
 }
 
 /// The first two of four transformations by rows, which cost less where mode shapes are small.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn rows_of_two(rows: &[Rows], modal: [&[Lane]; 2], floors: &mut [Vec<Lane>; 4]) {
     let [first, second, _, _] = floors;
     by_rows::<2>(rows, modal, [first, second]);
 }
 
 /// All four of them.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn rows_of_four(rows: &[Rows], modal: [&[Lane]; 4], floors: &mut [Vec<Lane>; 4]) {
     let floors = floors.each_mut().map(Vec::as_mut_slice);
     by_rows::<4>(rows, modal, floors);
@@ -189,12 +164,7 @@ pub(crate) fn sums_of_row<const COUNT: usize>(
 
 /// One floor of eight transformations, with the bits of [`transform`], from eight values for
 /// every mode.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn floor_of_eight(shapes: &[Shapes], eights: &[Lane], floor: usize) -> Lane {
     let holds = |b: &&Shapes| (b.first_mode..b.first_mode + b.modes).contains(&floor);
     let mut sum = Lane::ZERO;
@@ -216,24 +186,14 @@ pub(crate) fn floor_of_eight(shapes: &[Shapes], eights: &[Lane], floor: usize) -
 pub(crate) type Floors = [Vec<f64>; 3];
 
 /// Three transformations in one pass, each with the bits of [`transform`].
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn transform_three(rows: &[Rows], modal: [&[Lane]; 3], floors: &mut Floors) {
     three(rows, modal, floors);
 }
 
 /// The same of displacements and velocities of the modes without contact, with the accelerations
 /// that follow from them: they are left in `absolute`.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn transform_free(
     (modes, rows): (&[ModeLanes], &[Rows]),
     [q, p]: [&[Lane]; 2],
@@ -273,12 +233,7 @@ type Packed = [[[f64; 4]; FOURS]; STRIP];
 
 /// Many transformations in one pass, each with the bits of [`transform`]: the mode shapes of a
 /// tall building are larger than the cache, so that reading them is most of the work of one.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 pub(crate) fn transform_fours(shapes: &[Shapes], fours: &mut [Four<'_>]) {
     for four in fours.iter_mut() {
         for floors in four.floors.iter_mut() {

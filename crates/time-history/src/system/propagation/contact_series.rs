@@ -1,7 +1,7 @@
 //! Taylor series of all buildings together with closed contacts whose laws are affine, over
 //! steps of several radians of the fastest mode.
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 use super::building::Building;
 use super::product::{NARROW, add_product, multiply, padded};
@@ -551,12 +551,7 @@ struct Forces<'a> {
 
 /// Expands displacements and velocities, whose first terms are given, over a step of this length
 /// (s). Returns the number of the last term if they have an end.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn expand(
     forces: &Forces<'_>,
     (n, length): (usize, f64),
@@ -648,12 +643,7 @@ fn largest(values: &[f64]) -> f64 {
 }
 
 /// `x' M x` and `y' K y` of a building; all are filled up with zeros.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn energies(building: &Building, (y, x): (&[f64], &[f64]), force: &mut [f64]) -> (f64, f64) {
     let force = &mut force[..y.len()];
     building
@@ -679,12 +669,7 @@ fn energies(building: &Building, (y, x): (&[f64], &[f64]), force: &mut [f64]) ->
 
 /// Velocities, filled up with zeros, from so many terms in blocks and the powers of the time; and the
 /// power of the damping (W).
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn viscous_power(
     buildings: &[Building],
     (terms, n, powers): (&[f64], usize, &[f64]),

@@ -1,7 +1,7 @@
 //! Products of matrices with vectors. Every sum runs over the columns in their order, so that
 //! the bits of a row depend neither on the processor nor on the rows beside it.
 
-use multiversion::multiversion;
+use pounding_vectorised::vectorised;
 
 /// Rows that are summed side by side; outputs of a multiple of the least one need no others.
 const WIDEST: usize = 32;
@@ -34,12 +34,7 @@ pub(crate) fn multiply(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) 
 }
 
 /// Adds that product.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn accumulate(matrix: &[f64], rows: usize, x: &[f64], out: &mut [f64]) {
     add_product(matrix, rows, x, out);
 }
@@ -133,12 +128,7 @@ impl RowBlocks {
     }
 }
 
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn multiply_blocks(entries: &[f64], x: &[f64], out: &mut [f64]) {
     blocks(entries, x, out);
 }

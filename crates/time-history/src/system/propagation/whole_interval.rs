@@ -1,8 +1,8 @@
 //! A whole interval of one building without contact as one product of a matrix: the motion at
 //! its end, works, bounds, and the courses of all that has peaks.
 
-use multiversion::multiversion;
 use nalgebra::DMatrix;
+use pounding_vectorised::vectorised;
 use std::ops::Range;
 
 use super::product::{RowBlocks, padded, product_and_squares};
@@ -150,12 +150,7 @@ impl WholeInterval {
 
 /// The product of a matrix with a vector, and of what it comes to the product of the rows of a
 /// quadratic form with the vector, and the sums of squares of so many rows after them.
-#[multiversion(targets(
-    "x86_64+avx512f+avx512vl+avx512dq",
-    "x86_64+avx2",
-    "x86_64+avx",
-    "aarch64+neon"
-))]
+#[vectorised]
 fn lead(
     matrix: &RowBlocks,
     x: &[f64],

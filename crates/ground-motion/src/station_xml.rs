@@ -642,9 +642,9 @@ fn unit_name(sensitivity: &Node<'_, '_>, element: &str) -> Option<String> {
 fn output_of_stages(channel: &Node<'_, '_>) -> Option<String> {
     let response = child(channel, "Response")?;
     let is_stage = |n: &Node<'_, '_>| n.tag_name().name() == "Stage";
-    let last = response.children().filter(is_stage).last()?;
-    let names = last.children().filter_map(|n| unit_name(&n, "OutputUnits"));
-    names.last()
+    let last = response.children().rfind(is_stage)?;
+    let mut parts = last.children().rev();
+    parts.find_map(|part| unit_name(&part, "OutputUnits"))
 }
 
 /// Whether a channel is one of an accelerograph by the second letter of its code (SEED manual, appendix A).

@@ -31,6 +31,23 @@ fn a_gap_that_intensities_leave_open_is_a_bound() {
     assert!(page.contains("add intensities around"));
 }
 
+/// Where a building collapses under every record no width is enough and no frequency is known, which is no estimate then.
+#[test]
+fn a_frequency_that_is_not_known_is_no_estimate() {
+    let hazard = "[[\"0.02 g\", 0.5], [\"0.2 g\", 5e-3], [\"9 g\", 2e-6]]";
+    let bench = Bench::new(&study("\"3 g\", \"4 g\"", hazard));
+    let case = std::fs::read_to_string(bench.path("case.toml")).unwrap();
+    let weak = "p_delta = true\nlaw = { model = \"elastic_perfectly_plastic\", yield_force = \"20 kN\" }\nheight";
+    std::fs::write(bench.path("case.toml"), case.replacen("height", weak, 1)).unwrap();
+    let told: serde_json::Value =
+        serde_json::from_str(&bench.text("ida study.toml -o out.h5 --json")).unwrap();
+    assert_eq!(told["levels"][0]["collapsed"], 2, "{told}");
+    let minimum = &told["gaps"][0]["minimum"];
+    for key in ["width", "mean_annual_frequency", "mean_annual_frequency_is"] {
+        assert!(minimum[key].is_null(), "{key}: {minimum}");
+    }
+}
+
 #[test]
 fn a_hazard_curve_that_begins_late_is_told() {
     let hazard = "[[\"0.4 g\", 1e-2], [\"9 g\", 2e-6]]";

@@ -224,7 +224,7 @@ impl Goodness {
 
 impl Minimum {
     fn of(minimum: &MinimumGap) -> Self {
-        let frequency = Some(minimum.frequency()).filter(|frequency| !frequency.is_nan());
+        let frequency = Some(minimum.frequency()).filter(|frequency| frequency.is_finite());
         Self {
             width: minimum.width,
             mean_annual_frequency: frequency,

@@ -126,37 +126,20 @@ impl<T> ProcessingStep<T> {
 }
 
 impl ProcessingStep {
-    /// Place in the order that [`standard_order`] makes.
-    fn rank(&self) -> usize {
-        match self {
-            Self::Unit(_) => 0,
-            Self::Sign => 1,
-            Self::Offset(_) => 2,
-            Self::Filter(_) => 3,
-            Self::Baseline(_) => 4,
-            Self::Trim(_) => 5,
-            Self::Taper { .. } => 6,
-            Self::Pad { .. } => 7,
-            Self::Resample { .. } => 8,
-            Self::Scale(_) => 9,
-        }
-    }
-
     /// Name in messages and reports.
     fn name(&self) -> &'static str {
-        const IN_ORDER: [&str; 10] = [
-            "unit",
-            "sign",
-            "offset",
-            "filter",
-            "baseline",
-            "trim",
-            "taper",
-            "pad",
-            "resampling",
-            "scale",
-        ];
-        IN_ORDER[self.rank()]
+        match self {
+            Self::Unit(_) => "unit",
+            Self::Sign => "sign",
+            Self::Offset(_) => "offset",
+            Self::Filter(_) => "filter",
+            Self::Baseline(_) => "baseline",
+            Self::Trim(_) => "trim",
+            Self::Taper { .. } => "taper",
+            Self::Pad { .. } => "pad",
+            Self::Resample { .. } => "resampling",
+            Self::Scale(_) => "scale",
+        }
     }
 
     /// The record after this step, and what was done with its numbers, among them the ground's
@@ -231,12 +214,6 @@ impl ProcessingStep {
             Self::Scale(scale) => scale.apply(record),
         }
     }
-}
-
-/// Sorts steps into the customary order: unit, sign, offset, filter, baseline, trim,
-/// taper, pad, resample, scale. Steps of one kind keep theirs.
-pub fn standard_order(steps: &mut [ProcessingStep]) {
-    steps.sort_by_key(ProcessingStep::rank);
 }
 
 /// Does the steps in the order given. Each is recorded with its numbers and with the

@@ -1,4 +1,4 @@
-//! Fourier and power spectra.
+//! Fourier spectra.
 
 use serde::Serialize;
 
@@ -82,30 +82,6 @@ impl FourierSpectrum {
         } else {
             Ok(())
         }
-    }
-
-    /// One-sided power spectral density of the acceleration over a duration (s), in
-    /// (m/s2)^2/Hz: its integral over frequency is the mean square over that duration.
-    ///
-    /// # Errors
-    /// A duration that is not positive.
-    pub fn power_spectral_density(&self, duration: f64) -> Result<Vec<f64>, GroundMotionError> {
-        positive("power spectral density", "duration", duration)?;
-        let even = ((self.length / self.time_step).round() as usize).is_multiple_of(2);
-        let last = self.amplitudes.len() - 1;
-        let sides = |k: usize| {
-            if k == 0 || (k == last && even) {
-                1.0
-            } else {
-                2.0
-            }
-        };
-        Ok(self
-            .amplitudes
-            .iter()
-            .enumerate()
-            .map(|(k, a)| sides(k) * a * a / duration)
-            .collect())
     }
 
     /// The amplitudes at these frequencies (Hz), smoothed by the window

@@ -1,4 +1,4 @@
-//! Response, Fourier and power spectra.
+//! Response and Fourier spectra.
 
 pub mod design;
 

@@ -335,6 +335,66 @@ fn no_turning_point_gives_back_more_than_was_put_in() {
     assert_eq!(least, 0.0);
 }
 
+/// An unloading stiffness below the hardening one: the elastic line ends at the residual force, and the path goes on along
+/// that to the hardening line, `0.7 + 30 x` by hand; no line passes through the envelope, and no force leaps.
+#[test]
+fn a_flat_elastic_line_ends_at_the_residual_force() {
+    let set = |hardening: f64, unloading: f64| {
+        [
+            ("hardening_ratio", hardening),
+            ("capping_deformation", 0.05),
+            ("softening_ratio", 0.3),
+            ("unloading_capacity", unloading),
+        ]
+    };
+    // From one turning point to the next in 1000 steps.
+    let path = |turning: &[f64]| {
+        let from = [&[0.0], turning].concat();
+        let legs = from.into_iter().zip(turning.to_vec());
+        let points = legs.flat_map(|(from, to)| {
+            (1..=1000).map(move |i| from + (to - from) * f64::from(i) / 1e3)
+        });
+        points.collect::<Vec<f64>>()
+    };
+    for unloading in [38.0, 39.0, 40.0, 41.0, 42.0, 50.0] {
+        let way = path(&[0.045, -0.099, 0.045]);
+        let points = run("bilinear", &set(0.3, unloading), &way);
+        let most = points.iter().map(|p| p.force.abs()).fold(0.0, f64::max);
+        assert!((most - 2.2).abs() < 5e-3, "{unloading}: {most}");
+        let (x, force) = (points[2894].deformation, points[2894].force);
+        assert!((x - 0.02988).abs() < 1e-12);
+        assert!(
+            (force - (0.7 + 30.0 * x)).abs() < 1e-12,
+            "{unloading}: {force}"
+        );
+    }
+    let share = |k: usize| (k as f64 * 0.618_033_988_749_895).fract();
+    for law in ["bilinear", "peak_oriented", "pinching"] {
+        for case in 0..100 {
+            let turning: Vec<f64> = (0..12)
+                .map(|k| (0.1 * share(7 * case + k + 3) + 0.005) * [1.0, -1.0][k % 2])
+                .collect();
+            let mut set = set(0.1 + 0.3 * share(case), 10.0 + 60.0 * share(3 * case)).to_vec();
+            if law == "pinching" {
+                set.extend(PINCHED);
+            }
+            let points = run(law, &set, &path(&turning));
+            let mut before = (0.0, 0.0);
+            for point in points {
+                let has_failed = point.force == 0.0;
+                let leap = (point.force - before.1).abs();
+                let way = (point.deformation - before.0).abs();
+                assert!(
+                    has_failed || leap <= 100.0 * way * (1.0 + 1e-9) + 1e-12,
+                    "{law}, case {case} at {}: {leap}",
+                    point.deformation
+                );
+                before = (point.deformation, point.force);
+            }
+        }
+    }
+}
+
 #[test]
 fn exhausted_elements_carry_nothing_ever_after() {
     // Capacity 0.03 < 2 EXCURSION: fails on crossing zero force.

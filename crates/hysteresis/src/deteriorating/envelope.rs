@@ -132,7 +132,8 @@ impl Envelope {
         }
     }
 
-    /// Where a rising line from a point below meets the envelope.
+    /// Where a rising line from a point below meets the envelope: at the residual force where no more is left there, which
+    /// a line that is flatter than the hardening one passes before it meets the falling one.
     pub fn meets(&self, from: Point, slope: f64) -> f64 {
         let ahead = |force: f64, relative: f64| {
             if relative > 0.0 {
@@ -142,10 +143,15 @@ impl Envelope {
             }
         };
         let at = from.deformation;
+        let residual = ahead(self.residual, slope).max(at);
+        let hardening_there = self.start + self.hardening * residual;
+        let falling_there = self.cap - self.softening * residual;
+        if hardening_there.min(falling_there).min(self.limit) <= self.residual {
+            return residual;
+        }
         let hardening = ahead(self.start + self.hardening * at, slope - self.hardening);
         let falling = ahead(self.cap - self.softening * at, slope + self.softening);
         let limit = ahead(self.limit, slope);
-        let residual = ahead(self.residual, slope);
-        hardening.min(falling).min(limit).max(residual).max(at)
+        hardening.min(falling).min(limit).max(residual)
     }
 }

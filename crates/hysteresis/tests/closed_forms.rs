@@ -274,6 +274,39 @@ fn menegotto_pinto_law_is_its_formula_and_bilinear_away_from_a_sharp_knee() {
     }
 }
 
+/// Where R may fall to 0.3, the least that is taken, cycles dissipate, large ones and small ones after them.
+#[test]
+fn cycles_of_curved_steel_dissipate() {
+    for first in [1.05, 2.0, 5.0, 20.0] {
+        for hardening in [0.0, 0.05] {
+            let law = law(
+                "menegotto_pinto_1973",
+                &[
+                    ("stiffness", 100.0),
+                    ("yield_force", 1.0),
+                    ("hardening_ratio", hardening),
+                    ("curvature", first),
+                    ("curvature_loss", 1.0 - 0.3001 / first),
+                ],
+            );
+            for amplitude in [0.015, 0.03, 0.1, 0.5] {
+                let turning =
+                    [1.0, -1.0, 1.0, -1.0, 1.0, -0.2, 0.2, -0.2, 0.2].map(|a| a * amplitude);
+                let mut path = vec![0.0];
+                for to in turning {
+                    let from = path[path.len() - 1];
+                    path.extend((1..=100).map(|i| from + (to - from) * f64::from(i) / 100.0));
+                }
+                let points = history(law.as_ref(), &path, 1.0);
+                let at = |turn: usize| points[100 * turn].dissipated;
+                for [from, to] in [[1, 3], [3, 5], [7, 9]] {
+                    assert!(at(to) > at(from), "{first} {hardening} {amplitude} {to}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn gap_and_hook_act_beyond_their_gaps_only() {
     let law = law(

@@ -81,6 +81,11 @@ fn values_that_contradict_one_another_are_refused_with_the_reason() {
         ("bouc_wen", &[("gamma", 0.6)], "create energy"),
         ("bouc_wen", &[("gamma", -0.5)], "create energy"),
         (
+            "menegotto_pinto_1973",
+            &[("curvature", 3.9)],
+            "create energy",
+        ),
+        (
             "gap_hook",
             &[("compression_stiffness", 0.0), ("tension_stiffness", 0.0)],
             "neither",

@@ -618,7 +618,7 @@ pub struct Replaced<'r> {
     pub kind: Kind,
     /// The case or study file, if it is known.
     pub file: Option<&'r Path>,
-    /// SHA-256 of the text of the study, if it is one.
+    /// SHA-256 of the text of the study, if it is one, or of a case that was read from no file.
     pub text_sha256: Option<String>,
     /// Whether the user has named the output.
     pub named: bool,
@@ -713,10 +713,17 @@ impl Replaced<'_> {
                 going("the result of another study, or of another version of this one".to_owned())
             }
             None if other_text => going("the result of another version of this study".to_owned()),
-            None if found.file.is_empty() && self.kind == Kind::Run && !self.named => {
-                going("the result of a run that does not say of which case file it is".to_owned())
-            }
-            None => Ok(None),
+            None if self.kind == Kind::Study => Ok(None),
+            None => match (self.file.is_some(), found.file.is_empty()) {
+                (true, true) => going(
+                    "the result of a run that does not say of which case file it is".to_owned(),
+                ),
+                (false, false) => going(format!("the result of {kind}{of}")),
+                (false, true) if found.case_sha256 != self.text_sha256 => {
+                    going("the result of a run of another case without a file".to_owned())
+                }
+                _ => Ok(None),
+            },
         }
     }
 }

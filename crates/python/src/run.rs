@@ -339,17 +339,18 @@ impl Run {
     /// Writes the result file, as `pounding run` does.
     fn to_hdf5(&self, py: Python<'_>, path: PathBuf) -> PyResult<()> {
         let _inputs_stay = self.case.writes("result", &path)?;
+        let file = self.case.own_file();
         let replaced = Replaced {
             output: &path,
             kind: Kind::Run,
-            file: self.case.own_file(),
-            text_sha256: None,
+            file,
+            text_sha256: file.is_none().then(|| self.head().case_sha256()),
             named: true,
         };
         let going = replaced.judged(false).map_err(Problem::from)?;
         let (head, history) = (self.head(), self.history()?);
         going.map_or(Ok(()), |going| warn(py, &going.ahead(), 2))?;
-        let target = (path.as_path(), self.case.own_file());
+        let target = (path.as_path(), file);
         py.detach(|| self.with_ending(|ending| write_run(target, &head, history, ending)))
             .map_err(|e| Problem::from(Failure::from(e)).into())
     }

@@ -132,6 +132,47 @@ def test_a_result_takes_the_place_of_none_of_another_kind(folder: Path) -> None:
         pounding.sweep(other, output=of_study).close()
 
 
+def test_results_of_other_cases_are_replaced_after_a_warning(folder: Path) -> None:
+    def made(title: str, mass: str) -> pounding.Result:
+        shed = pounding.Building("shed", mass=[mass], stiffness=["4 MN/m"], height="3 m", damping={"stiffness_proportional": 0.05})
+        motion = pounding.Motion([0.0, 1.0, -1.0, 0.0], 0.01)
+        return pounding.run(pounding.Case([shed], ground_motion=motion, title=title), isolated=False)
+
+    of_file = pounding.run(EXAMPLES / "three_storey_pair" / "case.toml")
+    shed, tower = made("shed", "25 t"), made("tower", "25 t")
+    output = folder / "result.h5"
+    for before, after, said in (
+        (of_file, shed, "the result of a run (.*case.toml)"),
+        (shed, of_file, "the result of a run that does not say of which case file it is"),
+        (shed, tower, "the result of a run of another case without a file"),
+        (shed, made("shed", "26 t"), "the result of a run of another case without a file"),
+    ):
+        output.unlink(missing_ok=True)
+        before.to_hdf5(output)
+        bytes_before = output.read_bytes()
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with pytest.raises(UserWarning, match=f"result.h5 will be replaced, {said}"):
+                after.to_hdf5(output)
+            assert output.read_bytes() == bytes_before
+            # The same again.
+            before.to_hdf5(output)
+        with pytest.warns(UserWarning, match=said):
+            after.to_hdf5(output)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        made("shed", "26 t").to_hdf5(output)
+
+
+def test_a_gap_check_says_what_it_was_warned_of(folder: Path) -> None:
+    el_centro = ROOT / "ground_motions" / "el_centro_1940_ns.csv"
+    copy = folder / "copy.csv"
+    copy.write_bytes(el_centro.read_bytes())
+    check = pounding.gap_check(EXAMPLES / "three_storey_pair" / "case.toml", [el_centro, copy])
+    assert any("the same motion" in warning for warning in check.warnings)
+    assert "the same motion" in check._repr_html_()
+
+
 def test_files_of_others_are_replaced_after_a_warning(folder: Path) -> None:
     study = small_study(folder)
     run = pounding.run(EXAMPLES / "three_storey_pair" / "case.toml")

@@ -39,6 +39,8 @@ pub struct Label {
     /// The case or study file, as seen from the folder in which the program was called; empty if
     /// it does not say so.
     pub file: String,
+    /// SHA-256 of the text of a case that was read from no file.
+    pub case_sha256: Option<String>,
     /// Of which study.
     pub study: Option<OfStudy>,
     /// Whether it has a label: another program that opens a file for writing takes it away, and early versions wrote none.
@@ -61,6 +63,11 @@ pub struct OfStudy {
 /// The label of the result of a run.
 pub(crate) fn of_run(file: &str) -> String {
     json!({"result": Kind::RUN, "file": file}).to_string()
+}
+
+/// The label of the result of a run whose case was read from no file, by the SHA-256 of its text.
+pub(crate) fn of_run_without_file(case_sha256: &str) -> String {
+    json!({"result": Kind::RUN, "file": "", "case_sha256": case_sha256}).to_string()
 }
 
 impl Label {
@@ -96,6 +103,7 @@ impl Label {
         Some(Self {
             kind,
             file: label["file"].as_str()?.to_owned(),
+            case_sha256: label["case_sha256"].as_str().map(str::to_owned),
             study: study(),
             is_labelled: true,
         })
@@ -127,6 +135,7 @@ fn unlabelled(path: &Path) -> Option<Label> {
     Some(Label {
         kind,
         file: String::new(),
+        case_sha256: None,
         study: None,
         is_labelled: false,
     })
@@ -142,6 +151,9 @@ mod tests {
         let run = Label::parse(&of_run("a/case.toml")).unwrap();
         assert_eq!(run.kind, Kind::Run);
         assert_eq!(run.file, "a/case.toml");
+        assert_eq!(run.case_sha256, None);
+        let made = Label::parse(&of_run_without_file("ab")).unwrap();
+        assert_eq!((&*made.file, made.case_sha256.as_deref()), ("", Some("ab")));
         let study = json!({
             "result": "study", "file": "s", "study_sha256": "1", "shards": "2-3", "of": 4,
             "build": "b", "text_sha256": "2",

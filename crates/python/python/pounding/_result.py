@@ -222,7 +222,8 @@ class Result:
 
     def to_hdf5(self, path: str | os.PathLike[str]) -> None:
         """Writes the result file, the same that ``pounding run`` writes. A ``UserWarning`` says before which
-        file it takes the place of, unless that is an earlier result of the same case.
+        file it takes the place of, unless that is an earlier result of the same case file, or of the same case
+        that was made in code.
 
         Raises
         ------

@@ -167,6 +167,8 @@ def sweep(
 class _Answered:
     """What is shown of an answer, whose numbers are many."""
 
+    answer: dict[str, Any]
+
     def _lines(self) -> list[str]:
         raise NotImplementedError
 
@@ -174,7 +176,8 @@ class _Answered:
         return f"<pounding.{type(self).__name__}: {'; '.join(self._lines())}>"
 
     def _repr_html_(self) -> str:
-        lines = "".join(f"<li>{html.escape(line)}</li>" for line in self._lines())
+        said = [*self._lines(), *self.answer.get("warnings", [])]
+        lines = "".join(f"<li>{html.escape(line)}</li>" for line in said)
         return f"<p><strong>{type(self).__name__}</strong></p><ul>{lines}</ul>"
 
 
@@ -298,6 +301,12 @@ class GapCheck(_Answered):
 
     def __bool__(self) -> bool:
         return self.adequate
+
+    @property
+    def warnings(self) -> list[str]:
+        """What the user should know of the records, the case and the answer: that two of the records are
+        the same motion, for instance, which then weighs as several."""
+        return list(self.answer["warnings"])
 
     @property
     def demand(self) -> pandas.DataFrame:

@@ -48,6 +48,14 @@ pub struct RunHead<'a> {
     pub accelerogram: &'a Accelerogram,
 }
 
+impl RunHead<'_> {
+    /// SHA-256 of the text of the case, by which the results of cases that were read from no file are told apart.
+    #[must_use]
+    pub fn case_sha256(&self) -> String {
+        checksum::hexadecimal(&Sha256::digest(self.case))
+    }
+}
+
 /// What is known of a run when it has ended.
 #[derive(Debug, Clone, Copy)]
 pub struct RunEnding<'a> {
@@ -133,7 +141,7 @@ impl<'a> RunWriter<'a> {
             path: path.to_owned(),
             file,
             tables,
-            label: label::of_run(""),
+            label: label::of_run_without_file(&head.case_sha256()),
             failure: None,
             part,
         })
@@ -228,8 +236,7 @@ fn begin(path: &Path, head: &RunHead<'_>) -> Result<(hdf5::File, Tables)> {
 fn begin_in(file: &hdf5::File, head: &RunHead<'_>) -> Result<Tables> {
     attributes::head(file, head.title, head.version, head.build)?;
     text(file, "case", head.case)?;
-    let case_sha256 = checksum::hexadecimal(&Sha256::digest(head.case));
-    text(file, "case_sha256", &case_sha256)?;
+    text(file, "case_sha256", &head.case_sha256())?;
     let origin = head.accelerogram.origin();
     text(
         file,

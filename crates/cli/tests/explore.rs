@@ -541,6 +541,43 @@ fn page_shows_the_governing_level() {
     );
 }
 
+/// Widths that are asked for suffice as they are shown, at the last of four digits, also where that is a zero: the snap-back
+/// of a demand of 61.8034 mm, and one that lies 2 micrometres below what is provided.
+#[test]
+fn page_rounds_demands_up_at_their_last_digit() {
+    let folder = root().join("examples/snap_back");
+    let case = std::fs::read_to_string(folder.join("case.toml")).unwrap();
+    let case = case.replace("at_rest.csv", folder.join("at_rest.csv").to_str().unwrap());
+    let digits = "JSON.stringify([20.002, 90.003, 99.003, 100.02, 999.02, 61.8034, 117.2, 0.00012344].map((x) => elements.shownAtLeast(x)))";
+    let beside = "JSON.stringify([[20.002, 20.004], [20.004, 20.002], [61.8034, 80], [NaN, 20], [20, 20]].map((two) => elements.shownBeside(...two)))";
+    let demand = "document.querySelector('[data-result=demand]').parentElement.textContent";
+    let Some(told) = asked_of_page(&case, &[digits, beside, demand]) else {
+        return;
+    };
+    let list = |value: &Value| serde_json::from_str::<Value>(value.as_str().unwrap()).unwrap();
+    assert_eq!(
+        list(&told[0]),
+        json!([
+            "20.01", "90.01", "99.01", "100.1", "999.1", "61.81", "117.2", "1.235e-4"
+        ])
+    );
+    assert_eq!(
+        list(&told[1]),
+        json!([
+            ["20.002", "20.004"],
+            ["20.01", "20"],
+            ["61.81", "80"],
+            ["\u{2013}", "20"],
+            ["20", "20"]
+        ])
+    );
+    assert!(
+        told[2].as_str().unwrap().contains("61.81 mm"),
+        "{}",
+        told[2]
+    );
+}
+
 /// Where velocities jump the page says once that accelerations leave the jumps out, in the words of
 /// the page of `run`, and shows no force of impacts: that of floors that stay in touch is none.
 #[test]

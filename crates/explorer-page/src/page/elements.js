@@ -27,11 +27,20 @@ const elements = (() => {
     if (size !== 0 && (size < 1e-3 || size >= 1e7)) return x.toExponential(digits - 1).replace("e+", "e");
     return String(rounded);
   };
-  // A width that is asked for, so that it suffices as it is shown.
-  const shownAtLeast = (x) => {
-    const text = shown(x);
-    const step = 10 ** -(text.split(".")[1] || "").length;
-    return Number(text) >= x * (1 - 1e-9) ? text : shown(Number(text) + step);
+  // A width that is asked for, so that it suffices as it is shown: rounded up at the last of its digits, also where that is
+  // a zero, which is not shown.
+  const shownAtLeast = (x, digits = 4) => {
+    const text = shown(x, digits);
+    if (!(x > 0) || Number(text) >= x * (1 - 1e-9)) return text;
+    const last = Math.floor(Math.log10(x)) + 1 - digits;
+    return shown(Number(text) + 10 ** (x < 1e7 ? Math.min(0, last) : last), digits);
+  };
+  // The same beside the width that is provided, both with as many digits as tell which is the larger.
+  const shownBeside = (required, provided) => {
+    const texts = (digits) => [shownAtLeast(required, digits), shown(provided, digits)];
+    const suffices = ([most, width]) => Number(most) <= Number(width);
+    const digits = [4, 5, 6, 7, 8, 9, 10].find((digits) => suffices(texts(digits)) === required <= provided);
+    return texts(digits ?? 11);
   };
   // A ratio with two decimals, as pages of results have it.
   const ratio = (x) => (!Number.isFinite(x) ? "–" : x >= 1e4 ? x.toExponential(1).replace("e+", "e") : x.toFixed(2));
@@ -75,5 +84,5 @@ const elements = (() => {
     link.remove();
     setTimeout(() => URL.revokeObjectURL(address), 60000);
   };
-  return { part, html, svg, shown, shownAtLeast, ratio, quoted, counted, clean, ticks, more, save };
+  return { part, html, svg, shown, shownAtLeast, shownBeside, ratio, quoted, counted, clean, ticks, more, save };
 })();

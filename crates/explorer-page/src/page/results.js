@@ -1,7 +1,7 @@
 "use strict";
 // The answer of the run: in numbers, storey by storey, and its impacts over time.
 const resultsOf = (documentation) => {
-  const { part, html, svg, shown, shownAtLeast, ratio, quoted, counted, ticks, more } = elements;
+  const { part, html, svg, shown, shownBeside, ratio, quoted, counted, ticks, more } = elements;
   const GAP_CHECK = "reference/gap-check.md";
   const RESULT = "reference/result-file.md";
   const most = (values) => values.reduce((m, x) => (x > m ? x : m), 0);
@@ -28,9 +28,9 @@ const resultsOf = (documentation) => {
   };
 
   // What a gap demands; a building that collapses without contact leaves that unknown.
-  const demandOf = (demand, name, where) => {
+  const demandOf = (demand, shown, name, where) => {
     const known = Number.isFinite(demand);
-    const text = known ? `${shownAtLeast(1e3 * demand)} mm` : "not known";
+    const text = known ? `${shown} mm` : "not known";
     const means = known
       ? `the width that the buildings without contact would just not close${where}`
       : "without contact a building collapses, or cannot be followed to the end";
@@ -50,9 +50,10 @@ const resultsOf = (documentation) => {
     const widthOf = differ(levels) ? `the width at rest of level ${level}; those of the others are below` : "the width of the gap at rest";
     const force = most(levels.map((level) => level.peak_force.peak ?? NaN));
     const impacts = levels.reduce((sum, level) => sum + level.impacts, 0);
+    const [demanded, provided] = shownBeside(1e3 * demand, 1e3 * width);
     return [
-      demandOf(demand, name, where),
-      ["width", `Provided width${name}`, `${shown(1e3 * width)} mm`, widthOf, "reference/case-file.md"],
+      demandOf(demand, demanded, name, where),
+      ["width", `Provided width${name}`, `${provided} mm`, widthOf, "reference/case-file.md"],
       ["impacts", "Impacts", String(impacts), "how often floors came into contact, at all levels", RESULT],
       forceOf(force, run.jumps[index] !== null, impacts),
     ];
@@ -67,7 +68,7 @@ const resultsOf = (documentation) => {
         "tr",
         {},
         html("th", { scope: "row" }, run.levels[index][i]),
-        ...[shown(1e3 * level.width), shownAtLeast(1e3 * (run.demand[index][i].peak ?? NaN)), String(level.impacts)].map((text) => html("td", {}, text)),
+        ...[...shownBeside(1e3 * (run.demand[index][i].peak ?? NaN), 1e3 * level.width).reverse(), String(level.impacts)].map((text) => html("td", {}, text)),
       ),
     );
     const table = html("table", {}, html("thead", {}, html("tr", {}, ...head)), html("tbody", {}, ...rows));

@@ -408,9 +408,10 @@ impl StationFile {
         let input = unit_name(&whole, "InputUnits").unwrap_or_default();
         let stated = unit_name(&whole, "OutputUnits").unwrap_or_default();
         // Some networks write "None" there; what the last stage gives is what the chain gives.
-        let of_stages = Some(())
-            .filter(|()| stated.is_empty() || stated.eq_ignore_ascii_case("none"))
-            .and_then(|()| output_of_stages(channel));
+        let of_stages = match stated.is_empty() || stated.eq_ignore_ascii_case("none") {
+            true => output_of_stages(channel),
+            false => None,
+        };
         let output = of_stages.as_ref().unwrap_or(&stated);
         let unit = SeriesUnit::parse(&input).ok_or_else(|| {
             let message = format!(

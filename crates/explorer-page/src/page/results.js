@@ -28,9 +28,9 @@ const resultsOf = (documentation) => {
   };
 
   // What a gap demands; a building that collapses without contact leaves that unknown.
-  const demandOf = (demand, shown, name, where) => {
+  const demandOf = (demand, millimetres, name, where) => {
     const known = Number.isFinite(demand);
-    const text = known ? `${shown} mm` : "not known";
+    const text = known ? `${millimetres} mm` : "not known";
     const means = known
       ? `the width that the buildings without contact would just not close${where}`
       : "without contact a building collapses, or cannot be followed to the end";

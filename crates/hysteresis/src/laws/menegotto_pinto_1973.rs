@@ -96,9 +96,8 @@ fn build(parameters: &LawParameters) -> Result<Box<dyn HysteresisLaw>, Hysteresi
     }))
 }
 
-/// Least R after large excursions. With R0 from 1.05 to 20 and hardening ratios of 0 and 0.05 all full cycles dissipate where
-/// it is 0.25 and more, at amplitudes of 1.5 to 50 times the deformation at yield and a fifth of those after them; at 0.225
-/// and below some give back more than they took.
+/// Least R after large excursions: a margin above where cycles create energy, of which the descriptor tells. Measured with R0
+/// from 1.05 to 20 and hardening ratios of 0 and 0.05.
 const LEAST_CURVATURE: f64 = 0.3;
 
 /// `R ln s` from which the binomial series serves at the least: there each of its terms is

@@ -286,15 +286,7 @@ fn damp(
     name: &str,
 ) -> Result<(), String> {
     if reference.restitution >= 1.0 {
-        calibrated.parameters.values.insert(name.to_owned(), 0.0);
-        let model = registry::build(calibrated.descriptor.name, &calibrated.parameters)
-            .map_err(|e| e.to_string())?;
-        calibrated.free_restitution =
-            achieved(model.as_ref(), reference).map_err(|e| e.to_string())?;
-        calibrated.model = model.into();
-        let note = format!("{name} = 0, so that the reference collision returns 1");
-        calibrated.notes.push(note);
-        return Ok(());
+        return undamped(calibrated, reference, name);
     }
     let example = calibrated.descriptor.example.iter();
     let example = example.filter(|(known, _)| *known == name);
@@ -304,6 +296,28 @@ fn damp(
         let wide = (1.0e-12 * about, 1.0e6 * about);
         solve(calibrated, reference, name, wide).map_err(|_| reason)
     })
+}
+
+/// Takes the damping of a model that is to lose nothing.
+fn undamped(
+    calibrated: &mut CalibratedModel,
+    reference: &ReferenceCollision,
+    name: &str,
+) -> Result<(), String> {
+    calibrated.parameters.values.insert(name.to_owned(), 0.0);
+    let model = registry::build(calibrated.descriptor.name, &calibrated.parameters)
+        .map_err(|e| e.to_string())?;
+    let returned = achieved(model.as_ref(), reference).map_err(|e| e.to_string())?;
+    if (returned - 1.0).abs() > ELASTIC {
+        return Err(format!(
+            "no {name} returns 1: the reference collision returns {returned:.4} with {name} = 0"
+        ));
+    }
+    calibrated.free_restitution = returned;
+    calibrated.model = model.into();
+    let note = format!("{name} = 0, so that the reference collision returns 1");
+    calibrated.notes.push(note);
+    Ok(())
 }
 
 /// Makes the reference collision return what is wanted: by asking for another
@@ -319,6 +333,9 @@ fn exactly(calibrated: &mut CalibratedModel, reference: &ReferenceCollision) -> 
     };
     for replaced in ["restitution", "alpha"] {
         calibrated.parameters.values.remove(replaced);
+    }
+    if reference.restitution >= 1.0 {
+        return undamped(calibrated, reference, raw).map_err(|other| format!("{reason}; {other}"));
     }
     let maximum = if raw == "friction" { 0.999 } else { 1.0e3 };
     solve(calibrated, reference, raw, (1.0e-6, maximum))
@@ -415,6 +432,26 @@ mod tests {
             let collided = collision(exact.model.as_ref(), &from).unwrap();
             assert!((collided.restitution - 0.65).abs() < 1.0e-6, "{name}");
         }
+    }
+
+    /// Where the relation never leads to an elastic collision, the damping is left out.
+    #[test]
+    fn nothing_is_lost_without_damping() {
+        let from = ReferenceCollision {
+            restitution: 1.0,
+            ..reference(1.5, 2.75e9)
+        };
+        let rules = (StiffnessRule::Penetration, RestitutionRule::Exact);
+        let descriptor = registry::find("gharib_hurmuzlu_2012").unwrap();
+        let elastic = calibrated(descriptor, &from, rules).unwrap();
+        assert_eq!(elastic.parameters.values["damping_factor"], 0.0);
+        assert!(!elastic.parameters.values.contains_key("restitution"));
+        let collided = collision(elastic.model.as_ref(), &from).unwrap();
+        assert!((collided.restitution - 1.0).abs() < 1.0e-9);
+        // Its friction is not all that it loses by.
+        let descriptor = registry::find("lapshin_yurin_2016").unwrap();
+        let refused = calibrated(descriptor, &from, rules).unwrap_err();
+        assert!(refused.contains("no friction returns 1"), "{refused}");
     }
 
     /// Every model of the registry returns exactly what is asked for, but those without

@@ -15,6 +15,9 @@ pub enum Holds {
     ByRecord,
     /// It depends on the model.
     ByModel,
+    /// No model can say it under any record: rigid impacts have no accelerations, and models that did not run
+    /// under every record say nothing.
+    Unknown,
 }
 
 impl Holds {
@@ -26,6 +29,7 @@ impl Holds {
             Self::Never => "fails for all models",
             Self::ByRecord => "depends on the record, not on the model",
             Self::ByModel => "depends on the model",
+            Self::Unknown => "no model can say",
         }
     }
 }
@@ -217,7 +221,9 @@ fn judged(comparison: &Comparison, holds_for: impl Fn(usize, usize) -> Option<bo
 
 fn holds(counts: &[(usize, usize)]) -> Holds {
     let split = |&(yes, all): &(usize, usize)| yes > 0 && yes < all;
-    if counts.iter().any(split) {
+    if counts.iter().all(|(_, all)| *all == 0) {
+        Holds::Unknown
+    } else if counts.iter().any(split) {
         Holds::ByModel
     } else if counts.iter().all(|(yes, all)| yes == all) {
         Holds::Always
@@ -238,5 +244,7 @@ mod tests {
         assert_eq!(holds(&[(0, 3), (0, 3)]), Holds::Never);
         assert_eq!(holds(&[(0, 3), (3, 3)]), Holds::ByRecord);
         assert_eq!(holds(&[(3, 3), (2, 3)]), Holds::ByModel);
+        assert_eq!(holds(&[(0, 0), (0, 0)]), Holds::Unknown);
+        assert_eq!(holds(&[(0, 0), (3, 3)]), Holds::Always);
     }
 }

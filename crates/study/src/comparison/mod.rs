@@ -447,17 +447,18 @@ impl Comparison {
     }
 
     /// Records under which none of these models closes a gap: its contacts have no force
-    /// there, and spreads and rankings leave it out.
+    /// there, and spreads and rankings leave it out. None where no model ran under every record.
     #[must_use]
     pub fn records_without_contact(&self, gap: usize) -> Vec<usize> {
         let records = 0..self.records.len();
-        records
-            .filter(|r| self.models_in_contact(gap, *r) == 0)
-            .collect()
+        let without = |r: &usize| self.models_in_contact(gap, *r) == 0;
+        let none = self.complete().is_empty();
+        records.filter(|r| !none && without(r)).collect()
     }
 
     /// Records under which no contact reaches a building with any of these models: its peaks are
-    /// those without pounding there, and the spread between models and the ranking leave it out.
+    /// those without pounding there, and the spread between models and the ranking leave it out. None where no model
+    /// ran under every record.
     #[must_use]
     pub fn records_not_reaching(&self, building: usize) -> Vec<usize> {
         let reached = |record: &usize| {
@@ -465,7 +466,8 @@ impl Comparison {
             gaps.any(|gap| self.models_in_contact(*gap, *record) > 0)
         };
         let records = 0..self.records.len();
-        records.filter(|r| !reached(r)).collect()
+        let none = self.complete().is_empty();
+        records.filter(|r| !none && !reached(r)).collect()
     }
 
     fn sum_up(&mut self) {

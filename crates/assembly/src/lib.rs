@@ -34,9 +34,9 @@ mod used_parameters;
 pub use assemble::{
     Assembly, RecordFiles, assemble, assemble_at_rest, assemble_sharing,
     assemble_under_another_record, assemble_with_record, assemble_without_gaps, further_record,
-    methods_that_take, nothing_to_move_across, parameters_of_gap, parameters_of_link,
-    parameters_of_storeys, process_record, read_record, read_target, regap, scale_record,
-    scale_target,
+    methods_that_take, nothing_to_move_across, parameters_of_frames, parameters_of_gap,
+    parameters_of_link, parameters_of_storeys, process_record, read_record, read_target, regap,
+    scale_record, scale_target,
 };
 pub use dimension::{parameter_dimension, unknown_parameter};
 pub use error::{AssemblyError, place_of};

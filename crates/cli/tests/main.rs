@@ -19,6 +19,7 @@ mod explore_input;
 mod files;
 mod floor_spectra;
 mod foundations;
+mod frames_in_plan;
 mod gap;
 mod hysteresis;
 mod impact;

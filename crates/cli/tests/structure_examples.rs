@@ -164,6 +164,29 @@ fn pair_that_turns() {
     }
 }
 
+/// Frames of the low building yield, each by its own law, by both methods.
+#[test]
+fn yielding_pair_that_turns() {
+    for adaptive in [false, true] {
+        let result = run("yielding_pair_that_turns", adaptive);
+        let levels = result["gaps"][0]["levels"].as_array().unwrap();
+        let impacts: Vec<u64> = levels
+            .iter()
+            .map(|l| l["impacts"].as_u64().unwrap())
+            .collect();
+        assert_eq!(impacts, [1, 1, 1, 7]);
+        close(&levels[3]["peak_force"]["peak"], 9.376e5, 1e-3);
+        let frames = result["buildings"][0]["frames"].as_array().unwrap();
+        let ductilities = [2.6663, 2.9340, 3.1790];
+        for (frame, ductility) in frames.iter().zip(ductilities) {
+            assert_eq!(frame["storey"], 1);
+            close(&frame["ductility"]["peak"], ductility, 1e-3);
+        }
+        close(&frames[0]["residual_deformation"], -0.019_396, 1e-3);
+        close(&frames[1]["residual_deformation"], -0.015_655, 1e-3);
+    }
+}
+
 /// Forces on floors, by both methods; their histories and those of different ground motions are
 /// in the result file, and are said.
 #[test]

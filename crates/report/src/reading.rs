@@ -9,8 +9,9 @@ use pounding_results::{ResultFile, number, read_all, text, texts, value, values}
 
 use crate::error::ReportError;
 use crate::result::{
-    BaseMoment, BuildingResult, EnergyHistory, GapResult, ImpactResult, IsolatorResult,
-    LevelResponses, LevelResult, LinkResult, NamedResponse, RunResult, StoreyPeaks, Table,
+    BaseMoment, BuildingResult, EnergyHistory, FrameResult, GapResult, ImpactResult,
+    IsolatorResult, LevelResponses, LevelResult, LinkResult, NamedResponse, RunResult, StoreyPeaks,
+    Table,
 };
 
 type Outcome<T> = Result<T, ReportError>;
@@ -158,7 +159,7 @@ impl Reader {
             .map_err(self.failed(&format!("{}/{name}", parent.name())))
     }
 
-    fn column(&self, parent: &Group, name: &str) -> Outcome<Vec<f64>> {
+    fn column<T: H5Type>(&self, parent: &Group, name: &str) -> Outcome<Vec<T>> {
         values(parent, name).map_err(self.failed(&format!("{}/{name}", parent.name())))
     }
 
@@ -228,6 +229,7 @@ impl Reader {
             responses: self.responses(&peaks)?,
             isolator: self.isolator(group)?,
             ductility: ductility.transpose()?,
+            frames: self.frames(group)?,
             period: self.column(group, "period")?,
             damping_ratio: self.column(group, "damping_ratio")?,
         };
@@ -258,6 +260,40 @@ impl Reader {
     }
 
     /// The isolators, of a building that has some.
+    fn frames(&self, building: &Group) -> Outcome<Vec<FrameResult>> {
+        if !building.link_exists("frames") {
+            return Ok(Vec::new());
+        }
+        let group = self.group(building, "frames")?;
+        let (directions, laws) = (self.text(&group, "directions")?, self.text(&group, "laws")?);
+        let (at, storeys) = (
+            self.column::<f64>(&group, "at")?,
+            self.column::<i32>(&group, "storey")?,
+        );
+        let peaks = self.group(&group, "peak")?;
+        let peak = |name: &str| self.column::<f64>(&peaks, name);
+        let (force, force_time) = (peak("force")?, peak("force_time")?);
+        let (deformation, ductility) = (peak("deformation")?, peak("ductility")?);
+        let residual = peak("residual_deformation")?;
+        let words = directions.split(' ').zip(laws.split(' '));
+        let made = words.enumerate().map(|(i, (direction, law))| {
+            Some(FrameResult {
+                direction: direction.to_owned(),
+                at: *at.get(i)?,
+                storey: usize::try_from(*storeys.get(i)?).ok()?,
+                law: law.to_owned(),
+                force: *force.get(i)?,
+                force_time: *force_time.get(i)?,
+                deformation: *deformation.get(i)?,
+                ductility: *ductility.get(i)?,
+                residual_deformation: *residual.get(i)?,
+            })
+        });
+        let made: Option<Vec<_>> = made.collect();
+        made.filter(|frames| frames.len() == at.len())
+            .ok_or_else(|| self.failed(&group.name())("lists of different lengths".into()))
+    }
+
     fn isolator(&self, building: &Group) -> Outcome<Option<IsolatorResult>> {
         if !building.link_exists("isolator") {
             return Ok(None);

@@ -58,6 +58,29 @@ pub struct NamedResponse {
     pub isolated: f64,
 }
 
+/// A frame with a law in one storey of a building that turns in plan.
+#[derive(Debug, Clone, PartialEq)]
+pub struct FrameResult {
+    /// `along` the row or `across` it.
+    pub direction: String,
+    /// Distance from the mass centre (m).
+    pub at: f64,
+    /// Storey, from 1.
+    pub storey: usize,
+    /// Name of the law.
+    pub law: String,
+    /// Maximum force (N).
+    pub force: f64,
+    /// When (s).
+    pub force_time: f64,
+    /// Maximum deformation (m).
+    pub deformation: f64,
+    /// Maximum deformation over that at first yield (-); NaN without a yield force.
+    pub ductility: f64,
+    /// Deformation at the end less what elastic unloading gives back (m).
+    pub residual_deformation: f64,
+}
+
 /// Peaks of a response of the levels of a gap.
 #[derive(Debug, Clone, PartialEq)]
 pub struct LevelResponses {
@@ -121,6 +144,8 @@ pub struct BuildingResult {
     pub isolator: Option<IsolatorResult>,
     /// Ductility of every storey (-), where any has a law; NaN where there is no yield force.
     pub ductility: Option<Vec<f64>>,
+    /// Frames that follow laws, one entry a frame and storey.
+    pub frames: Vec<FrameResult>,
     /// Natural periods (s).
     pub period: Vec<f64>,
     /// Modal damping ratios (-).

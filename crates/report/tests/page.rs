@@ -59,6 +59,7 @@ fn result() -> RunResult {
         isolator: None,
         base_moment: None,
         responses: Vec::new(),
+        frames: Vec::new(),
         ductility: None,
         period: vec![0.61, 0.2],
         damping_ratio: vec![0.05, 0.05],

@@ -26,6 +26,7 @@ mod storey_law;
 mod tridiagonal;
 mod tridiagonal_eigen;
 mod undamped;
+mod yielding_frame;
 
 pub use building::{
     ContactLine, MAXIMUM_STOREYS, OVERTURNING_RATIO, OnFoundation, ShearBuilding, UPLIFT_BEGINS,
@@ -53,6 +54,7 @@ pub use names::{NAMES, NameError, NameFault, WALL, check_names, is_name};
 pub use stiffness::StiffnessMatrix;
 pub use storey_law::StoreyLaw;
 pub use tridiagonal::{SymmetricTridiagonal, TridiagonalFactor};
+pub use yielding_frame::{FrameDirection, YieldingFrame};
 
 /// The crate whose matrices and vectors this one takes and gives, of the version that they are of.
 pub use nalgebra;

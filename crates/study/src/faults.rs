@@ -12,7 +12,7 @@ use pounding_assembly::{
 };
 use pounding_case::{
     Analysis, Building, BuildingPlaces, Case, CaseError, Damping, Draft, GivenFiles, Located,
-    Parameter, Quantity,
+    Parameter, Plan, Quantity,
 };
 use pounding_gap_element::registry;
 use pounding_ground_motion::GroundMotionError;
@@ -221,7 +221,7 @@ fn words(draft: &Draft) -> Vec<CaseError> {
 /// does not matter then.
 fn is_unknown(case: &Case, error: &CaseError) -> bool {
     let at = |name: &Located<String>| name.span == error.span;
-    let laws = case.buildings.iter().flat_map(|b| &b.laws);
+    let laws = case.buildings.iter().flat_map(Building::all_laws);
     let mut laws = laws
         .map(|l| &l.model)
         .chain(case.links.iter().map(|l| &l.model));
@@ -287,6 +287,10 @@ fn floors(case: &Case) -> Vec<CaseError> {
     };
     for building in &mut base.buildings {
         building.laws.clear();
+        let plan = building.plan.as_mut().map(|plan| &mut plan.value);
+        for frame in plan.into_iter().flat_map(Plan::frames_mut) {
+            frame.laws.clear();
+        }
     }
     let mut gaps = std::mem::take(&mut base.gaps);
     gaps.retain(|gap| !gap.levels.is_empty());

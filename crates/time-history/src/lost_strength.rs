@@ -1,4 +1,4 @@
-//! Storeys and links that lose all their strength.
+//! Storeys, frames and links that lose all their strength.
 
 use pounding_shear_building::ShearBuilding;
 
@@ -25,7 +25,7 @@ fn may_be_lost(building: &ShearBuilding) -> Option<Warning> {
         })
 }
 
-/// The first storey of each building, and all links, that lost their strength.
+/// The first storey of each building, and all frames and links, that lost their strength.
 pub(crate) fn after(system: &System, lost: &[Option<f64>]) -> Vec<Warning> {
     let mut told: Vec<(f64, Option<usize>, Warning)> = Vec::new();
     for (index, (element, lost)) in system.elements().iter().zip(lost).enumerate() {
@@ -36,6 +36,12 @@ pub(crate) fn after(system: &System, lost: &[Option<f64>]) -> Vec<Warning> {
                 let place = format!("{}, storey {}", own.name(), storey + 1);
                 let stands = own.geometric_stiffness()[storey] == 0.0;
                 (place, Some(building), stands)
+            }
+            ElementPlace::Frame { building, frame } => {
+                let own = &system.buildings()[building];
+                let place = format!("{}, {}", own.name(), own.yielding_frames()[frame]);
+                // Other frames of the storey may hold it.
+                (place, None, false)
             }
             ElementPlace::Link { .. } => (system.place_of_element(index), None, false),
         };

@@ -37,8 +37,13 @@ pub struct BuildingOutcome {
     /// Responses with names of the building ([`pounding_shear_building::ShearBuilding::responses`]).
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
     pub responses: Vec<NamedPeak>,
-    /// What storeys with a law went through, from the bottom; `None` for the others.
+    /// What storeys with a law went through, from the bottom; `None` for the others. Of a building that turns in
+    /// plan what its frames with a law did, taken together as [`YieldingStorey`] says.
     pub yielding: Vec<Option<YieldingStorey>>,
+    /// What frames with a law went through, of a building that turns in plan: in the order of
+    /// [`pounding_shear_building::ShearBuilding::yielding_frames`].
+    #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Vec::is_empty"))]
+    pub frames: Vec<FrameOutcome>,
     /// What the isolators under the building went through; `None` for one without.
     #[cfg_attr(feature = "serde", serde(skip_serializing_if = "Option::is_none"))]
     pub isolator: Option<IsolatorOutcome>,
@@ -110,6 +115,21 @@ impl BuildingOutcome {
 }
 
 impl YieldingStorey {
+    /// Several frames of one storey, as the storey tells of them.
+    pub(crate) fn beside(self, other: &Self) -> Self {
+        let of = |storey: &Self| storey.ductility.map_or(0.0, |d| d.value);
+        let governs = if of(other) > of(&self) { other } else { &self };
+        let residual = [self.residual_drift_ratio, other.residual_drift_ratio];
+        let by_magnitude = |a: &f64, b: &f64| a.abs().total_cmp(&b.abs());
+        Self {
+            law: governs.law,
+            ductility: governs.ductility,
+            residual_drift_ratio: residual.into_iter().max_by(by_magnitude).unwrap_or(0.0),
+            hysteretic_energy: self.hysteretic_energy + other.hysteretic_energy,
+            strength_lost: None,
+        }
+    }
+
     /// Whether a law that does not depend on the velocity dissipated more than round-off
     /// makes of the work of the maximum shear.
     fn dissipates_without_velocity(&self, peaks: &StoreyPeaks) -> bool {
@@ -120,7 +140,36 @@ impl YieldingStorey {
     }
 }
 
-/// What a storey with a law went through.
+/// What a frame with a law went through in one storey of a building that turns in plan.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize))]
+#[non_exhaustive]
+pub struct FrameOutcome {
+    /// Direction in which it resists motion: `along` the row of buildings, or `across` it.
+    pub direction: &'static str,
+    /// Distance from the mass centre (m).
+    pub at: f64,
+    /// Storey, from 1.
+    pub storey: usize,
+    /// Name of the law.
+    pub law: &'static str,
+    /// Maximum deformation between both floors (m).
+    pub deformation: Peak,
+    /// Maximum force (N).
+    pub force: Peak,
+    /// Maximum deformation over that at first yield (-), with its time; `None` for a law without a yield force.
+    pub ductility: Option<Peak>,
+    /// Deformation at the end of the run less what unloading by the initial stiffness gives back (m), signed.
+    pub residual_deformation: f64,
+    /// Energy dissipated by the law (J).
+    pub hysteretic_energy: f64,
+    /// When it lost all its strength (s), to bear no force for the rest of the run.
+    pub strength_lost: Option<f64>,
+}
+
+/// What a storey with a law went through. Where frames of a building that turns in plan have laws: the law and the
+/// ductility of the frame with the greatest one, the residual drift of that with the greatest one in magnitude, the
+/// energy of all of them, and no loss of strength, which [`BuildingOutcome::frames`] tells of each.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize))]
 #[non_exhaustive]

@@ -205,7 +205,8 @@ fn append_elements(
                 rows.base_moment[moment + system.base_moments_before(building)] += sum;
             }
             SectionPlace::Named(number) => rows.response[response + number] += sum,
-            SectionPlace::StoreyShear(_) | SectionPlace::Drift(_) => {}
+            SectionPlace::StoreyShear(floor) => rows.storey_shear[shear + floor] += sum,
+            SectionPlace::Drift(_) => {}
         }
     }
 }

@@ -4,8 +4,8 @@ use pounding_gap_element::Verification;
 use serde::Serialize;
 
 use crate::outcome::{
-    IsolatorOutcome, Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome, Statistics,
-    StoreyPeaks, YieldingStorey,
+    FrameOutcome, IsolatorOutcome, Ledger, LevelOutcome, LinkLevelOutcome, NamedPeak, Outcome,
+    Statistics, StoreyPeaks, YieldingStorey,
 };
 use crate::peak::Peak;
 use crate::system::{FloorForce, LevelPlace, LinkedMotion, System};
@@ -39,6 +39,8 @@ struct Building<'a> {
     #[serde(skip_serializing_if = "<[_]>::is_empty")]
     responses: &'a [NamedPeak],
     yielding: &'a [Option<YieldingStorey>],
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    frames: &'a [FrameOutcome],
     #[serde(skip_serializing_if = "Option::is_none")]
     isolator: Option<IsolatorOutcome>,
     /// Time (s) by which the ground moves later than the first motion.
@@ -124,6 +126,7 @@ impl<'a> Summary<'a> {
             base_moment: with.base_moment,
             responses: &with.responses,
             yielding: &with.yielding,
+            frames: &with.frames,
             isolator: with.isolator,
             isolated: &without.storeys,
             isolated_base_moment: without.base_moment,

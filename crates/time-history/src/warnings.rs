@@ -51,13 +51,18 @@ fn small_mass(building: &ShearBuilding, period: f64) -> Option<Warning> {
     })
 }
 
-/// The warning of a building by the storey that yields at the smallest part of its height.
+/// The warning of a building by the storey that yields, or a frame in which does, at the smallest part of its height.
 fn small_yield_drift(building: &ShearBuilding) -> Option<Warning> {
     // Isolators and dampers slide from the start, and their height means nothing.
     let first = usize::from(building.isolator().is_some());
-    let storeys = building.laws().iter().zip(building.height()).enumerate();
-    let drifts = storeys.skip(first).filter_map(|(i, (law, height))| {
-        let drift = law.as_ref()?.yield_drift?;
+    let storeys = building.laws().iter().enumerate().skip(first);
+    let storeys = storeys.filter_map(|(i, law)| Some((i, law.as_ref()?)));
+    let frames = building
+        .yielding_frames()
+        .iter()
+        .map(|f| (f.storey, &f.law));
+    let drifts = storeys.chain(frames).filter_map(|(i, law)| {
+        let (drift, height) = (law.yield_drift?, &building.height()[i]);
         (drift > 0.0 && drift < YIELD_DRIFT_RATIO * height).then_some((i, drift, *height))
     });
     let smallest = drifts.min_by(|a, b| (a.1 / a.2).total_cmp(&(b.1 / b.2)));

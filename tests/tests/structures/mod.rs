@@ -16,3 +16,4 @@ mod motions;
 mod reference;
 mod rigid_beside_dampers;
 mod torsion;
+mod yielding_frames;

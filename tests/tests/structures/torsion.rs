@@ -62,12 +62,12 @@ across = { file = "data/structures/synthetic.csv", scale = 0.7 }
 duration = 20
 "#;
 
-fn assembled(text: &str) -> Assembly {
+pub fn assembled(text: &str) -> Assembly {
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("pair.toml");
     assemble(&Case::parse(text, &file).unwrap()).unwrap()
 }
 
-fn go(assembly: &Assembly, method: Option<MethodChoice>) -> Outcome {
+pub fn go(assembly: &Assembly, method: Option<MethodChoice>) -> Outcome {
     let options = RunOptions {
         method: method.unwrap_or(assembly.options.method),
         ..assembly.options

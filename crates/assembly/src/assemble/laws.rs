@@ -27,27 +27,42 @@ pub(super) fn with_storey_laws(
         return Ok(building);
     };
     let mut laws = building.laws().to_vec();
+    let of = format!("\"{}\"", building.name());
+    for (storey, law) in of_storeys(case, &b.laws, (building.stiffness(), &of))? {
+        laws[storey] = Some(law);
+    }
+    building
+        .with_laws(laws)
+        .map_err(|e| case.error(first.model.span.clone(), e.to_string(), e.help()))
+}
+
+/// Laws in the place of these stiffnesses (N/m) of storeys, of a building or of a frame with this name in messages:
+/// the number of the storey, from zero, and its law.
+pub(super) fn of_storeys(
+    case: &Case,
+    laws: &[pounding_case::StoreyLaw],
+    (stiffness, of): (&[f64], &str),
+) -> Result<Vec<(usize, StoreyLaw)>, CaseError> {
+    let mut all = Vec::new();
     let errors = Errors::default();
-    let read = errors.all(b.laws.iter().map(|law| {
+    let read = errors.all(laws.iter().map(|law| {
         let descriptor = descriptor(case, &law.model)?;
         carries_a_storey(case, &law.model, descriptor)?;
         let own = descriptor.parameters.iter().any(|p| p.name == "stiffness");
         for (place, storey) in law.storeys.iter().enumerate() {
             let mut values = parameters(case, descriptor, &law.parameters, place, |d| d)?;
+            let stated = stiffness[*storey];
             if own && !values.values.contains_key("stiffness") {
-                let stiffness = building.stiffness()[*storey];
-                values.values.insert("stiffness".to_owned(), stiffness);
+                values.values.insert("stiffness".to_owned(), stated);
             }
             let built = built(case, &law.model, descriptor, &values)?;
-            check_stiffness(case, &building, (*storey, &law.model), &built)?;
-            laws[*storey] = Some(built);
+            check_stiffness(case, (*storey, stated, of), &law.model, &built)?;
+            all.push((*storey, built));
         }
         Ok(())
     }));
     errors.finish(read)?;
-    building
-        .with_laws(laws)
-        .map_err(|e| case.error(first.model.span.clone(), e.to_string(), e.help()))
+    Ok(all)
 }
 
 /// Refuses what serves as a link alone.
@@ -72,21 +87,20 @@ fn carries_a_storey(
 /// Modes and damping belong to the stiffness of the storey: the law must start with it.
 fn check_stiffness(
     case: &Case,
-    building: &ShearBuilding,
-    (storey, model): (usize, &Located<String>),
+    (storey, stated, of): (usize, f64, &str),
+    model: &Located<String>,
     built: &StoreyLaw,
 ) -> Result<(), CaseError> {
-    let (initial, stated) = (built.law.initial_stiffness(), building.stiffness()[storey]);
+    let initial = built.law.initial_stiffness();
     if (initial - stated).abs() <= 1.0e-6 * stated {
         return Ok(());
     }
     Err(case.error(
         model.span.clone(),
         format!(
-            "law {} starts with {initial} N/m, but storey {} of \"{}\" has a stiffness of {stated} N/m, to which modes and damping belong",
+            "law {} starts with {initial} N/m, but storey {} of {of} has a stiffness of {stated} N/m, to which modes and damping belong",
             model.value,
             storey + 1,
-            building.name()
         ),
         Some(format!(
             "write stiffness = {initial} for that storey, or change the law"
@@ -151,7 +165,7 @@ pub fn parameters_of_link(case: &Case, link: &Link) -> Result<Vec<UsedParameters
         .collect()
 }
 
-/// The parameters of each storey of a building that follows a law, by its number from zero.
+/// The parameters of each storey of a building that follows a law, by its number from zero, the lowest first.
 ///
 /// # Errors
 /// As of a case that cannot be assembled.
@@ -159,8 +173,32 @@ pub fn parameters_of_storeys(
     case: &Case,
     building: &Building,
 ) -> Result<Vec<(usize, UsedParameters)>, CaseError> {
+    parameters_of_laws(case, &building.laws)
+}
+
+/// The parameters of the frames of a building in storeys in which they follow a law, with the number of the storey,
+/// from zero: in the order of [`ShearBuilding::yielding_frames`].
+///
+/// # Errors
+/// As of a case that cannot be assembled.
+pub fn parameters_of_frames(
+    case: &Case,
+    building: &Building,
+) -> Result<Vec<(usize, UsedParameters)>, CaseError> {
     let mut all = Vec::new();
-    for law in &building.laws {
+    for frame in building.plan.iter().flat_map(|plan| plan.value.frames()) {
+        all.extend(parameters_of_laws(case, &frame.laws)?);
+    }
+    all.sort_by_key(|(storey, _)| *storey);
+    Ok(all)
+}
+
+fn parameters_of_laws(
+    case: &Case,
+    laws: &[pounding_case::StoreyLaw],
+) -> Result<Vec<(usize, UsedParameters)>, CaseError> {
+    let mut all = Vec::new();
+    for law in laws {
         let descriptor = descriptor(case, &law.model)?;
         for (place, storey) in law.storeys.iter().enumerate() {
             let values = parameters(case, descriptor, &law.parameters, place, |d| d)?;

@@ -22,7 +22,7 @@ pub use excitation::{
     scale_target,
 };
 pub use impact_models::parameters_of_gap;
-pub use laws::{parameters_of_link, parameters_of_storeys};
+pub use laws::{parameters_of_frames, parameters_of_link, parameters_of_storeys};
 pub(crate) use method::method_names;
 pub use method::methods_that_take;
 pub use motions::nothing_to_move_across;

@@ -1,13 +1,15 @@
 //! Buildings whose floors turn in plan: rigid floors on frames along and across the row.
 
 use nalgebra::DMatrix;
-use pounding_case::{Building, Case, CaseError, Frame, Gap, Located, Plan, Side};
+use pounding_case::{Building, Case, CaseError, Errors, Frame, Gap, Located, Plan, Side};
 use pounding_catalogue::numbers::six_digits;
 use pounding_shear_building::{
-    Coordinate, EDGE_DISPLACEMENTS, Excitation, GeneralBuilding, ResponseKind, ResponseRow,
-    ShearBuilding, ShearBuildingError,
+    Coordinate, EDGE_DISPLACEMENTS, Excitation, FrameDirection, GeneralBuilding, ResponseKind,
+    ResponseRow, ShearBuilding, ShearBuildingError, YieldingFrame,
 };
 use pounding_time_history::{BuildingPoint, Floor, System};
+
+use super::laws;
 
 /// Parts of the floor by which a frame may stand beyond its edge.
 const BEYOND_EDGE: f64 = 1.5;
@@ -65,14 +67,51 @@ pub(super) fn building(
             "give frames in both directions, at least two of one direction apart from one another: a single line in each cannot resist rotation",
         ));
     }
-    ShearBuilding::with_coordinates(general).map_err(|e| {
+    let made = ShearBuilding::with_coordinates(general).map_err(|e| {
         let place = match e {
             ShearBuildingError::Damping { .. } => &b.damping.span,
             _ => &given.span,
         };
         let help = "give ratios, such as { ratio = 0.05, modes = [1, 3] }, with modes of all three coordinates of a floor".to_owned();
         case.error(place.clone(), e.to_string(), Some(help))
-    })
+    })?;
+    made.with_yielding_frames(yielding_frames(case, b, &given.value)?)
+        .map_err(|e| case.error(given.span.clone(), e.to_string(), e.help()))
+}
+
+/// Frames along and across the row, with the direction of each.
+fn frames(plan: &Plan) -> impl Iterator<Item = (FrameDirection, &Frame)> {
+    let along = plan.along.iter().map(|f| (FrameDirection::Along, f));
+    let across = plan.across.iter().map(|f| (FrameDirection::Across, f));
+    along.chain(across)
+}
+
+/// The frames that follow laws in some storeys.
+fn yielding_frames(
+    case: &Case,
+    b: &Building,
+    plan: &Plan,
+) -> Result<Vec<YieldingFrame>, CaseError> {
+    let errors = Errors::default();
+    let read = errors.all(frames(plan).map(|(direction, frame)| {
+        let at = six_digits(frame.at);
+        let of = format!(
+            "the frame {direction} the row at {at} m of \"{}\"",
+            b.name.value
+        );
+        let laws = laws::of_storeys(case, &frame.laws, (&frame.stiffness, &of))?;
+        let with_law = |(storey, law)| YieldingFrame {
+            direction,
+            at: frame.at,
+            storey,
+            deformation: deformation(b.mass.len(), storey, direction, frame.at),
+            law,
+        };
+        Ok(laws.into_iter().map(with_law).collect::<Vec<_>>())
+    }));
+    let mut all = errors.finish(read)?.concat();
+    all.sort_by_key(|frame| frame.storey);
+    Ok(all)
 }
 
 fn general(b: &Building, plan: &Plan) -> GeneralBuilding {
@@ -80,16 +119,19 @@ fn general(b: &Building, plan: &Plan) -> GeneralBuilding {
     let all = OF_A_FLOOR * n;
     let mut stiffness = DMatrix::zeros(all, all);
     let mut shears = vec![vec![0.0; all]; n];
-    for (frames, direction) in [(&plan.along, 0), (&plan.across, 1)] {
+    for direction in [FrameDirection::Along, FrameDirection::Across] {
         for (storey, shear) in shears.iter_mut().enumerate() {
-            for Frame { at, stiffness: k } in frames {
-                let row = deformation(n, storey, direction, *at);
+            for (_, frame) in frames(plan).filter(|(of, _)| *of == direction) {
+                let (row, k) = (
+                    deformation(n, storey, direction, frame.at),
+                    frame.stiffness[storey],
+                );
                 for (i, x) in &row {
                     for (j, y) in &row {
-                        stiffness[(*i, *j)] += k[storey] * x * y;
+                        stiffness[(*i, *j)] += k * x * y;
                     }
-                    if direction == 0 {
-                        shear[*i] += k[storey] * x;
+                    if direction == FrameDirection::Along {
+                        shear[*i] += k * x;
                     }
                 }
             }
@@ -127,10 +169,13 @@ fn general(b: &Building, plan: &Plan) -> GeneralBuilding {
 }
 
 /// Deformation of a frame in a storey, as a sum over the coordinates: of one `at` a distance from
-/// the mass centre, along the row (0) or across it (1).
-fn deformation(n: usize, storey: usize, direction: usize, at: f64) -> Vec<(usize, f64)> {
-    let arm = [-at, at][direction];
-    let floor = |i: usize, sign: f64| [(direction * n + i, sign), (2 * n + i, sign * arm)];
+/// the mass centre.
+fn deformation(n: usize, storey: usize, direction: FrameDirection, at: f64) -> Vec<(usize, f64)> {
+    let (first, arm) = match direction {
+        FrameDirection::Across => (n, at),
+        _ => (0, -at),
+    };
+    let floor = |i: usize, sign: f64| [(first + i, sign), (2 * n + i, sign * arm)];
     let mut row = floor(storey, 1.0).to_vec();
     if storey > 0 {
         row.extend(floor(storey - 1, -1.0));

@@ -215,7 +215,10 @@ impl BuildingTable {
                     "a `law` takes the place of one storey's stiffness, but this building has `{}`",
                     stated.key
                 ),
-                "leave out the law, or give storey stiffnesses",
+                match stated.key {
+                    "plan" => "give the frames of the plan their laws, such as { at = \"-5 m\", stiffness = \"30 MN/m\", law = { model = \"bilinear\", yield_force = \"200 kN\", hardening_ratio = 0.05 } }",
+                    _ => "leave out the law, or give storey stiffnesses",
+                },
             );
         }
         let lateral = lateral(

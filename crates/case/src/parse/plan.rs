@@ -5,6 +5,7 @@ use std::ops::Range;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::law::{LawTable, storey_laws};
 use super::spread;
 use crate::document::{
     Entry, Field, Length, OneOrEach, Optional, Positive, Reader, RotationalInertia, Signed,
@@ -48,6 +49,9 @@ struct FrameTable {
     at: Field<Signed<Length>>,
     /// Stiffness of every storey (N/m), one for all or a list, bottom first
     stiffness: Field<OneOrEach<Positive<Stiffness>>>,
+    /// Force-deformation law with memory in the place of that stiffness, one for all storeys
+    /// or a list of laws that name theirs; `pounding hysteresis` lists them
+    law: Optional<OneOrEach<Field<LawTable>, 0>>,
 }
 
 impl PlanTable {
@@ -68,9 +72,13 @@ impl PlanTable {
             }
             let read = given.value.into_iter().map(|frame| {
                 let frame = frame.value()?;
+                let laws = frame.law.value();
+                let laws =
+                    laws.map_or_else(Vec::new, |laws| storey_laws(reader, laws, (storeys, false)));
                 Some(Frame {
                     at: frame.at.number()?,
                     stiffness: spread(reader, frame.stiffness.located()?, storeys, "storey")?,
+                    laws,
                 })
             });
             read.collect()

@@ -225,6 +225,18 @@ pub struct Plan {
     pub across: Vec<Frame>,
 }
 
+impl Plan {
+    /// Frames along the row, then those across it.
+    pub fn frames(&self) -> impl Iterator<Item = &Frame> {
+        self.along.iter().chain(&self.across)
+    }
+
+    /// The same to be changed.
+    pub fn frames_mut(&mut self) -> impl Iterator<Item = &mut Frame> {
+        self.along.iter_mut().chain(&mut self.across)
+    }
+}
+
 /// A frame or wall line of a plan.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Frame {
@@ -232,6 +244,8 @@ pub struct Frame {
     pub at: f64,
     /// Stiffness of every storey (N/m), bottom first.
     pub stiffness: Vec<f64>,
+    /// Laws in the place of the stiffness of its storeys.
+    pub laws: Vec<StoreyLaw>,
 }
 
 /// The motion of the ground under one building.
@@ -346,6 +360,21 @@ pub enum Side {
 }
 
 impl Building {
+    /// Laws of its storeys, then those of the frames of its plan.
+    pub fn all_laws(&self) -> impl Iterator<Item = &StoreyLaw> {
+        let frames = self.plan.iter().flat_map(|plan| plan.value.frames());
+        self.laws.iter().chain(frames.flat_map(|f| &f.laws))
+    }
+
+    /// The same to be changed.
+    pub fn all_laws_mut(&mut self) -> impl Iterator<Item = &mut StoreyLaw> {
+        let frames = self
+            .plan
+            .iter_mut()
+            .flat_map(|plan| plan.value.frames_mut());
+        self.laws.iter_mut().chain(frames.flat_map(|f| &mut f.laws))
+    }
+
     /// Elevations of the floors (m), bottom first, as
     /// [`pounding_shear_building::elevations`] has them.
     #[must_use]

@@ -3,11 +3,12 @@
 use std::path::Path;
 
 use pounding_assembly::{
-    Assembly, UsedParameters, parameters_of_gap, parameters_of_link, parameters_of_storeys,
+    Assembly, UsedParameters, parameters_of_frames, parameters_of_gap, parameters_of_link,
+    parameters_of_storeys,
 };
 use pounding_case::{Case, CaseError};
 use pounding_catalogue::wording::counted;
-use pounding_shear_building::{OnFoundation, ShearBuilding, SpringDashpot};
+use pounding_shear_building::{OnFoundation, ShearBuilding, SpringDashpot, YieldingFrame};
 use pounding_time_history::LevelPlace;
 use serde::Serialize;
 
@@ -69,10 +70,40 @@ struct Building<'a> {
     laws: Vec<Option<&'static str>>,
     /// Parameters of the laws.
     law_parameters: Vec<Option<UsedParameters>>,
+    /// Frames with laws, of a building that turns in plan.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    frames: Vec<Frame>,
     #[serde(skip_serializing_if = "Option::is_none")]
     isolator: Option<Isolator>,
     damping_ratio: &'a [f64],
     effective_mass: &'a [f64],
+}
+
+/// A frame with a law in a storey.
+#[derive(Serialize)]
+struct Frame {
+    direction: &'static str,
+    /// Distance from the mass centre (m).
+    at: f64,
+    /// From 1.
+    storey: usize,
+    law: &'static str,
+    /// Deformation at first yield (m).
+    yield_deformation: Option<f64>,
+    parameters: UsedParameters,
+}
+
+impl Frame {
+    fn of((frame, (_, parameters)): (&YieldingFrame, (usize, UsedParameters))) -> Self {
+        Self {
+            direction: frame.direction.name(),
+            at: frame.at,
+            storey: frame.storey + 1,
+            law: frame.law.law.descriptor().name,
+            yield_deformation: frame.law.yield_drift,
+            parameters,
+        }
+    }
 }
 
 /// The isolators under a building.
@@ -231,6 +262,14 @@ impl<'a> Understood<'a> {
                         of_storeys[storey] = Some(parameters);
                     }
                     of_storeys
+                },
+                frames: {
+                    let parameters = parameters_of_frames(case, given)?;
+                    b.yielding_frames()
+                        .iter()
+                        .zip(parameters)
+                        .map(Frame::of)
+                        .collect()
                 },
                 isolator: Isolator::of(b),
                 damping_ratio: &b.modes().damping_ratio,

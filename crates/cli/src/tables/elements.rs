@@ -2,7 +2,7 @@
 
 use pounding_assembly::UsedParameters;
 use pounding_case::Case;
-use pounding_catalogue::numbers::{fixed, fixed_or_small, shown_unit, significant};
+use pounding_catalogue::numbers::{fixed, fixed_or_small, shown_unit, significant, six_digits};
 use pounding_hysteresis::{LawDescriptor, Verification};
 use pounding_shear_building::ShearBuilding;
 use pounding_time_history::{Element, LinkedMotion, Peak, System};
@@ -12,6 +12,9 @@ use super::{Run, decimal, new_table};
 /// What the storeys with laws of a building went through; empty without any.
 pub(super) fn storeys(run: &Run<'_>, index: usize) -> String {
     let outcome = &run.outcome.buildings[index];
+    if !outcome.frames.is_empty() {
+        return frames(run, index);
+    }
     if outcome.yielding.iter().all(Option::is_none) {
         return String::new();
     }
@@ -30,6 +33,36 @@ pub(super) fn storeys(run: &Run<'_>, index: usize) -> String {
             ratio(s.ductility),
             format!("{:.3}", 100.0 * s.residual_drift_ratio),
             kilojoules(s.hysteretic_energy, run.outcome.energy.largest_input, 3),
+        ]);
+    }
+    let building = &run.system().buildings()[index];
+    format!("{table}\n{}", sources(descriptors(building)))
+}
+
+/// What the frames with laws of a building went through that turns in plan.
+fn frames(run: &Run<'_>, index: usize) -> String {
+    let mut table = new_table([
+        "storey",
+        "frame",
+        "law",
+        "force (kN)",
+        "ductility",
+        "residual deformation (mm)",
+        "hysteretic energy (kJ)",
+    ]);
+    for frame in run.outcome.buildings[index].frames.iter().rev() {
+        table.add_row([
+            frame.storey.to_string(),
+            format!("{} at {} m", frame.direction, six_digits(frame.at)),
+            frame.law.to_owned(),
+            format!(
+                "{} @{:.2}",
+                decimal(1e-3 * frame.force.value, 1),
+                frame.force.time
+            ),
+            ratio(frame.ductility),
+            fixed(1e3 * frame.residual_deformation, 3),
+            kilojoules(frame.hysteretic_energy, run.outcome.energy.largest_input, 3),
         ]);
     }
     let building = &run.system().buildings()[index];
@@ -109,7 +142,7 @@ fn elements(system: &System, link: usize) -> &[Element] {
 }
 
 fn descriptors(building: &ShearBuilding) -> impl Iterator<Item = &'static LawDescriptor> {
-    building.laws().iter().flatten().map(|l| l.law.descriptor())
+    building.all_laws().map(|l| l.law.descriptor())
 }
 
 /// The lines of laws whose rules were not read in their papers, each law once.
@@ -147,9 +180,19 @@ pub(super) fn parameters(all: &[(String, UsedParameters)]) -> String {
     }
 }
 
-/// What `check` says of the laws of a building with their parameters by storey, and of gravity.
-pub(super) fn laws(building: &ShearBuilding, parameters: &[(usize, UsedParameters)]) -> String {
+/// What `check` says of the laws of a building with their parameters by storey, of those of its frames, and of gravity.
+pub(super) fn laws(
+    building: &ShearBuilding,
+    [parameters, of_frames]: [&[(usize, UsedParameters)]; 2],
+) -> String {
     let mut text = String::new();
+    for (frame, (_, parameters)) in building.yielding_frames().iter().zip(of_frames) {
+        let yields = frame.law.yield_drift.map_or_else(String::new, |y| {
+            format!(", yields at a deformation of {:.3} mm", y * 1e3)
+        });
+        let law = frame.law.law.descriptor().name;
+        text.push_str(&format!("{frame}: law {law}{yields}: {parameters}\n"));
+    }
     for (i, law) in building.laws().iter().enumerate() {
         let Some(law) = law else { continue };
         let yields = law.yield_drift.map_or_else(String::new, |y| {

@@ -7,7 +7,9 @@ mod isolators;
 mod width;
 
 use comfy_table::{CellAlignment, Row};
-use pounding_assembly::{Assembly, parameters_of_gap, parameters_of_link, parameters_of_storeys};
+use pounding_assembly::{
+    Assembly, parameters_of_frames, parameters_of_gap, parameters_of_link, parameters_of_storeys,
+};
 use pounding_case::{Case, CaseError};
 use pounding_catalogue::numbers::{fixed_or_small, shown_unit, six_digits};
 use pounding_catalogue::wording::counted;
@@ -459,7 +461,9 @@ pub fn understood(case: &Case, assembly: &Assembly) -> Result<String, CaseError>
         if matrix.is_some() {
             text.push_str("stiffness matrix: every floor acts on every other; K_ii is its diagonal, all of it is in --json\n");
         }
-        text.push_str(&elements::laws(b, &parameters_of_storeys(case, given)?));
+        let parameters = parameters_of_storeys(case, given)?;
+        let of_frames = parameters_of_frames(case, given)?;
+        text.push_str(&elements::laws(b, [&parameters, &of_frames]));
         text.push_str(&isolators::understood(b));
         text.push_str(&foundation::understood(b));
     }

@@ -5,7 +5,7 @@ use pounding_time_history::{IsolatorOutcome, Peak, StoreyPeaks, System};
 
 use super::datasets::{series, single, without};
 use super::tables::{Content, Tables};
-use super::{Result, RunEnding, elements, share_time};
+use super::{Result, RunEnding, elements, frames, share_time};
 use crate::attributes::text;
 use crate::dimension_scales;
 
@@ -125,6 +125,7 @@ pub(super) fn begin(
         let rows = rows.map(|row| (row.name.as_str(), row.unit)).zip(first..);
         super::responses::begin(&group, rows, tables, time)?;
         elements::begin_storeys(&group, system, index, tables, (time, &storey))?;
+        frames::begin(&group, (system, index), tables, time)?;
         let modes = building.modes();
         let period = series(&group, "period", "s", "natural periods", &modes.period)?;
         dimension_scales::make_scale(&period, "mode")?;
@@ -160,6 +161,7 @@ pub(super) fn finish(file: &hdf5::File, system: &System, ending: &RunEnding<'_>)
             isolators(&group, isolator, isolated.as_ref())?;
         }
         elements::finish_storeys((&group, &peaks), &ending.outcome.buildings[index], &storey)?;
+        frames::finish(&group, &ending.outcome.buildings[index])?;
     }
     Ok(())
 }

@@ -2,7 +2,7 @@
 
 use hdf5::{Dataset, Group};
 use pounding_time_history::{
-    BuildingOutcome, ElementPlace, LinkLevelOutcome, LinkedMotion, Outcome, Peak, System,
+    BuildingOutcome, LinkLevelOutcome, LinkedMotion, Outcome, Peak, System,
 };
 
 use super::datasets::series;
@@ -20,20 +20,20 @@ pub(super) fn begin_storeys(
     tables: &mut Tables,
     (time, storey): (&Dataset, &Dataset),
 ) -> Result<()> {
-    let mut places = vec![None; system.buildings()[index].mass().len()];
+    let mut places = vec![Vec::new(); system.buildings()[index].mass().len()];
     for (e, element) in system.elements().iter().enumerate() {
-        if let ElementPlace::Storey { building, storey } = element.place
+        if let Some((building, storey)) = system.storey_of_element(element.place)
             && building == index
         {
-            places[storey] = Some(e);
+            places[storey].push(e);
         }
     }
-    if places.iter().all(Option::is_none) {
+    if places.iter().all(Vec::is_empty) {
         return Ok(());
     }
     let long_name = "energy dissipated by the law of the storey so far";
     let names = ("hysteretic_energy", "J", long_name);
-    let content = Content::Chosen(|h| &h.element_dissipated, places);
+    let content = Content::Sums(|h| &h.element_dissipated, places);
     let data = tables.add(group, names, content)?;
     dimension_scales::attach(&data, time, 0)?;
     dimension_scales::attach(&data, storey, 1)

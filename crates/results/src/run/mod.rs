@@ -7,6 +7,7 @@
 mod buildings;
 mod datasets;
 mod elements;
+mod frames;
 mod gaps;
 mod levels;
 mod memory;

@@ -99,11 +99,11 @@ pub(super) fn begin_levels(
             let found = rows
                 .iter()
                 .find(|(_, (l, r))| *l == level && r.name == name);
-            found.map(|(column, _)| *column)
+            found.iter().map(|(column, _)| *column).collect()
         };
         let columns = own.clone().map(column).collect();
         let label = name.replace('_', " ");
-        let content = Content::Chosen(|h| &h.response, columns);
+        let content = Content::Sums(|h| &h.response, columns);
         let data = tables.add(&group, (name, unit, label.as_str()), content)?;
         dimension_scales::attach(&data, time, 0)?;
         dimension_scales::attach(&data, level, 1)?;

@@ -19,7 +19,12 @@ pub(super) fn numbers(system: &System) -> usize {
         .filter(|(b, _)| pushed(*b))
         .map(|(_, b)| b.storeys());
     let loads = grounds.count() + forces.sum::<usize>();
-    floors + bases + responses + loads + 2 * system.levels().len() + 3 * system.elements().len() + 9
+    // Of storeys what their frames dissipate together.
+    let with_frames = system.buildings().iter();
+    let with_frames = with_frames.filter(|b| !b.yielding_frames().is_empty());
+    let of_frames: usize = with_frames.map(|b| b.storeys()).sum();
+    let elements = 3 * system.elements().len() + of_frames;
+    floors + bases + responses + loads + 2 * system.levels().len() + elements + 9
 }
 
 /// Responses on the output grid that no disk would take.

@@ -23,8 +23,8 @@ pub(super) enum Content {
     Column(fn(&History) -> &[f64], usize),
     /// Some columns of a list.
     Columns(fn(&History) -> &[f64], Range<usize>),
-    /// Columns of a list in any order; a column that is none holds zeros.
-    Chosen(fn(&History) -> &[f64], Vec<Option<usize>>),
+    /// Sums of columns of a list; one of none holds zeros.
+    Sums(fn(&History) -> &[f64], Vec<Vec<usize>>),
     /// Drift ratios of a building: its floors, its storey heights (m).
     DriftRatios(Range<usize>, Vec<f64>),
     /// The same from drifts that are columns of their own.
@@ -139,7 +139,7 @@ impl Content {
             Self::Columns(_, range) | Self::DriftRatios(range, _) | Self::OverHeights(range, _) => {
                 Some(range.len())
             }
-            Self::Chosen(_, columns) => Some(columns.len()),
+            Self::Sums(_, columns) => Some(columns.len()),
         }
     }
 
@@ -161,11 +161,12 @@ impl Content {
             }
             Self::Column(list, index) => block.column(list(block), *index),
             Self::Columns(list, range) => block.columns(list(block), range.clone()),
-            Self::Chosen(list, columns) => {
+            Self::Sums(list, columns) => {
                 let list = list(block);
                 let rows = list.chunks_exact((list.len() / block.len().max(1)).max(1));
-                let value = |row: &[f64], c: &Option<usize>| c.map_or(0.0, |c| row[c]);
-                rows.flat_map(|row| columns.iter().map(move |c| value(row, c)))
+                let sum =
+                    |row: &[f64], of: &Vec<usize>| of.iter().map(|c| row[*c]).reduce(|a, b| a + b);
+                rows.flat_map(|row| columns.iter().map(move |of| sum(row, of).unwrap_or(0.0)))
                     .collect()
             }
             Self::OverHeights(range, height) => {

@@ -2,8 +2,8 @@
 
 use pounding_shear_building::{EDGE_DISPLACEMENTS, OVERTURNING_RATIO};
 use pounding_time_history::{
-    BuildingOutcome, COLUMN_SHEARS, ElementPlace, LevelMotion, LevelOutcome, LevelPlace,
-    LinkLevelOutcome, LinkedMotion, NamedPeak, Outcome, StoreyPeaks, System, YieldingStorey,
+    BuildingOutcome, COLUMN_SHEARS, LevelMotion, LevelOutcome, LevelPlace, LinkLevelOutcome,
+    LinkedMotion, NamedPeak, Outcome, StoreyPeaks, System, YieldingStorey,
 };
 
 use crate::run::with_base_moment;
@@ -618,8 +618,8 @@ impl Layout {
                 brought || system.level_responses().any(|(_, r)| (own.is)(&r.name))
             },
             |own| {
-                let of_storeys = |place| matches!(place, ElementPlace::Storey { .. });
-                let mut elements = system.elements().iter().filter(|e| of_storeys(e.place));
+                let elements = system.elements().iter();
+                let mut elements = elements.filter(|e| system.storey_of_element(e.place).is_some());
                 elements.any(|e| e.yield_deformation.is_some() || !own.of_yield_force)
             },
             isolated,

@@ -16,6 +16,7 @@ use crate::stiffness::StiffnessMatrix;
 use crate::storey_law::StoreyLaw;
 use crate::tridiagonal::SymmetricTridiagonal;
 use crate::undamped::{Undamped, undamped, undamped_dense};
+use crate::yielding_frame::YieldingFrame;
 
 pub use founded::{OVERTURNING_RATIO, OnFoundation, UPLIFT_BEGINS};
 
@@ -47,6 +48,7 @@ pub struct ShearBuilding {
     asymmetry: f64,
     height: Vec<f64>,
     laws: Vec<Option<StoreyLaw>>,
+    frames: Vec<YieldingFrame>,
     isolator: Option<(Isolator, IsolatorProperties)>,
     geometric: Vec<f64>,
     elevations: Vec<f64>,
@@ -351,6 +353,7 @@ impl ShearBuilding {
             foundation: None,
             carried: Vec::new(),
             laws: vec![None; mass.len()],
+            frames: Vec::new(),
             isolator: None,
             geometric,
             name,
@@ -546,6 +549,56 @@ impl ShearBuilding {
     #[must_use]
     pub fn laws(&self) -> &[Option<StoreyLaw>] {
         &self.laws
+    }
+
+    /// The same building of floors and other coordinates with laws in the place of stiffnesses of its frames in
+    /// single storeys. Its stiffness matrix holds the initial stiffnesses of these laws: modes and damping are those
+    /// of the elastic building.
+    ///
+    /// # Errors
+    /// A building without other coordinates than floors, a storey or coordinate that it has not, and a law of links alone.
+    pub fn with_yielding_frames(
+        mut self,
+        frames: Vec<YieldingFrame>,
+    ) -> Result<Self, ShearBuildingError> {
+        for frame in &frames {
+            let (law, storey) = (frame.law.law.descriptor(), frame.storey + 1);
+            if let Some(reason) = law.link_alone {
+                return Err(ShearBuildingError::LawOfLinks {
+                    building: self.name,
+                    storey,
+                    law: law.name,
+                    reason,
+                });
+            }
+            let wrong =
+                |(i, weight): &(usize, f64)| *i >= self.coordinates() || !weight.is_finite();
+            if self.sections.is_none()
+                || frame.storey >= self.storeys()
+                || frame.deformation.iter().any(wrong)
+            {
+                return Err(ShearBuildingError::Law {
+                    building: self.name,
+                    storey,
+                    law: law.name,
+                    reason: "the building has no such storey, or no such coordinate".to_owned(),
+                });
+            }
+        }
+        self.frames = frames;
+        Ok(self)
+    }
+
+    /// Frames with a law in the place of their stiffness in a storey, one entry a frame and storey.
+    #[must_use]
+    pub fn yielding_frames(&self) -> &[YieldingFrame] {
+        &self.frames
+    }
+
+    /// Laws of storeys from the bottom, then those of frames.
+    pub fn all_laws(&self) -> impl Iterator<Item = &StoreyLaw> {
+        let frames = self.frames.iter().map(|frame| &frame.law);
+        self.laws.iter().flatten().chain(frames)
     }
 
     /// What gravity takes off the storey stiffnesses (N/m); zeros without P-Delta.

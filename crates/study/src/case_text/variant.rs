@@ -239,7 +239,7 @@ mod tests {
         for gap in &mut case.gaps {
             gap.parameters.sort_by(|a, b| a.key.value.cmp(&b.key.value));
         }
-        let laws = case.buildings.iter_mut().flat_map(|b| &mut b.laws);
+        let laws = case.buildings.iter_mut().flat_map(|b| b.all_laws_mut());
         let laws = laws.map(|law| &mut law.parameters);
         for parameters in laws.chain(case.links.iter_mut().map(|link| &mut link.parameters)) {
             parameters.sort_by(|a, b| a.key.value.cmp(&b.key.value));

@@ -1,8 +1,7 @@
 //! What models are compared by.
 
 use pounding_time_history::{
-    BuildingOutcome, Element, ElementPlace, LinkLevelOutcome, LinkedMotion, Outcome, Peak,
-    StoreyPeaks, System,
+    BuildingOutcome, Element, LinkLevelOutcome, LinkedMotion, Outcome, Peak, StoreyPeaks, System,
 };
 
 use crate::gap_check::{Amplification, closes};
@@ -284,9 +283,9 @@ pub(super) fn of_system(system: &System) -> Vec<Quantity> {
 /// Which quantities of laws the storeys of a building have, isolators apart.
 fn laws_of(system: &System, index: usize) -> [(QuantityKind, bool); 2] {
     let first = usize::from(system.buildings()[index].isolator().is_some());
-    let own = |element: &&Element| match element.place {
-        ElementPlace::Storey { building, storey } => building == index && storey >= first,
-        _ => false,
+    let own = |element: &&Element| {
+        let place = system.storey_of_element(element.place);
+        place.is_some_and(|(building, storey)| building == index && storey >= first)
     };
     let elements = || system.elements().iter().filter(own);
     let yields = elements().any(|element| element.yield_deformation.is_some());

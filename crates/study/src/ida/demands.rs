@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use pounding_case::{Case, Side};
+use pounding_case::{Building, Case, Side};
 use pounding_results::study::ISOLATED_DEMAND;
 
 use crate::runs::{Axis, LEVEL_QUANTITIES, Layout, Place};
@@ -136,9 +136,10 @@ pub(super) fn isolated_buildings(case: &Case) -> Vec<String> {
     isolated.map(|b| b.name.value.clone()).collect()
 }
 
-/// Names of the buildings of a case with storeys that have a law, isolators apart.
+/// Names of the buildings of a case with storeys or frames that have a law, isolators apart.
 pub(super) fn yielding_buildings(case: &Case) -> Vec<String> {
-    let yielding = case.buildings.iter().filter(|b| !b.laws.is_empty());
+    let yields = |b: &&Building| b.all_laws().next().is_some();
+    let yielding = case.buildings.iter().filter(yields);
     yielding.map(|b| b.name.value.clone()).collect()
 }
 

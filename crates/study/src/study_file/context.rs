@@ -19,11 +19,11 @@ pub(super) struct Base {
     pub levels: Vec<String>,
     /// Whether impacts at each of them are rigid.
     pub rigid: Vec<bool>,
-    /// Storeys with a law.
+    /// Laws of storeys, and of frames in them.
     pub laws: Vec<LawOfStorey>,
 }
 
-/// A law of a storey, isolators among them.
+/// A law of a storey, isolators among them, or of a frame in it.
 pub(super) struct LawOfStorey {
     /// Number of the building, from zero.
     pub building: usize,

@@ -601,8 +601,9 @@ impl LimitTable {
                 return reader.refuse(span, message, help);
             }
             let has = |storey: usize| {
-                let own = laws.iter().find(|law| law.storey + 1 == storey);
-                own.is_some_and(|law| law.yields || demand != DemandKind::Ductility)
+                let own = |law: &&LawOfStorey| law.storey + 1 == storey;
+                let mut own = laws.iter().copied().filter(own);
+                own.any(|law| law.yields || demand != DemandKind::Ductility)
             };
             if let Some(storey) = storeys.iter().find(|storey| !has(storey.value.0)) {
                 let message =

@@ -11,7 +11,6 @@ use pounding_case::{CaseError, Errors, Located};
 use pounding_catalogue::suggestion;
 use pounding_catalogue::wording::one_line;
 use pounding_results::study::{ISOLATED_DEMAND, isolated_peaks, quantity_names};
-use pounding_time_history::ElementPlace;
 use schemars::JsonSchema;
 use serde::Deserialize;
 use toml::de::DeTable;
@@ -409,9 +408,7 @@ fn base(source: &str, path: &Path, own_record: bool) -> Result<Base, StudyError>
     let of_gaps = system.gaps().iter().flat_map(|gap| system.levels_of(gap));
     let rigid = of_gaps.map(|level| level.model.rigid_restitution().is_some());
     let laws = system.elements().iter().filter_map(|element| {
-        let ElementPlace::Storey { building, storey } = element.place else {
-            return None;
-        };
+        let (building, storey) = system.storey_of_element(element.place)?;
         Some(LawOfStorey {
             building,
             storey,

@@ -7,8 +7,8 @@ use super::Driver;
 use crate::error::TimeHistoryError;
 use crate::ledger;
 use crate::outcome::{
-    BuildingOutcome, GapOutcome, IsolatorOutcome, LinkLevelOutcome, LinkOutcome, NamedPeak,
-    Outcome, StoreyPeaks, YieldingStorey,
+    BuildingOutcome, FrameOutcome, GapOutcome, IsolatorOutcome, LinkLevelOutcome, LinkOutcome,
+    NamedPeak, Outcome, StoreyPeaks, YieldingStorey,
 };
 use crate::peak::Peak;
 use crate::recorder::Recorder;
@@ -71,6 +71,7 @@ impl Driver<'_> {
                 responses: responses(b, named.by_ref()),
                 base_moment: b.stiffness().is_empty().then_some(*base_moment),
                 yielding: vec![None; b.storeys()],
+                frames: Vec::new(),
                 isolator: isolator(b, &self.peaks.storeys[range[0]]),
             })
             .collect();
@@ -143,17 +144,45 @@ impl Driver<'_> {
                 value: peaks.deformation.value / y,
                 time: peaks.deformation.time,
             });
+            let residual = {
+                let plastic = deformation - force / element.law.initial_stiffness();
+                // What round-off leaves of a storey that stayed elastic is none.
+                let stays = plastic.abs() > ROUND_OFF * peaks.deformation.value;
+                if stays { plastic } else { 0.0 }
+            };
             match element.place {
                 ElementPlace::Storey { building, storey } => {
-                    let elastic = force / element.law.initial_stiffness();
-                    let plastic = deformation - elastic;
-                    // What round-off leaves of a storey that stayed elastic is none.
-                    let stays = plastic.abs() > ROUND_OFF * peaks.deformation.value;
                     let height = system.buildings()[building].height()[storey];
                     buildings[building].yielding[storey] = Some(YieldingStorey {
                         law,
                         ductility,
-                        residual_drift_ratio: if stays { plastic / height } else { 0.0 },
+                        residual_drift_ratio: residual / height,
+                        hysteretic_energy: energy,
+                        strength_lost: lost,
+                    });
+                }
+                ElementPlace::Frame { building, frame } => {
+                    let of = &system.buildings()[building];
+                    let frame = &of.yielding_frames()[frame];
+                    let own = YieldingStorey {
+                        law,
+                        ductility,
+                        residual_drift_ratio: residual / of.height()[frame.storey],
+                        hysteretic_energy: energy,
+                        strength_lost: None,
+                    };
+                    let outcome = &mut buildings[building];
+                    let storey = &mut outcome.yielding[frame.storey];
+                    *storey = Some(storey.map_or(own, |others| others.beside(&own)));
+                    outcome.frames.push(FrameOutcome {
+                        direction: frame.direction.name(),
+                        at: frame.at,
+                        storey: frame.storey + 1,
+                        law,
+                        deformation: peaks.deformation,
+                        force: peaks.force,
+                        ductility,
+                        residual_deformation: residual,
                         hysteretic_energy: energy,
                         strength_lost: lost,
                     });

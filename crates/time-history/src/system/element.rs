@@ -1,8 +1,8 @@
-//! A storey or a level of a link whose force follows a law with memory.
+//! A storey, a frame or a level of a link whose force follows a law with memory.
 //!
 //! An element pulls together two places, the *far* one, whose displacement makes its
 //! deformation greater, and the *near* one. The matrices of the buildings carry the
-//! initial stiffness of a storey already, so that an element adds only what its law
+//! initial stiffness of a storey or frame already, so that an element adds only what its law
 //! departs from that.
 
 use std::sync::Arc;
@@ -26,6 +26,13 @@ pub enum ElementPlace {
         /// Storey from the bottom.
         storey: usize,
     },
+    /// A frame of a building that turns in plan, in one storey.
+    Frame {
+        /// Index in [`System::buildings`](super::System::buildings).
+        building: usize,
+        /// Index in [`ShearBuilding::yielding_frames`](pounding_shear_building::ShearBuilding::yielding_frames).
+        frame: usize,
+    },
     /// A level of a link, both from zero.
     Link {
         /// Index in [`System::links`](super::System::links).
@@ -36,13 +43,16 @@ pub enum ElementPlace {
 }
 
 impl ElementPlace {
-    /// Whether it is a storey of this building.
+    /// Whether it is a storey or a frame of this building.
     pub(crate) fn is_in(self, of: usize) -> bool {
-        matches!(self, Self::Storey { building, .. } if building == of)
+        match self {
+            Self::Storey { building, .. } | Self::Frame { building, .. } => building == of,
+            Self::Link { .. } => false,
+        }
     }
 }
 
-/// A storey or a level of a link whose force follows a law with memory.
+/// A storey, a frame or a level of a link whose force follows a law with memory.
 #[derive(Debug, Clone)]
 pub struct Element {
     /// Where it sits.
@@ -52,7 +62,8 @@ pub struct Element {
     pub far: Option<usize>,
     /// Degree of freedom at the other end; `None` moves with the ground.
     pub near: Option<usize>,
-    /// What the deformation holds beside both ends: of a storey the motion of a foundation.
+    /// What the deformation holds beside both ends: of a storey the motion of a foundation, of a frame
+    /// rotations and the floor below.
     pub(crate) terms: Terms,
     /// Storeys and elevations of both ends of a level of a link.
     pub(crate) level_place: Option<LevelPlace>,
@@ -104,11 +115,12 @@ impl Element {
     ) -> Polynomial {
         let at = |dof: Option<usize>| dof.map_or([0.0; COEFFICIENTS], |i| component(offset + i));
         let (far, near) = (at(self.far), at(self.near));
-        let largest = far.iter().chain(&near).fold(0.0_f64, |m, c| m.max(c.abs()));
+        let mut largest = far.iter().chain(&near).fold(0.0_f64, |m, c| m.max(c.abs()));
         let mut p = difference(&far, &near);
         for (i, w) in self.terms.pushed.iter().chain(&self.terms.ground) {
             for (sum, c) in p.iter_mut().zip(component(offset + i)) {
                 *sum += w * c;
+                largest = largest.max((w * c).abs());
             }
         }
         for c in &mut p[1..] {

@@ -1,4 +1,4 @@
-//! Elements with memory in a system: storeys with laws, and links between floors.
+//! Elements with memory in a system: storeys and frames with laws, and links between floors.
 
 use std::sync::Arc;
 
@@ -134,6 +134,10 @@ impl System {
             ElementPlace::Storey { building, storey } => {
                 format!("{} storey {}", self.buildings[building].name(), storey + 1)
             }
+            ElementPlace::Frame { building, frame } => {
+                let building = &self.buildings[building];
+                format!("{} {}", building.name(), building.yielding_frames()[frame])
+            }
             ElementPlace::Link { link, level } => {
                 let joined = &self.links[link];
                 match joined.joins.label() {
@@ -144,11 +148,24 @@ impl System {
         }
     }
 
-    /// Storeys with laws, buildings from the left and storeys from the bottom, then the
-    /// levels of all links.
+    /// Storeys and frames with laws, buildings from the left, then the levels of all links.
     #[must_use]
     pub fn elements(&self) -> &[Element] {
         &self.elements
+    }
+
+    /// Building and storey, both from zero, in which a storey or a frame with a law stands; `None` of a level of
+    /// a link.
+    #[must_use]
+    pub fn storey_of_element(&self, place: ElementPlace) -> Option<(usize, usize)> {
+        match place {
+            ElementPlace::Storey { building, storey } => Some((building, storey)),
+            ElementPlace::Frame { building, frame } => {
+                let frames = self.buildings[building].yielding_frames();
+                Some((building, frames[frame].storey))
+            }
+            ElementPlace::Link { .. } => None,
+        }
     }
 
     /// Index in [`System::elements`] of the first storey or link whose law is not linear
@@ -162,7 +179,7 @@ impl System {
     }
 }
 
-/// Stiffnesses that store strain energy, and the elements of storeys with laws.
+/// Stiffnesses that store strain energy, and the elements of storeys and frames with laws.
 pub(super) fn storeys(
     buildings: &[Arc<ShearBuilding>],
     offsets: &[usize],
@@ -206,6 +223,33 @@ pub(super) fn storeys(
                 law: Arc::clone(law),
                 yield_deformation: *yield_drift,
                 carried: *elastic,
+                first_variable: next_variable(&elements),
+            });
+        }
+        for (index, frame) in building.yielding_frames().iter().enumerate() {
+            let floors = building.storeys();
+            let degree_of_freedom = |coordinate: usize| match coordinate.checked_sub(floors) {
+                None => offsets[b] + coordinate,
+                Some(other) => further_offsets[b] + other,
+            };
+            let deformation = frame.deformation.iter();
+            elements.push(Element {
+                place: ElementPlace::Frame {
+                    building: b,
+                    frame: index,
+                },
+                far: None,
+                near: None,
+                terms: Terms {
+                    pushed: deformation
+                        .map(|(i, w)| (degree_of_freedom(*i), *w))
+                        .collect(),
+                    ground: Vec::new(),
+                },
+                level_place: None,
+                law: Arc::clone(&frame.law.law),
+                yield_deformation: frame.law.yield_drift,
+                carried: frame.law.law.initial_stiffness(),
                 first_variable: next_variable(&elements),
             });
         }

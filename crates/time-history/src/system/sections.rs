@@ -6,7 +6,9 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::system::{Element, ElementPlace};
-use pounding_shear_building::{OVERTURNING_RATIO, ResponseKind, ResponseRow, ShearBuilding};
+use pounding_shear_building::{
+    FrameDirection, OVERTURNING_RATIO, ResponseKind, ResponseRow, ShearBuilding, YieldingFrame,
+};
 
 /// A response as a row on the coordinates of a building.
 #[derive(Debug, Clone)]
@@ -16,7 +18,7 @@ pub(crate) struct SectionForce {
     parts: [Range<usize>; 2],
     /// One a coordinate (N/m, or N).
     weights: Vec<f64>,
-    /// Storeys with laws whose forces are a part of it, by their numbers in
+    /// Storeys and frames with laws whose forces are a part of it, by their numbers in
     /// [`super::System::elements`], with their weights.
     pub elements: Vec<(usize, f64)>,
 }
@@ -72,7 +74,23 @@ pub(super) fn section_forces(
         let laws = building.laws();
         let moment = moment_with_laws(b, building, elements);
         let rows = building.section_forces().into_iter().flatten();
-        for (i, weights) in rows.enumerate() {
+        for (i, mut weights) in rows.enumerate() {
+            if !building.yielding_frames().is_empty() {
+                let own = frames_in(b, building, elements, i);
+                let place = match i < building.storeys() {
+                    true => SectionPlace::StoreyShear(first + i),
+                    false => SectionPlace::BaseMoment(b),
+                };
+                for (_, arm, frame) in &own {
+                    let carried = frame.law.law.initial_stiffness();
+                    for (j, w) in &frame.deformation {
+                        weights[*j] -= arm * carried * w;
+                    }
+                }
+                let elements = own.iter().map(|(e, arm, _)| (*e, *arm)).collect();
+                add(place, Sum { weights, elements });
+                continue;
+            }
             match (laws.get(i), &moment) {
                 // Its element has the shear: a sum of nothing.
                 (Some(Some(_)), _) => {
@@ -151,6 +169,34 @@ fn moment_with_laws(index: usize, building: &ShearBuilding, elements: &[Element]
         weights,
         elements: own.collect(),
     })
+}
+
+/// Elements of the frames whose forces are a part of the shear of a storey, or behind the last of these of the
+/// moment at the base, with their weights there.
+fn frames_in<'b>(
+    index: usize,
+    building: &'b ShearBuilding,
+    elements: &[Element],
+    row: usize,
+) -> Vec<(usize, f64, &'b YieldingFrame)> {
+    let is_shear = row < building.storeys();
+    let own = elements.iter().enumerate();
+    let own = own.filter_map(|(e, element)| match element.place {
+        ElementPlace::Frame {
+            building: of,
+            frame,
+        } if of == index => {
+            let frame = &building.yielding_frames()[frame];
+            let along = frame.direction == FrameDirection::Along;
+            let arm = match is_shear {
+                true => 1.0,
+                false => building.height()[frame.storey],
+            };
+            (along && (!is_shear || frame.storey == row)).then_some((e, arm, frame))
+        }
+        _ => None,
+    });
+    own.collect()
 }
 
 /// The moment (N m) over which a response is that at the base, where it is the

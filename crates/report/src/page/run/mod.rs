@@ -30,6 +30,7 @@ pub fn page(result: &RunResult, name: &str) -> Result<String, ReportError> {
     for (index, building) in result.buildings.iter().enumerate() {
         let mut inside = tables::modes(building);
         inside.push_str(&tables::storeys(building));
+        inside.push_str(&tables::frames(building));
         inside.push_str(&tables::base_moment(building));
         inside.push_str(&tables::responses(building));
         inside.push_str(&tables::isolator(building));

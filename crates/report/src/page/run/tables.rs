@@ -1,6 +1,6 @@
 //! Tables of the page; their columns name datasets of the result file, `[*]` a row of one.
 
-use pounding_catalogue::numbers::shown_unit;
+use pounding_catalogue::numbers::{shown_unit, six_digits};
 
 use crate::page::html::{escaped, note};
 use crate::page::numbers::{all_figures, figures, ratio, without_round_off};
@@ -112,6 +112,46 @@ pub(super) fn storeys(building: &BuildingResult) -> String {
         + &note(
             "Maximum absolute values, found inside the steps. Isolated: the same building under the same \
              motion without any gap or link.",
+        )
+}
+
+/// What the frames of a building with laws went through, the top first; nothing without any.
+pub(super) fn frames(building: &BuildingResult) -> String {
+    if building.frames.is_empty() {
+        return String::new();
+    }
+    let peaks = format!("{}/frames/peak", group(building));
+    let columns = [
+        Column::new("storey"),
+        Column::new("frame"),
+        Column::new("law"),
+        Column::of("force (kN)", format!("{peaks}/force[*]"), 1.0e-3),
+        Column::of("at (s)", format!("{peaks}/force_time[*]"), 1.0).below("force (kN)"),
+        Column::of("deformation (mm)", format!("{peaks}/deformation[*]"), 1.0e3),
+        Column::of("ductility", format!("{peaks}/ductility[*]"), 1.0),
+        Column::of(
+            "residual deformation (mm)",
+            format!("{peaks}/residual_deformation[*]"),
+            1.0e3,
+        ),
+    ];
+    let rows = building.frames.iter().enumerate().rev().map(|(i, frame)| {
+        let cells = vec![
+            frame.storey.to_string(),
+            format!("{} at {} m", frame.direction, six_digits(frame.at)),
+            frame.law.clone(),
+            all_figures(1.0e-3 * frame.force),
+            figures(frame.force_time),
+            all_figures(1.0e3 * frame.deformation),
+            figures(frame.ductility),
+            all_figures(1.0e3 * frame.residual_deformation),
+        ];
+        Row::new(i, cells)
+    });
+    table("Frames that yield", &columns, rows)
+        + &note(
+            "Frames with a law, along the row of buildings or across it, by their distance from the mass centre: \
+             maximum absolute values, and the deformation at the end less what elastic unloading gives back.",
         )
 }
 

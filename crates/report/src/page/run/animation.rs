@@ -138,8 +138,8 @@ fn output_step(result: &RunResult) -> f64 {
 fn caption(result: &RunResult, instant: Instant, magnification: f64) -> String {
     format!(
         "Elevation at <span data-part=\"instant\">{:.3}</span> s. Heights are to scale; displacements and \
-         gaps are drawn <span data-part=\"factor\">{}</span>. The case \
-         does not say how wide buildings are: they are drawn alike. Displacements are relative to the ground \
+         gaps are drawn <span data-part=\"factor\">{}</span>. All \
+         buildings are drawn equally wide. Displacements are relative to the ground \
          under each building.{}{}",
         instant.time,
         match magnification {

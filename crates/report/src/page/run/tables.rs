@@ -125,7 +125,7 @@ pub(super) fn frames(building: &BuildingResult) -> String {
         Column::new("storey"),
         Column::new("frame"),
         Column::new("law"),
-        Column::of("force (kN)", format!("{peaks}/force[*]"), 1.0e-3),
+        Column::of("peak", format!("{peaks}/force[*]"), 1.0e-3).below("force (kN)"),
         Column::of("at (s)", format!("{peaks}/force_time[*]"), 1.0).below("force (kN)"),
         Column::of("deformation (mm)", format!("{peaks}/deformation[*]"), 1.0e3),
         Column::of("ductility", format!("{peaks}/ductility[*]"), 1.0),

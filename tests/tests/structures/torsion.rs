@@ -9,7 +9,7 @@ use pounding_time_history::{MethodChoice, Outcome, RunOptions, run};
 use super::reference::Reference;
 
 /// Two buildings of two storeys under both components; the figures of the reference.
-const PAIR: &str = r#"
+pub const PAIR: &str = r#"
 [[building]]
 name = "A"
 mass = ["120 t", "100 t"]
@@ -76,7 +76,7 @@ pub fn go(assembly: &Assembly, method: Option<MethodChoice>) -> Outcome {
 }
 
 /// The responses of the case by the names of the reference.
-fn named_as_in_the_reference(mut outcome: Outcome) -> Outcome {
+pub fn named_as_in_the_reference(mut outcome: Outcome) -> Outcome {
     for building in &mut outcome.buildings {
         let name = building.name.clone();
         let mut all = Vec::new();

@@ -2,7 +2,10 @@
 
 use pounding_time_history::{FrameOutcome, MethodChoice, Outcome};
 
-use super::torsion::{assembled, go};
+use serde::Deserialize;
+
+use super::reference::Reference;
+use super::torsion::{PAIR, assembled, go, named_as_in_the_reference};
 
 /// A pair under El Centro, each building with these lines in the place of its stiffness, which hold `K` and `F`: stiffness
 /// and yield force of every storey, or half of both for one of two frames.
@@ -101,4 +104,149 @@ fn agree(planar: &Outcome, turning: &Outcome) {
         }
     }
     assert!(turning.energy.residual_ratio < 1e-10);
+}
+
+/// A frame of the reference.
+#[derive(Deserialize)]
+struct Frame {
+    building: String,
+    direction: String,
+    at: f64,
+    storey: usize,
+    peak_deformation: f64,
+    ductility: f64,
+    peak_force: f64,
+    residual_deformation: f64,
+    hysteretic_energy: f64,
+}
+
+/// The pair of the elastic reference with the frames of the other one that yield.
+fn yielding_pair() -> String {
+    let laws = [
+        (
+            "-5 m\", stiffness = [\"30 MN/m\", \"26 MN/m\"]",
+            "bilinear",
+            [150, 100],
+            "0.05",
+        ),
+        (
+            "4 m\", stiffness = [\"12 MN/m\", \"10 MN/m\"]",
+            "bilinear",
+            [70, 45],
+            "0.02",
+        ),
+        (
+            "-6 m\", stiffness = [\"20 MN/m\", \"18 MN/m\"]",
+            "elastic_perfectly_plastic",
+            [110, 80],
+            "",
+        ),
+        (
+            "-6 m\", stiffness = [\"40 MN/m\", \"34 MN/m\"]",
+            "bilinear",
+            [330, 220],
+            "0.03",
+        ),
+    ];
+    laws.iter().fold(PAIR.to_owned(), |text, (frame, law, force, hardening)| {
+        assert_eq!(text.matches(frame).count(), 1, "{frame}");
+        let hardening = match *hardening {
+            "" => String::new(),
+            ratio => format!(", hardening_ratio = {ratio}"),
+        };
+        let [first, second] = force;
+        let law = format!(
+            "{frame}, law = {{ model = \"{law}\", yield_force = [\"{first} kN\", \"{second} kN\"]{hardening} }}"
+        );
+        text.replace(frame, &law)
+    })
+}
+
+/// Every peak, impact and energy, and what every frame went through, against the independent solution.
+#[test]
+fn a_yielding_pair_that_turns_gives_the_reference() {
+    let text = include_str!("../../data/structures/yielding_torsion_pair.json");
+    let reference = Reference::read(text);
+    let file: serde_json::Value = serde_json::from_str(text).unwrap();
+    let frames: Vec<Frame> = serde_json::from_value(file["reference"]["frames"].clone()).unwrap();
+    let assembly = assembled(&yielding_pair());
+    let adaptive = MethodChoice::Adaptive {
+        relative_tolerance: 1e-11,
+    };
+    for (method, allowed) in [(None, 1e-10), (Some(adaptive), 1e-8)] {
+        let outcome = go(&assembly, method);
+        let found = outcome.buildings.iter();
+        let found = found.flat_map(|b| b.frames.iter().map(|f| (b.name.as_str(), f)));
+        let found: Vec<_> = found.collect();
+        assert_eq!((found.len(), frames.len()), (8, 8));
+        for expected in &frames {
+            let own = found.iter().find(|(building, f)| {
+                *building == expected.building
+                    && f.direction == expected.direction
+                    && f.at == expected.at
+                    && f.storey == expected.storey
+            });
+            let (_, own) = own.unwrap();
+            for (what, x, y, size) in [
+                (
+                    "deformation",
+                    own.deformation.value,
+                    expected.peak_deformation,
+                    1.0,
+                ),
+                (
+                    "ductility",
+                    own.ductility.unwrap().value,
+                    expected.ductility,
+                    1.0,
+                ),
+                ("force", own.force.value, expected.peak_force, 1.0),
+                (
+                    "energy",
+                    own.hysteretic_energy,
+                    expected.hysteretic_energy,
+                    1.0,
+                ),
+                (
+                    "residual",
+                    own.residual_deformation,
+                    expected.residual_deformation,
+                    expected.peak_deformation / expected.residual_deformation,
+                ),
+            ] {
+                let off = ((x - y) / (y * size)).abs();
+                assert!(off < allowed, "{what} of a frame: {off:e}");
+            }
+        }
+        reference.agrees(&named_as_in_the_reference(outcome), allowed);
+    }
+}
+
+/// Newmark's method with its own trials of the laws comes to the same at second order.
+#[test]
+fn newmark_converges_at_second_order() {
+    let assembly = assembled(&yielding_pair().replace("duration = 20", "duration = 4"));
+    let values = |method| {
+        let outcome = go(&assembly, method);
+        assert!(outcome.impacts.len() >= 3);
+        let frames = outcome.buildings.iter().flat_map(|b| b.frames.clone());
+        let frames = frames.flat_map(|f| [f.deformation.value, f.hysteretic_energy]);
+        let floors = outcome.buildings.iter().flat_map(|b| b.storeys.clone());
+        let floors = floors.map(|s| s.displacement.value);
+        frames.chain(floors).collect::<Vec<f64>>()
+    };
+    let exact = values(None);
+    let error = |step: f64| {
+        let method = MethodChoice::Newmark {
+            step,
+            beta: 0.25,
+            gamma: 0.5,
+        };
+        let values = values(Some(method));
+        let errors = values.iter().zip(&exact).map(|(x, y)| (x / y - 1.0).abs());
+        errors.fold(0.0, f64::max)
+    };
+    let [coarse, fine] = [1e-3, 2.5e-4].map(error);
+    let order = (coarse / fine).log2() / 2.0;
+    assert!((1.8..2.3).contains(&order), "{order}: {coarse:e} {fine:e}");
 }

@@ -12,3 +12,4 @@ mod isolator;
 mod lateral;
 mod separation;
 mod several_errors;
+mod units;

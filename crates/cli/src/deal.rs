@@ -90,7 +90,7 @@ pub fn is_shard(name: &str) -> bool {
 }
 
 /// Says where the runs of a shard are, which are not the answer; false if the runs are all there.
-pub fn told_part(deal: &Deal, check: &str) -> Result<bool, Failure> {
+pub fn print_shard(deal: &Deal, check: &str) -> Result<bool, Failure> {
     let Deal::Part { shard, file } = deal else {
         return Ok(false);
     };

@@ -185,7 +185,7 @@ impl Heartbeat {
         let left = beat.runs - beat.finished;
         beat.remaining_seconds = (beat.rate > 0.0).then_some(left as f64 / beat.rate);
         if !self.begun || self.last.elapsed() >= BETWEEN {
-            self.told();
+            self.report();
         }
     }
 
@@ -220,10 +220,10 @@ impl Heartbeat {
     pub fn end(&mut self, state: State, message: &str) {
         self.beat.state = state;
         message.clone_into(&mut self.beat.message);
-        self.told();
+        self.report();
     }
 
-    fn told(&mut self) {
+    fn report(&mut self) {
         self.begun = true;
         self.last = Instant::now();
         self.beat.updated = now();
@@ -266,14 +266,14 @@ fn is_own(text: &[u8]) -> bool {
     is_cut || has(["state", "runs", "finished"])
 }
 
-/// The file in which a shard told of itself, if it is not what a shard writes.
+/// The file in which a shard writes its status, if it is not what a shard writes.
 pub fn damaged(folder: &Path, shard: &ShardName) -> Option<PathBuf> {
     let path = path(folder, shard);
     (path.symlink_metadata().is_ok() && read_at(&path).is_none()).then_some(path)
 }
 
-/// The shards that have told of themselves.
-pub fn told(folder: &Path) -> Vec<ShardName> {
+/// The shards that have written their status.
+pub fn shards_with_status(folder: &Path) -> Vec<ShardName> {
     let entries = std::fs::read_dir(folder.join(FOLDER)).into_iter().flatten();
     let names = entries.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     let shard = |name: String| ShardName::of(&format!("{}.h5", name.strip_suffix(".json")?));

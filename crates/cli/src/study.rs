@@ -431,7 +431,7 @@ pub fn summary(study: &Study, report: &SweepReport, options: &SweepOptions) -> S
 }
 
 /// What the runs of a sweep come to, a line for each sentence.
-pub fn told(answer: &SweepAnswer) -> Vec<String> {
+pub fn summary_lines(answer: &SweepAnswer) -> Vec<String> {
     let sentences = answer.sentences();
     let lines = sentences.iter().map(|s| format!("{}\n", s.text()));
     lines.collect()

@@ -577,3 +577,70 @@ fn what_is_of_one_gap_names_it() {
         "{shown}"
     );
 }
+
+/// Rigid impacts have no accelerations: alone they say nothing of them, and what none of the models can say holds for
+/// none.
+#[test]
+fn what_no_model_can_say() {
+    let output = compare(&["--models", "stereomechanical", "--json"]);
+    assert!(output.status.success(), "{}", text(&output.stderr));
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let conclusions = result["conclusions"].as_array().unwrap();
+    let (of_accelerations, others): (Vec<&Value>, Vec<&Value>) = conclusions
+        .iter()
+        .partition(|c| c["statement"].as_str().unwrap().contains("acceleration"));
+    assert_eq!(of_accelerations.len(), 3);
+    for conclusion in of_accelerations {
+        assert_eq!(conclusion["holds"], "no model can say");
+        assert_eq!(conclusion["counts"], serde_json::json!([[0, 0]]));
+    }
+    assert!(others.iter().all(|c| c["holds"] != "no model can say"));
+    // Where no model ran, no record is one without contact.
+    let output = compare(&[
+        "--models",
+        "lapshin_yurin_2016",
+        "--restitution",
+        "1",
+        "--restitution-rule",
+        "exact",
+        "--json",
+    ]);
+    assert_eq!(output.status.code(), Some(3));
+    let result: Value = serde_json::from_slice(&output.stdout).unwrap();
+    let conclusions = result["conclusions"].as_array().unwrap();
+    assert!(conclusions.iter().all(|c| c["holds"] == "no model can say"));
+    let none = serde_json::json!([]);
+    assert_eq!(result["gaps"][0]["records_without_contact"], none);
+    assert_eq!(result["buildings"][0]["records_without_contact"], none);
+}
+
+/// A law that returns nothing has no restitution that others could be asked for.
+#[test]
+fn a_law_that_returns_nothing() {
+    let place = tempfile::tempdir().unwrap();
+    let example = root().join("examples/three_storey_pair/case.toml");
+    let case = std::fs::read_to_string(example).unwrap();
+    let gap = case.find("model = ").unwrap();
+    let after = case[gap..].find("\n\n").unwrap();
+    let motions = root().join("ground_motions").canonicalize().unwrap();
+    let case = format!(
+        "{}model = \"borovin_2014\"\nstiffness = 1e9\nfriction = 1.5\n{}",
+        &case[..gap],
+        case[gap + after..].replace("../../ground_motions", motions.to_str().unwrap())
+    );
+    let file = place.path().join("case.toml");
+    std::fs::write(&file, case).unwrap();
+    let output = Command::new(env!("CARGO_BIN_EXE_pounding"))
+        .arg("compare")
+        .arg(file)
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = text(&output.stderr).replace(['│', '\n'], " ");
+    let said = said.split_whitespace().collect::<Vec<_>>().join(" ");
+    assert!(
+        said.contains("returns nothing in the reference collision"),
+        "{said}"
+    );
+    assert!(said.contains("give --restitution"), "{said}");
+}

@@ -29,7 +29,7 @@ pub const MOST_NUMBERS: usize = 4_000_000;
 /// Most widths of one request for a sweep.
 pub const MOST_WIDTHS: usize = 1_000;
 /// Time after which a run is stopped.
-pub const PATIENCE: Duration = Duration::from_secs(20);
+pub const LONGEST_RUN: Duration = Duration::from_secs(20);
 
 fn refuse(found: impl std::fmt::Display, most: impl std::fmt::Display, what: &str) -> Refused {
     Refused::new(

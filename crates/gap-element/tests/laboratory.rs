@@ -29,7 +29,7 @@ fn examples_fill_what_is_missing() {
     other.fill_from_example();
     assert!(!other.parameters.values.contains_key("restitution"));
     assert!(other.build().is_ok());
-    damped.forget_restitution();
+    damped.remove_restitution();
     assert!(!damped.parameters.values.contains_key("restitution"));
 }
 

@@ -117,7 +117,12 @@ impl PyCase {
     fn under(self, motion: &Motion, name: &str) -> Self {
         let record = Accelerogram::clone(&motion.record).of_memory(name);
         Self {
-            text: format!("{}\n{}", self.case.source.trim_end(), told(motion, name)).into(),
+            text: format!(
+                "{}\n{}",
+                self.case.source.trim_end(),
+                comment_on_motion(motion, name)
+            )
+            .into(),
             motion: Some(Arc::new(record)),
             motion_name: name.to_owned(),
             motion_files: motion.read_from.clone(),
@@ -230,7 +235,7 @@ impl PyCase {
 }
 
 /// The comment at the end of a case on the motion in memory that it is under.
-fn told(motion: &Motion, name: &str) -> String {
+fn comment_on_motion(motion: &Motion, name: &str) -> String {
     let record = &motion.record;
     let from = motion.read_from.record.as_ref();
     let from = from.map_or(String::new(), |file| format!(", read from {file:?}"));

@@ -18,6 +18,7 @@ mod elements;
 mod error;
 mod estimate;
 mod events;
+mod find_warnings;
 mod history;
 mod impacts;
 mod isolated_demand;
@@ -47,7 +48,6 @@ mod system;
 mod unequal_elevations;
 mod unusual_values;
 mod warning;
-mod warnings;
 
 pub use batch::{in_parallel, run_many};
 pub use driver::run;

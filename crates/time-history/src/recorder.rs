@@ -383,7 +383,7 @@ impl<S: HistorySink> GridRecorder<S> {
     }
 
     /// Gives the sink what it has not been given yet.
-    fn hand_over(&mut self) -> Result<(), TimeHistoryError> {
+    fn flush(&mut self) -> Result<(), TimeHistoryError> {
         if self.block.is_empty() {
             return Ok(());
         }
@@ -411,7 +411,7 @@ impl<S: HistorySink> Recorder for GridRecorder<S> {
         }
         self.block.reserve(self.rows - 1);
         if self.rows == 1 {
-            return self.hand_over();
+            return self.flush();
         }
         Ok(())
     }
@@ -450,7 +450,7 @@ impl<S: HistorySink> Recorder for GridRecorder<S> {
             step.append(&times[..within], &mut self.block);
             self.count += within;
             if self.block.len() == self.rows {
-                self.hand_over()?;
+                self.flush()?;
             }
             if within < room {
                 return Ok(());
@@ -459,6 +459,6 @@ impl<S: HistorySink> Recorder for GridRecorder<S> {
     }
 
     fn end(&mut self) -> Result<(), TimeHistoryError> {
-        self.hand_over()
+        self.flush()
     }
 }

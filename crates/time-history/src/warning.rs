@@ -1,4 +1,4 @@
-//! A warning: its causes, and what is told of each. Where they are found: [`crate::warnings`].
+//! A warning: its causes, and what is told of each. Where they are found: [`crate::find_warnings`].
 
 use std::fmt;
 

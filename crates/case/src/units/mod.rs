@@ -215,6 +215,14 @@ pub enum UnitError {
         /// The text.
         text: String,
     },
+    /// Per cent beside other units, or radians beside units of a quantity that no angle takes part in.
+    #[error("\"{symbol}\" in \"{text}\" does not go with the other units")]
+    BesideOthers {
+        /// The text.
+        text: String,
+        /// The unit.
+        symbol: &'static str,
+    },
     /// A product after `/`, which can be read in two ways.
     #[error("the unit of \"{text}\" has a product after `/` and can be read in two ways")]
     Ambiguous {
@@ -252,6 +260,10 @@ impl UnitError {
                 format!("{guess}{}", known_units(wanted))
             }
             Self::Power { .. } => "write powers as in m/s^2, N/m^1.5".to_owned(),
+            Self::BesideOthers { .. } => {
+                "leave it out: `%` stands alone, as in \"5 %\", and `rad` alone, over times and below others, as in \"rad/s\" or \"kN m/rad\""
+                    .to_owned()
+            }
             Self::Incomplete { .. } => {
                 "write units as in \"kN s/m\", \"N/m^1.5\", \"1/s\"".to_owned()
             }
@@ -608,6 +620,7 @@ fn number_length(text: &str) -> usize {
 fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitError> {
     let text = || text.to_owned();
     let (mut up, mut down, mut dimension) = (1.0, 1.0, Dimension::NUMBER);
+    let (mut count, mut per_cent, mut radians) = (0, false, false);
     let normal = normal(symbols);
     for (i, part) in normal.split('/').enumerate() {
         // "1/s": a one stands for an absent numerator, and for nothing else.
@@ -633,6 +646,9 @@ fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitEr
                 }
             })?;
             let power = if i == 0 { power } else { -power };
+            count += 1;
+            per_cent |= symbol == "%";
+            radians |= symbol == "rad" && power > 0.0;
             let (rise, fall) = if power < 0.0 {
                 (unit.down, unit.up)
             } else {
@@ -642,6 +658,17 @@ fn parse_unit(symbols: &str, text: &str) -> Result<(f64, f64, Dimension), UnitEr
             down *= libm::pow(fall, power.abs());
             dimension = dimension.plus(unit.dimension, power);
         }
+    }
+    let beside = |symbol| UnitError::BesideOthers {
+        text: text(),
+        symbol,
+    };
+    if per_cent && count > 1 {
+        return Err(beside("%"));
+    }
+    // An angle is of no mass, and no force or length is by one.
+    if radians && (dimension.mass != 0.0 || dimension.length > 0.0) {
+        return Err(beside("rad"));
     }
     Ok((up, down, dimension))
 }

@@ -17,7 +17,7 @@ use crate::files::{Replaced, reads_too, shard_files};
 use crate::output::{pretty, print, warn};
 use crate::page;
 use crate::separate::{Reading, by_child, limited_memory, reading, warnings};
-use crate::study::{none_succeeded, shows_a_run, table_has_a_place, told as sentences};
+use crate::study::{none_succeeded, shows_a_run, summary_lines, table_has_a_place};
 
 /// Merges the results of shards, or says whether they can be merged.
 pub fn merge(arguments: &MergeArguments, mut files: FileUse) -> Result<(), Failure> {
@@ -154,7 +154,7 @@ fn merged(
         ));
     }
     text.push('\n');
-    text.push_str(&answer.iter().flat_map(sentences).collect::<String>());
+    text.push_str(&answer.iter().flat_map(summary_lines).collect::<String>());
     print(&text)?;
     ending
 }
@@ -214,7 +214,7 @@ fn checked(
             warnings: warnings(&survey.unchecked),
         })?)?;
     } else {
-        print(&told(&survey, merges))?;
+        print(&summary(&survey, merges))?;
     }
     match merges {
         true => Ok(()),
@@ -222,7 +222,7 @@ fn checked(
     }
 }
 
-fn told(survey: &Survey, merges: bool) -> String {
+fn summary(survey: &Survey, merges: bool) -> String {
     let mut text = format!(
         "{} of {} are there",
         survey.present.len(),

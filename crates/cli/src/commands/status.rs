@@ -19,7 +19,7 @@ use crate::command_words::{resumed, shell_line};
 use crate::deal::is_shard;
 use crate::failure::Failure;
 use crate::files::name_left_over_in;
-use crate::heartbeat::{Beat, State, damaged, read, told};
+use crate::heartbeat::{Beat, State, damaged, read, shards_with_status};
 use crate::output::{note, pretty, print, print_as_it_is};
 use crate::plan::{path_word, program};
 use crate::progress::time;
@@ -61,10 +61,10 @@ pub fn status(arguments: &StatusArguments) -> Result<(), Failure> {
                 // To the beginning of a screen that is empty from there on.
                 let _ = write!(std::io::stdout(), "\x1b[H\x1b[J");
             }
-            let told: Vec<String> = (studies.iter())
-                .map(|study| study.told(&arguments.folder, &studies))
+            let summaries: Vec<String> = (studies.iter())
+                .map(|study| study.summary(&arguments.folder, &studies))
                 .collect();
-            print(&told.join("\n"))?;
+            print(&summaries.join("\n"))?;
         }
         // What running shards write, perhaps on other machines, is not left over.
         let are_ended = studies.iter().all(|study| study.running.is_empty());
@@ -133,12 +133,12 @@ struct Progress {
     ended: Vec<Of>,
     /// Those of which nothing is known.
     missing: Vec<usize>,
-    /// Runs in shards that have told of themselves: finished, failed, collapsed.
+    /// Runs in shards that have written their status: finished, failed, collapsed.
     finished: usize,
     failed: usize,
     collapsed: usize,
     /// The command that goes on with a shard, and the folder that it is called in; unknown
-    /// before the first has told of itself.
+    /// before the first has written its status.
     #[serde(skip)]
     command: Option<(PathBuf, Vec<String>)>,
     /// Commands that go on with shards that are neither done nor running.
@@ -146,7 +146,7 @@ struct Progress {
     /// Shards in whose places results stand that are of no use and that no call replaces.
     #[serde(skip)]
     no_use: Vec<usize>,
-    /// Files in which shards told of themselves, and which are no such files any more.
+    /// Files in which shards wrote their status, and which are no such files any more.
     #[serde(rename = "damaged_status_files")]
     damaged: Vec<PathBuf>,
 }
@@ -183,7 +183,7 @@ fn look(folder: &Path, known: &mut Known) -> Result<Vec<Progress>, Failure> {
             shards.push(found);
         }
     }
-    for shard in told(folder) {
+    for shard in shards_with_status(folder) {
         studies.entry((shard.study, shard.count)).or_default();
     }
     if studies.is_empty() {
@@ -381,7 +381,7 @@ impl Progress {
                     Some(found) => {
                         let damaged = || "its result is damaged".to_owned();
                         let why = found.of_no_use().unwrap_or_else(damaged);
-                        progress.ended.push(Of::untold(index, why));
+                        progress.ended.push(Of::without_status(index, why));
                     }
                     None => progress.missing.push(index),
                 },
@@ -525,7 +525,7 @@ impl Progress {
     }
 
     /// How far all shards are, and what to do; `all` are the studies in the folder.
-    fn told(&self, folder: &Path, all: &[Self]) -> String {
+    fn summary(&self, folder: &Path, all: &[Self]) -> String {
         let mut text = format!(
             "{}: {} of {} done in {}, {} finished",
             self.name,
@@ -614,8 +614,8 @@ fn moved(path: &Path) -> String {
 }
 
 impl Of {
-    /// One that has told nothing of itself.
-    fn untold(shard: usize, how: String) -> Self {
+    /// One that has written no status.
+    fn without_status(shard: usize, how: String) -> Self {
         Self {
             shard,
             how,

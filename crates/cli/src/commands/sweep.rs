@@ -10,7 +10,7 @@ use crate::output::{pretty, print, print_as_it_is};
 use crate::page;
 use crate::plan::{self, Planned};
 use crate::study::{
-    Finished, all_failed, options, read, run, shard, stands_complete, summary, told,
+    Finished, all_failed, options, read, run, shard, stands_complete, summary, summary_lines,
 };
 
 /// Runs a study, or shows what it would run.
@@ -53,7 +53,7 @@ pub fn sweep(arguments: &SweepArguments, mut files: FileUse) -> Result<(), Failu
         print(&pretty(&finished.with_answer(answer))?)?;
     } else {
         let mut text = summary(&study, &report, &options);
-        text.push_str(&answer.iter().flat_map(told).collect::<String>());
+        text.push_str(&answer.iter().flat_map(summary_lines).collect::<String>());
         print(&text)?;
     }
     all_failed(&report, shard)

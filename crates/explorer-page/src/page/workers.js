@@ -4,7 +4,7 @@
 // case and files.
 const workers = (() => {
   // Time for an answer (ms): the module stops a run by itself before.
-  const PATIENCE = 45000;
+  const LONGEST_ANSWER = 45000;
   const unpacked = async (text) => {
     const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
     const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -25,8 +25,8 @@ const workers = (() => {
         const number = ++last;
         const timer = setTimeout(() => {
           restart();
-          resolve(fault(`no answer within ${PATIENCE / 1000} s`, "run the case with `pounding run`"));
-        }, PATIENCE);
+          resolve(fault(`no answer within ${LONGEST_ANSWER / 1000} s`, "run the case with `pounding run`"));
+        }, LONGEST_ANSWER);
         waiting.set(number, (answer) => {
           clearTimeout(timer);
           resolve(answer);

@@ -5,7 +5,7 @@ use std::cell::Cell;
 use pounding_time_history::{History, Impact, Recorder, StepView, System, TimeHistoryError};
 use web_time::Instant;
 
-use crate::limits::PATIENCE;
+use crate::limits::LONGEST_RUN;
 
 /// Steps between two looks at the clock.
 const STEPS: u32 = 32;
@@ -23,7 +23,7 @@ impl Deadline {
     /// For runs that begin now.
     pub(super) fn from_now() -> Self {
         Self {
-            until: Instant::now() + PATIENCE,
+            until: Instant::now() + LONGEST_RUN,
             steps: Cell::new(0),
             is_over: Cell::new(false),
         }
@@ -41,7 +41,7 @@ impl Deadline {
             false => Ok(()),
             true => Err(TimeHistoryError::Recorder(format!(
                 "the run takes more than {} s; run the case with `pounding run`",
-                PATIENCE.as_secs()
+                LONGEST_RUN.as_secs()
             ))),
         }
     }

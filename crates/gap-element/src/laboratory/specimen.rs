@@ -71,7 +71,7 @@ impl Specimen {
     }
 
     /// Leaves the restitution out, for a table that goes through all of them.
-    pub fn forget_restitution(&mut self) {
+    pub fn remove_restitution(&mut self) {
         self.parameters.values.remove("restitution");
         self.filled.retain(|key| key != "restitution");
     }

@@ -357,7 +357,7 @@ mod tests {
 
     /// What the answer says of models that ran, of which the last failed under so many of two
     /// records, with impacts under each.
-    fn told(models: usize, failures: usize, impacts: [usize; 2], count: usize) -> String {
+    fn answer_text(models: usize, failures: usize, impacts: [usize; 2], count: usize) -> String {
         let model = |i: usize| {
             let failed = if i + 1 == models { failures } else { 0 };
             json!({ "name": format!("model_{i}"), "failures": vec![json!({}); failed] })
@@ -377,15 +377,15 @@ mod tests {
     /// No answer is drawn from one model, and none from buildings that do not touch.
     #[test]
     fn an_answer_needs_models_and_contact() {
-        let one = told(1, 0, [1, 1], 1);
+        let one = answer_text(1, 0, [1, 1], 1);
         assert!(
             one.contains("That is not answered") && !one.contains("No."),
             "{one}"
         );
-        let rest = told(2, 2, [1, 1], 1);
+        let rest = answer_text(2, 2, [1, 1], 1);
         assert!(rest.contains("That is not answered"), "{rest}");
         assert!(rest.contains("Under no record: model_1."), "{rest}");
-        let some = told(3, 1, [1, 0], 2);
+        let some = answer_text(3, 1, [1, 0], 2);
         assert!(some.contains("<strong>No.</strong>"), "{some}");
         assert!(some.contains("Not under every record: model_2."), "{some}");
         assert!(
@@ -393,7 +393,7 @@ mod tests {
             "{some}"
         );
         assert!(some.contains("furthest apart in impulse"), "{some}");
-        let none = told(2, 0, [0, 0], 2);
+        let none = answer_text(2, 0, [0, 0], 2);
         assert!(
             none.contains("Nothing touches") && !none.contains("furthest"),
             "{none}"
@@ -406,7 +406,7 @@ mod tests {
             said.starts_with("b, c: Rigid impacts are jumps of the velocity"),
             "{said}"
         );
-        let alone = told(2, 0, [1, 1], 1);
+        let alone = answer_text(2, 0, [1, 1], 1);
         assert!(alone.contains("of 1 no more than one model"), "{alone}");
     }
 }

@@ -148,6 +148,15 @@ pub(super) fn own_restitution(
         reason: e.to_string(),
         help: "give --restitution",
     })?;
+    if found <= 0.0 {
+        return Err(CheckError::Calibration {
+            reason: format!(
+                "the law of gap {} returns nothing in the reference collision, and hardly any other can be asked for a restitution of 0",
+                gap.name
+            ),
+            help: "give --restitution, above 0 and at most 1",
+        });
+    }
     // Of a law that loses nothing the collision returns 1 but for round-off, which no model could be asked for.
     Ok(match found > 1.0 && found < 1.0 + ROUND_OFF {
         true => 1.0,

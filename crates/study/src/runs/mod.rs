@@ -3,7 +3,7 @@
 mod cache;
 mod engine;
 mod motion;
-mod motions;
+mod motion_set;
 mod named_files;
 mod proportion;
 mod runner;
@@ -13,7 +13,7 @@ mod varied;
 
 pub(crate) use engine::run_all;
 pub(crate) use motion::motion;
-pub use motions::RecordReport;
+pub use motion_set::RecordReport;
 pub use pounding_results::study::{
     Axis, Ending, IsolatedQuantities, IsolatedRun, Layout, Place, Quantity, RESPONSES, Response,
     Row,

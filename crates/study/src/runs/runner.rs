@@ -17,7 +17,7 @@ use sha2::{Digest, Sha256};
 
 use super::cache::Cache;
 use super::motion::Motion;
-use super::motions::Motions;
+use super::motion_set::Motions;
 use super::named_files::named_files;
 use super::proportion::{factors_of_further, intensity_of_case};
 use super::structures::{looked_at, warnings_of_structures};
@@ -236,8 +236,9 @@ impl<'s> Runner<'s> {
             let motion = motion.map_err(Clone::clone)?;
             self.values(&point, &variant, motion, factor?)
         }));
-        let values =
-            made.unwrap_or_else(|panic| Err(format!("the program broke off: {}", said(&*panic))));
+        let values = made.unwrap_or_else(|panic| {
+            Err(format!("the program broke off: {}", panic_message(&*panic)))
+        });
         match values {
             Ok((values, ending)) => (row.values, row.ending) = (values, ending),
             Err(reason) => {
@@ -725,8 +726,8 @@ fn key(study: &Study, point: &[Value]) -> Key {
     key
 }
 
-/// What a panic said.
-fn said(panic: &(dyn std::any::Any + Send)) -> String {
+/// The message of a panic.
+fn panic_message(panic: &(dyn std::any::Any + Send)) -> String {
     let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
     text.or_else(|| panic.downcast_ref::<String>().cloned())
         .unwrap_or_else(|| "without a reason".to_owned())

@@ -181,8 +181,8 @@ impl Variable {
         matches!(self.target, Target::Record)
     }
 
-    /// A value of it, in words.
-    fn said(&self, value: &Value) -> String {
+    /// A value of it, in words, without its unit.
+    fn without_unit(&self, value: &Value) -> String {
         match (&self.values, value) {
             (Values::Choices(labels), Value::Choice(i)) => {
                 format!("{} = {}", self.name, labels[*i])
@@ -195,8 +195,8 @@ impl Variable {
     /// A value of it with its unit, for people.
     pub(crate) fn in_words(&self, value: &Value) -> String {
         match self.unit.as_str() {
-            "" | "1" => self.said(value),
-            unit => format!("{} {unit}", self.said(value)),
+            "" | "1" => self.without_unit(value),
+            unit => format!("{} {unit}", self.without_unit(value)),
         }
     }
 

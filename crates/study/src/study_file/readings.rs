@@ -119,7 +119,7 @@ fn source(
     let edits: Vec<_> = values().flat_map(|(v, x)| v.target.edits(x)).collect();
     let case = Variant::new(tree, &edits).case();
     let file = &case.as_ref().unwrap_or(base).ground_motion.file.value;
-    let said: Vec<String> = values().map(|(v, x)| v.said(x)).collect();
+    let said: Vec<String> = values().map(|(v, x)| v.without_unit(x)).collect();
     RecordSource {
         name: format!("{} ({})", stem(file), said.join(", ")),
         kind: match case {

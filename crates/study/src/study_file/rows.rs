@@ -21,7 +21,7 @@ pub(super) enum Refused {
 
 impl Refused {
     /// The message, and what helps.
-    pub(super) fn said(self) -> (String, Option<String>) {
+    pub(super) fn into_message(self) -> (String, Option<String>) {
         match self {
             Self::Text(error) => (error.message, error.help),
             Self::Whole(error) => (error.to_string(), error.help()),
@@ -56,8 +56,8 @@ pub(super) fn taken(
         let values = || variables.iter().zip(&point);
         let edits: Vec<Edit> = values().flat_map(|(v, x)| v.target.edits(x)).collect();
         if let Err(refused) = tried(&tree, &edits) {
-            let (message, help) = refused.said();
-            let row: Vec<String> = values().map(|(v, x)| v.said(x)).collect();
+            let (message, help) = refused.into_message();
+            let row: Vec<String> = values().map(|(v, x)| v.without_unit(x)).collect();
             let message = format!(
                 "the case refuses run {run} of the list ({}): {message}",
                 row.join(", ")
@@ -88,7 +88,7 @@ pub(super) fn ends_taken(
             let x = distribution.quantile(probability);
             let edits = variable.target.edits(&Value::Number(x));
             if let Err(refused) = tried(&tree, &edits) {
-                let (message, of_case) = refused.said();
+                let (message, of_case) = refused.into_message();
                 let message = format!(
                     "the case refuses {}, which about one of {samples} runs has: {message}",
                     variable.in_words(&Value::Number(x))

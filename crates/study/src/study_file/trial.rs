@@ -163,7 +163,7 @@ impl Trial<'_> {
                 }
                 Refused::Whole(_) => false,
             };
-            let (message, help) = refused.said();
+            let (message, help) = refused.into_message();
             Refusal {
                 message,
                 help,

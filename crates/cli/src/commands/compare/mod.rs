@@ -13,7 +13,7 @@ use pounding_study::comparison::{
 };
 
 use crate::arguments::{CompareArguments, RestitutionChoice, StiffnessChoice};
-use crate::deal::{deal, told_part};
+use crate::deal::{deal, print_shard};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::{an_answer_has_a_place, have_a_place};
@@ -63,7 +63,7 @@ pub fn run(arguments: &CompareArguments, mut files: FileUse) -> Result<(), Failu
     };
     let comparison = compare_dealt(&case, &records, &options, (&tell, &deal)).map_err(failed)?;
     drop(progress);
-    if told_part(&deal, "compare")? {
+    if print_shard(&deal, "compare")? {
         return Ok(());
     }
     if let Some(path) = &arguments.csv {

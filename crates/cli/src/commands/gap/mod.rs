@@ -22,7 +22,7 @@ use pounding_study::gap_check::{
 
 use crate::arguments::{GapArguments, OutputPath, is_bare, optional};
 use crate::asked_separation::{Asked, overridden};
-use crate::deal::{deal, told_part};
+use crate::deal::{deal, print_shard};
 use crate::failure::Failure;
 use crate::faults::{of_check, read_case, recorded};
 use crate::files::{an_answer_has_a_place, have_a_place};
@@ -79,7 +79,7 @@ pub fn gap(arguments: &GapArguments, mut files: FileUse) -> Result<(), Failure> 
     let check = gap_check_dealt(&case, &separation, &records, &options, (&tell, &deal));
     let check = check.map_err(failed)?;
     drop(progress);
-    if told_part(&deal, "gap")? {
+    if print_shard(&deal, "gap")? {
         return Ok(());
     }
     write_files(arguments, &check)?;

@@ -66,8 +66,8 @@ pub fn of_each<'a, T>(
     Ok((results, failed))
 }
 
-/// What is to be said of models whose collision does not end, behind the results of the others.
-pub fn told(failed: &[Failed]) -> Result<(), Failure> {
+/// The failure of a call in which the collisions of some models do not end, behind the results of the others.
+pub fn failure_of(failed: &[Failed]) -> Result<(), Failure> {
     if failed.is_empty() {
         return Ok(());
     }

@@ -33,7 +33,7 @@ pub fn impact(arguments: &ImpactArguments) -> Result<(), Failure> {
     let setting = setting::setting(arguments)?;
     let mut chosen = chosen::choose(arguments)?;
     if arguments.table {
-        chosen.iter_mut().for_each(Specimen::forget_restitution);
+        chosen.iter_mut().for_each(Specimen::remove_restitution);
         return table::table(arguments, &chosen, &setting);
     }
     collisions(arguments, &chosen, &setting)
@@ -71,10 +71,10 @@ fn collisions(
         };
         let shown = Models::new(models, shared, setting, chosen.len() > 1);
         print(&pretty(&shown)?)?;
-        return collisions::told(&failed);
+        return collisions::failure_of(&failed);
     }
     if !any {
-        return collisions::told(&failed);
+        return collisions::failure_of(&failed);
     }
     let mut text = collisions::text(&collided, setting);
     if let (Some(measured), Some(compared)) = (&history, &compared) {
@@ -85,7 +85,7 @@ fn collisions(
         arguments.svg.as_deref(),
     ]));
     print(&text)?;
-    collisions::told(&failed)
+    collisions::failure_of(&failed)
 }
 
 /// What `--json` prints of models: one is an object of its own; several are a list, and what

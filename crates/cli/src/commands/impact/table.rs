@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::Models;
 use super::chosen;
-use super::collisions::{Failed, of_each, right_aligned, told};
+use super::collisions::{Failed, failure_of, of_each, right_aligned};
 use super::remarks::remarks;
 use super::setting::Setting;
 use crate::arguments::{FigureArguments, ImpactArguments};
@@ -58,7 +58,7 @@ pub fn table(
         .collect();
     let any = !tables.is_empty();
     if !any && !arguments.json {
-        return told(&failed);
+        return failure_of(&failed);
     }
     if let Some(path) = arguments.csv.as_ref().filter(|_| any) {
         write_csv(path, &tables, setting)?;
@@ -75,7 +75,7 @@ pub fn table(
         };
         let models = tables.iter().map(|one| (one.chosen, &one.table));
         print(&pretty(&Models::new(models, left_out, setting, several))?)?;
-        return told(&failed);
+        return failure_of(&failed);
     }
     let mut text = format!("{}\n", setting.description);
     text.push_str(&match tables.as_slice() {
@@ -93,7 +93,7 @@ pub fn table(
         arguments.svg.as_deref(),
     ]));
     print(&text)?;
-    told(&failed)
+    failure_of(&failed)
 }
 
 fn reason(chosen: &Specimen) -> &'static str {

@@ -8,7 +8,7 @@ use crate::draft::{Draft, DraftUnit};
 use crate::error::GroundMotionError;
 use crate::format::Format;
 use crate::fortran::Layout;
-use crate::header_keys::{Entry, keyed, meaning};
+use crate::header_keys::{Entry, keyed, states_number};
 use crate::recording::Series;
 use crate::row_widths;
 use crate::source::Source;
@@ -87,7 +87,7 @@ fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
         .filter(|(_, l)| !l.is_blank() && l.fields().next().is_some() && !is_comment(l))
         .skip_while(move |(whole, l)| {
             let words = !l.fields().any(|(_, field)| starts_a_number(field));
-            let is_stated = || columns > 0 && states_something(whole);
+            let is_stated = || columns > 0 && states_number(&whole.lower());
             words
                 || l.is_text()
                 || is_key(l)
@@ -96,14 +96,6 @@ fn rows<'a>(source: &Source<'a>) -> impl Iterator<Item = Line<'a>> + use<'a> {
                 || header::parse(l).is_some()
         })
         .map(|(_, l)| l)
-}
-
-/// Whether a number stands under a key of a line that is known, `Time step (s): 0.005`.
-fn states_something(line: &Line<'_>) -> bool {
-    let lower = line.lower();
-    keyed(&lower)
-        .iter()
-        .any(|entry| meaning(entry).is_some() && entry.has_number())
 }
 
 /// Whether a line is a symbol with its value, `\u{394}t = 0.01 s`.

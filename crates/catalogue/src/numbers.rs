@@ -76,6 +76,19 @@ pub fn rounded_up(value: f64, decimals: usize) -> String {
     fixed(up(value, decimals), decimals)
 }
 
+/// A width that is provided (m) in mm: one decimal, or as many as it has up to six digits.
+#[must_use]
+pub fn width_in_millimetres(provided: f64) -> String {
+    let (shown, all) = (format!("{:.1}", provided * 1e3), six_digits(provided * 1e3));
+    match all.len() > shown.len() || shown.len() > MOST_SIGNS {
+        true => all,
+        false => shown,
+    }
+}
+
+/// Signs of a width with one decimal, before it is written with an exponent.
+const MOST_SIGNS: usize = 10;
+
 /// Decimals more with which a width that is wide enough is told from one that is not.
 const MORE_DECIMALS: usize = 6;
 
@@ -150,6 +163,22 @@ pub fn shown_unit(si: &str) -> (f64, &str) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn widths_have_the_digits_that_they_need() {
+        for (metres, shown) in [
+            (0.02, "20.0"),
+            (0.0351, "35.1"),
+            (0.035_06, "35.06"),
+            (0.000_04, "0.04"),
+            (0.0, "0.0"),
+            (1.234_567_8, "1234.57"),
+            (123.456_7, "123456.7"),
+            (1e6, "1.00000e9"),
+        ] {
+            assert_eq!(width_in_millimetres(metres), shown);
+        }
+    }
 
     #[test]
     fn digits_are_as_many_as_are_asked_for() {

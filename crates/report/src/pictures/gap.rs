@@ -1,6 +1,7 @@
 //! Gaps of several widths, and the spectra of their records.
 
 use pounding_catalogue::STANDARD_GRAVITY as G;
+use pounding_catalogue::numbers::width_in_millimetres;
 use pounding_study::gap_check::{Amplification, GapCheck};
 
 use crate::chart::{Axis, Chart, HEIGHT, Limit, LimitPlace, Look, Plot, Series};
@@ -91,7 +92,7 @@ fn limits(check: &GapCheck, varied: Option<&str>) -> Vec<Limit> {
         false => format!("provided at level {}:", level.place.label()),
     };
     add(
-        format!("{provided} {:.1} mm", level.width * 1e3),
+        format!("{provided} {} mm", width_in_millimetres(level.width)),
         level.width,
         "",
     );

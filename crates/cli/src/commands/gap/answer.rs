@@ -1,6 +1,6 @@
 //! The answer for a gap, before everything else.
 
-use pounding_catalogue::numbers::{missing, rounded_up, rounded_up_beside, six_digits};
+use pounding_catalogue::numbers::{missing, rounded_up, rounded_up_beside, width_in_millimetres};
 use pounding_catalogue::wording::{agreeing, counted};
 use pounding_study::gap_check::{
     CodeAnswer, GapCheck, GapReport, LevelAnswer, LevelDemand, OwnershipAnswer, SuiteSpectrum,
@@ -102,20 +102,11 @@ fn driven(gap: &GapReport) -> String {
     text
 }
 
-/// A width that is provided (m) in mm: one decimal, or as many as it has.
-pub fn in_millimetres(provided: f64) -> String {
-    let (shown, all) = (format!("{:.1}", provided * 1e3), six_digits(provided * 1e3));
-    match all.len() > shown.len() {
-        true => all,
-        false => shown,
-    }
-}
-
 /// What is left of a width that is provided (m), or short of the one that is required.
 pub fn left_or_short(provided: f64, required: f64) -> String {
     match provided - required {
         left if left < 0.0 => {
-            let provided = in_millimetres(provided);
+            let provided = width_in_millimetres(provided);
             format!("{} mm short", missing(required * 1e3, &provided, 2))
         }
         left => format!("{:.2} mm left", left * 1e3),
@@ -133,7 +124,7 @@ fn governing(check: &GapCheck, gap: &GapReport) -> String {
         gap.levels[governing.level].place.label(),
         rounded_up_beside(governing.required * 1e3, governing.provided * 1e3, 2),
         check.records[governing.record].name,
-        in_millimetres(governing.provided),
+        width_in_millimetres(governing.provided),
         left_or_short(governing.provided, governing.required),
     )
 }
@@ -198,7 +189,7 @@ fn provided(gap: &GapReport) -> String {
     let level = &gap.levels[gap.governing.level];
     format!(
         "  provided {} mm at level {}, where the demand is the maximum\n",
-        in_millimetres(level.width),
+        width_in_millimetres(level.width),
         level.place.label()
     )
 }
@@ -401,7 +392,7 @@ fn cases(gap: &GapReport, answer: &CodeAnswer) -> String {
             shown(displacement[0]),
             shown(displacement[1]),
             widths(governing),
-            in_millimetres(*provided),
+            width_in_millimetres(*provided),
             reached.to_owned(),
             width
                 .provisions()

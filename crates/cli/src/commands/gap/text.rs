@@ -1,7 +1,7 @@
 //! The gap check for people.
 
 use pounding_case::Case;
-use pounding_catalogue::numbers::rounded_up_beside;
+use pounding_catalogue::numbers::{rounded_up_beside, width_in_millimetres};
 use pounding_catalogue::wording::counted;
 use pounding_shear_building::{OVERTURNING_RATIO, UPLIFT_BEGINS};
 use pounding_study::gap_check::{
@@ -9,7 +9,7 @@ use pounding_study::gap_check::{
 };
 use pounding_time_history::VELOCITY_JUMPS;
 
-use super::answer::{answer, in_millimetres, left_or_short};
+use super::answer::{answer, left_or_short};
 use super::rules;
 use super::suite::{suite, target};
 use crate::tables::{against_capacity, collapsed, decimal, links_stay, new_table, warning_lines};
@@ -156,7 +156,7 @@ fn demand(check: &GapCheck, index: usize) -> String {
         let mut row = vec![
             level.place.label(),
             level.place.elevations_label(),
-            in_millimetres(level.width),
+            width_in_millimetres(level.width),
         ];
         if few {
             row.extend(
@@ -202,7 +202,7 @@ fn isolation(check: &GapCheck, index: usize) -> String {
             level.place,
             rounded_up_beside(demand * 1e3, level.width * 1e3, 2),
             record.name,
-            in_millimetres(level.width),
+            width_in_millimetres(level.width),
             left_or_short(level.width, demand),
         ));
     }

@@ -1,6 +1,6 @@
 //! Tables of an incremental dynamic analysis.
 
-use pounding_catalogue::numbers::{rounded_up, six_digits};
+use pounding_catalogue::numbers::{rounded_up, width_in_millimetres};
 use pounding_catalogue::wording::counted;
 use pounding_study::{
     FitRemark, FragilityFit, FrequencyBounds, IdaReport, IdaSettings, LimitResult, POOR,
@@ -228,15 +228,6 @@ fn poor_fits<'s>(
     text
 }
 
-/// A width that was asked for, in mm: with a decimal, and with more where it has more.
-fn in_millimetres(width: f64) -> String {
-    let millimetres = six_digits(width * 1e3);
-    match millimetres.contains(['.', 'e']) {
-        true => millimetres,
-        false => format!("{millimetres}.0"),
-    }
-}
-
 fn widths(
     report: &IdaReport,
     gap: &PoundingDemand,
@@ -246,7 +237,7 @@ fn widths(
     let mut text = String::new();
     if !gap.widths.is_empty() {
         let widths = gap.widths.iter();
-        let widths = widths.map(|w| (in_millimetres(w.width), &w.result));
+        let widths = widths.map(|w| (width_in_millimetres(w.width), &w.result));
         let header = ["gap (mm)", "pounding of runs, by intensity"];
         let table = states(report, header, widths, settings);
         text.push_str(&format!(
@@ -254,7 +245,7 @@ fn widths(
             gap.gap
         ));
         let named = gap.widths.iter();
-        let named = named.map(|w| (format!("{} mm", in_millimetres(w.width)), &w.result));
+        let named = named.map(|w| (format!("{} mm", width_in_millimetres(w.width)), &w.result));
         text.push_str(&poor_fits(report, named));
     }
     if let (Some(minimum), Some(target)) = (&gap.minimum, settings.target_frequency) {

@@ -222,3 +222,38 @@ fn keys_of_a_frame() {
     assert_eq!(keys, expected);
     assert_eq!(frame["strength_lost"], Value::Null);
 }
+
+/// A frame that may lose all its strength is told of before a run, in studies too, and each that did after it.
+#[test]
+fn strength_that_frames_lose() {
+    let bench = bench();
+    let law = "law = { model = \"ibarra_medina_krawinkler_2005_bilinear\", yield_force = [\"150 kN\", \"300 kN\"], hardening_ratio = 0.02, capping_deformation = \"20 mm\", softening_ratio = 0.2, strength_capacity = 10, capping_capacity = 10, unloading_capacity = 20 }";
+    let text = bench.read("case.toml");
+    let start = text.find("law = { model = \"bilinear\"").unwrap();
+    let end = start + text[start..].find('\n').unwrap();
+    bench.write(
+        "case.toml",
+        &format!("{}{law}{}", &text[..start], &text[end..]),
+    );
+    let before = "low, storey 1: the law of a frame may lose all strength";
+    let checked = bench.text("check case.toml");
+    assert!(checked.contains(before), "{checked}");
+    let told = bench.text("run case.toml --no-output");
+    let after = "low, frame along at -5 m, storey 1: it has lost all its strength at t = ";
+    assert!(told.contains(after) && !told.contains(before), "{told}");
+    assert!(!told.contains("p_delta"), "{told}");
+    let json = bench.json("run case.toml --no-output");
+    let low = &json["buildings"][0];
+    assert!(low["frames"][0]["strength_lost"].as_f64().unwrap() > 0.0);
+    assert_eq!(low["frames"][1]["strength_lost"], Value::Null);
+    assert_eq!(low["yielding"][0]["strength_lost"], Value::Null);
+    bench.write(
+        "study.toml",
+        "case = \"case.toml\"\n[[variable]]\npath = \"gap.0.width\"\nvalues = [\"20 mm\", \"40 mm\"]\n",
+    );
+    let output = bench.output("sweep study.toml -o study.h5");
+    assert_eq!(output.status.code(), Some(0));
+    let said = String::from_utf8_lossy(&output.stderr).into_owned()
+        + &String::from_utf8_lossy(&output.stdout);
+    assert!(said.contains(before), "{said}");
+}

@@ -11,18 +11,23 @@ pub(crate) fn before(system: &System) -> impl Iterator<Item = Warning> {
     buildings.filter_map(|building| may_be_lost(building))
 }
 
-/// The warning of a building by its lowest storey that may lose all its strength and yet stand.
+/// The warning of a building by its lowest storey that may lose all its strength, or with a frame that may, and yet stand.
 fn may_be_lost(building: &ShearBuilding) -> Option<Warning> {
     let laws = building.laws().iter().zip(building.geometric_stiffness());
     let mut may = laws.map(|(law, geometric)| {
         let law = law.as_ref();
         *geometric == 0.0 && law.is_some_and(|law| law.law.may_lose_all_strength())
     });
-    may.position(|may| may)
-        .map(|storey| Warning::StrengthMayBeLost {
-            building: building.name().to_owned(),
-            storey: storey + 1,
-        })
+    let frames = building.yielding_frames().iter();
+    let frames = frames.filter(|frame| frame.law.law.may_lose_all_strength());
+    let of_frame = frames.map(|frame| (frame.storey, true)).min();
+    let of_storey = may.position(|may| may).map(|storey| (storey, false));
+    let (storey, of_frame) = of_storey.or(of_frame)?;
+    Some(Warning::StrengthMayBeLost {
+        building: building.name().to_owned(),
+        storey: storey + 1,
+        of_frame,
+    })
 }
 
 /// The first storey of each building, and all frames and links, that lost their strength.

@@ -250,8 +250,10 @@ pub enum Warning {
         building: String,
         /// The lowest such storey, from 1.
         storey: usize,
+        /// Whether it is the law of a frame in it, of a building that turns in plan.
+        of_frame: bool,
     },
-    /// A storey or a link that lost all its strength.
+    /// A storey, a frame or a link that lost all its strength.
     StrengthLost {
         /// Storey or level of a link, in words.
         place: String,
@@ -526,7 +528,17 @@ impl fmt::Display for Warning {
                     ""
                 }
             ),
-            Self::StrengthMayBeLost { building, storey } => write!(
+            Self::StrengthMayBeLost {
+                building,
+                storey,
+                of_frame: true,
+            } => write!(
+                f,
+                "{building}, storey {storey}: the law of a frame may lose all strength, and in a building that turns in plan nothing then brings it down: a run in which all frames of a storey do counts as one without collapse, with drifts of floors that nothing but damping holds; see which frames lost their strength in the runs by themselves"
+            ),
+            Self::StrengthMayBeLost {
+                building, storey, ..
+            } => write!(
                 f,
                 "{building}, storey {storey}: its law may lose all strength, and without P-Delta nothing then brings the building down: a run in which it does counts as one without collapse, with drifts of floors that nothing but damping holds; give the building `p_delta = true`"
             ),

@@ -366,15 +366,6 @@ impl Building {
         self.laws.iter().chain(frames.flat_map(|f| &f.laws))
     }
 
-    /// The same to be changed.
-    pub fn all_laws_mut(&mut self) -> impl Iterator<Item = &mut StoreyLaw> {
-        let frames = self
-            .plan
-            .iter_mut()
-            .flat_map(|plan| plan.value.frames_mut());
-        self.laws.iter_mut().chain(frames.flat_map(|f| &mut f.laws))
-    }
-
     /// Elevations of the floors (m), bottom first, as
     /// [`pounding_shear_building::elevations`] has them.
     #[must_use]

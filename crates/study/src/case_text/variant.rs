@@ -74,6 +74,7 @@ mod tests {
     use std::collections::BTreeMap;
 
     use pounding_assembly::assemble_at_rest;
+    use pounding_case::{Parameter, Plan};
     use proptest::prelude::*;
     use proptest::sample::{Index, select};
     use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
@@ -236,13 +237,16 @@ mod tests {
         case.source.clear();
         // What is asked is of places in the text before the edits: of values that a study varies it asks the whole text.
         case.asked.clear();
-        for gap in &mut case.gaps {
-            gap.parameters.sort_by(|a, b| a.key.value.cmp(&b.key.value));
-        }
-        let laws = case.buildings.iter_mut().flat_map(|b| b.all_laws_mut());
-        let laws = laws.map(|law| &mut law.parameters);
-        for parameters in laws.chain(case.links.iter_mut().map(|link| &mut link.parameters)) {
+        let sort = |parameters: &mut Vec<Parameter>| {
             parameters.sort_by(|a, b| a.key.value.cmp(&b.key.value));
+        };
+        case.gaps.iter_mut().for_each(|g| sort(&mut g.parameters));
+        case.links.iter_mut().for_each(|l| sort(&mut l.parameters));
+        for building in &mut case.buildings {
+            let plan = building.plan.iter_mut().map(|plan| &mut plan.value);
+            let of_frames = plan.flat_map(Plan::frames_mut).flat_map(|f| &mut f.laws);
+            let laws = building.laws.iter_mut().chain(of_frames);
+            laws.for_each(|law| sort(&mut law.parameters));
         }
         let is_digit = |c: char| c.is_ascii_digit();
         let text = format!("{case:?}");

@@ -56,6 +56,15 @@ pub struct ResponseRow {
     pub weights: Vec<f64>,
 }
 
+/// What gravity takes off the stiffness of a building through its drifts (P-Delta).
+#[derive(Debug, Clone, PartialEq)]
+pub struct GeometricStiffness {
+    /// Of every storey along the row, bottom first: weight above over height (N/m).
+    pub storeys: Vec<f64>,
+    /// Of all coordinates, as the stiffness is.
+    pub matrix: DMatrix<f64>,
+}
+
 /// A building of floors and other coordinates with full matrices; see
 /// [`crate::ShearBuilding::with_coordinates`].
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +79,8 @@ pub struct GeneralBuilding {
     pub further: Vec<Coordinate>,
     /// Stiffness of all coordinates, floors first (N/m; N m/rad on the diagonal of rotations).
     pub stiffness: DMatrix<f64>,
+    /// What gravity takes off it; `None` without P-Delta.
+    pub geometric: Option<GeometricStiffness>,
     /// Damping of all coordinates.
     pub damping: Damping,
     /// Drift of every storey (m) as a sum over the coordinates; `None` where it is the

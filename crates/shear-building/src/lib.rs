@@ -37,7 +37,8 @@ pub use column::{
     HitColumn, HitLine, NEAR_FLOOR,
 };
 pub use coordinates::{
-    Coordinate, EDGE_DISPLACEMENTS, Excitation, GeneralBuilding, ResponseKind, ResponseRow,
+    Coordinate, EDGE_DISPLACEMENTS, Excitation, GeneralBuilding, GeometricStiffness, ResponseKind,
+    ResponseRow,
 };
 pub use damping::{Damping, DampingMatrix};
 pub use elevation::{

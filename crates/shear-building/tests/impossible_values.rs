@@ -18,6 +18,7 @@ fn general() -> GeneralBuilding {
         height: vec![3.0; 2],
         further: Vec::new(),
         stiffness,
+        geometric: None,
         damping: Damping::StiffnessProportional { ratio: 0.05 },
         drifts: Some(vec![vec![1.0, 0.0], vec![-1.0, 1.0]]),
         sections: vec![vec![1.0, 0.0], vec![-1.0, 1.0], vec![1.0, 1.0]],

@@ -261,7 +261,12 @@ impl Warning {
             }
         }
         for (outcome, building) in buildings.iter().zip(system.buildings()) {
-            let ratios = outcome.storeys.iter().map(|s| s.drift_ratio.value);
+            let ratios = outcome.storeys.iter().enumerate().map(|(i, storey)| {
+                // Of floors that turn the drift is that of their mass centre along the row.
+                let frames = outcome.frames.iter().filter(|f| f.storey == i + 1);
+                let of_frames = frames.map(|f| f.deformation.value / building.height()[i]);
+                of_frames.fold(storey.drift_ratio.value, f64::max)
+            });
             // Isolators are there to be displaced, and have a height that means nothing.
             let isolators = usize::from(building.isolator().is_some());
             let most = ratios

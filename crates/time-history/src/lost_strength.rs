@@ -19,7 +19,10 @@ fn may_be_lost(building: &ShearBuilding) -> Option<Warning> {
         *geometric == 0.0 && law.is_some_and(|law| law.law.may_lose_all_strength())
     });
     let frames = building.yielding_frames().iter();
-    let frames = frames.filter(|frame| frame.law.law.may_lose_all_strength());
+    let frames = frames.filter(|frame| {
+        let geometric = building.geometric_stiffness()[frame.storey];
+        geometric == 0.0 && frame.law.law.may_lose_all_strength()
+    });
     let of_frame = frames.map(|frame| (frame.storey, true)).min();
     let of_storey = may.position(|may| may).map(|storey| (storey, false));
     let (storey, of_frame) = of_storey.or(of_frame)?;

@@ -534,7 +534,7 @@ impl fmt::Display for Warning {
                 of_frame: true,
             } => write!(
                 f,
-                "{building}, storey {storey}: the law of a frame may lose all strength, and in a building that turns in plan nothing then brings it down: a run in which all frames of a storey do counts as one without collapse, with drifts of floors that nothing but damping holds; see which frames lost their strength in the runs by themselves"
+                "{building}, storey {storey}: the law of a frame may lose all strength, and without P-Delta nothing then brings the building down: a run in which all frames of a storey do counts as one without collapse, with drifts of floors that nothing but damping holds; give the building `p_delta = true`"
             ),
             Self::StrengthMayBeLost {
                 building, storey, ..

@@ -148,6 +148,7 @@ impl Building {
             height: vec![HEIGHT; n],
             further,
             stiffness,
+            geometric: None,
             damping: Damping::Matrix { matrix },
             drifts: None,
             sections: (0..=n)

@@ -151,6 +151,7 @@ impl Case {
                     })
                     .collect(),
                 stiffness: of(&s.k),
+                geometric: None,
                 damping: Damping::Matrix { matrix: of(&s.c) },
                 drifts: None,
                 sections: vec![vec![0.0; all.len()]; floors + 1],

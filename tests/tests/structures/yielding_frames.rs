@@ -1,6 +1,8 @@
 //! Frames with laws in buildings whose floors turn in plan.
 
-use pounding_time_history::{FrameOutcome, MethodChoice, Outcome};
+use pounding_time_history::{
+    FrameOutcome, MethodChoice, Outcome, RunOptions, TimeHistoryError, run,
+};
 
 use serde::Deserialize;
 
@@ -32,9 +34,21 @@ const LAW: &str = "law = { model = \"bilinear\", yield_force = F, hardening_rati
 /// form, against the planar building.
 #[test]
 fn even_frames_yield_as_a_storey_does() {
-    let planar = format!("stiffness = K\n{LAW}");
+    as_a_storey("", 5);
+}
+
+/// The same with gravity, which takes as much off both.
+#[test]
+fn gravity_leans_on_even_frames_as_on_a_storey() {
+    as_a_storey(GRAVITY, 2);
+}
+
+const GRAVITY: &str = "p_delta = true\n";
+
+fn as_a_storey(gravity: &str, least_impacts: usize) {
+    let planar = format!("{gravity}stiffness = K\n{LAW}");
     let turning = format!(
-        "[building.plan]\nlength = 12\nwidth = 10\nframes_along = [{{ at = -4, stiffness = K, {LAW} }}, {{ at = 4, stiffness = K, {LAW} }}]\nframes_across = [{{ at = 0, stiffness = K, {LAW} }}]"
+        "{gravity}[building.plan]\nlength = 12\nwidth = 10\nframes_along = [{{ at = -4, stiffness = K, {LAW} }}, {{ at = 4, stiffness = K, {LAW} }}]\nframes_across = [{{ at = 0, stiffness = K, {LAW} }}]"
     );
     let adaptive = MethodChoice::Adaptive {
         relative_tolerance: 1e-11,
@@ -42,7 +56,8 @@ fn even_frames_yield_as_a_storey_does() {
     for method in [None, Some(adaptive)] {
         let planar = go(&assembled(&pair(&planar, "", 1.0)), method);
         let turning = go(&assembled(&pair(&turning, "points = [-5, 5]", 0.5)), method);
-        assert!(planar.impacts.len() >= 5, "{}", planar.impacts.len());
+        let impacts = planar.impacts.len();
+        assert!(impacts >= least_impacts, "{impacts}");
         assert_eq!(turning.impacts.len(), 2 * planar.impacts.len());
         agree(&planar, &turning);
     }
@@ -162,14 +177,30 @@ fn yielding_pair() -> String {
     })
 }
 
+/// The same under gravity.
+fn leaning_pair() -> String {
+    yielding_pair().replace("[building.plan]", &format!("{GRAVITY}[building.plan]"))
+}
+
 /// Every peak, impact and energy, and what every frame went through, against the independent solution.
 #[test]
 fn a_yielding_pair_that_turns_gives_the_reference() {
     let text = include_str!("../../data/structures/yielding_torsion_pair.json");
+    gives(&yielding_pair(), text);
+}
+
+/// The same under gravity, against a solution in which weights lean at four points of every floor, not by a moment of inertia.
+#[test]
+fn a_yielding_pair_that_leans_gives_the_reference() {
+    let text = include_str!("../../data/structures/gravity_torsion_pair.json");
+    gives(&leaning_pair(), text);
+}
+
+fn gives(case: &str, text: &str) {
     let reference = Reference::read(text);
     let file: serde_json::Value = serde_json::from_str(text).unwrap();
     let frames: Vec<Frame> = serde_json::from_value(file["reference"]["frames"].clone()).unwrap();
-    let assembly = assembled(&yielding_pair());
+    let assembly = assembled(case);
     let adaptive = MethodChoice::Adaptive {
         relative_tolerance: 1e-11,
     };
@@ -220,6 +251,45 @@ fn a_yielding_pair_that_turns_gives_the_reference() {
         }
         reference.agrees(&named_as_in_the_reference(outcome), allowed);
     }
+}
+
+/// Where a frame drifts by more than the height of its storey, the building has fallen: the instant by the same independent
+/// program as the reference, with twice the motion.
+#[test]
+fn a_building_that_turns_collapses_where_a_frame_drifts_by_its_height() {
+    let assembly = assembled(&twice(&leaning_pair()));
+    let adaptive = MethodChoice::Adaptive {
+        relative_tolerance: 1e-11,
+    };
+    let exact = assembly.options.method;
+    for (method, allowed) in [(exact, 1e-9), (adaptive, 1e-7)] {
+        let options = RunOptions {
+            method,
+            ..assembly.options
+        };
+        let outcome = run(&assembly.system, &options, &mut [], &mut |_| {});
+        let Err(TimeHistoryError::Collapse {
+            time,
+            building,
+            storey,
+            height,
+        }) = outcome
+        else {
+            panic!("{outcome:?}");
+        };
+        assert_eq!((building.as_str(), storey, height), ("A", 1, 3.5));
+        let off = time - 12.926_730_850_377_513;
+        assert!(off.abs() < allowed, "{off:e}");
+    }
+    // Without gravity the hardening of other frames holds the building.
+    go(&assembled(&twice(&yielding_pair())), None);
+}
+
+/// A case of the pair with twice the motion.
+fn twice(case: &str) -> String {
+    let record = "file = \"../ground_motions/el_centro_1940_ns.csv\"";
+    let twice = case.replace(record, &format!("{record}\nscale = 2"));
+    twice.replace("scale = 0.7", "scale = 1.4")
 }
 
 /// Newmark's method with its own trials of the laws comes to the same at second order.

@@ -10,6 +10,7 @@ use pounding_time_history::RunOptions;
 use super::column::Hits;
 use super::impact_models::{Models, models_of};
 use super::method::options;
+use super::plan::OVERTURNED;
 use super::{foundation, lateral, laws, plan};
 
 /// What a case says of buildings, models and options.
@@ -168,7 +169,3 @@ fn building(case: &Case, b: &Building, points: &[ContactLine]) -> Result<ShearBu
 /// What to do about a mass, a stiffness or a height that cannot be.
 const WITH_UNIT: &str =
     "correct the value, with its unit, such as \"25 t\" of a mass; plain numbers are SI";
-
-/// What to do about a building that gravity overturns.
-const OVERTURNED: &str =
-    "correct stiffness, masses and heights, with their units; `p_delta = false` leaves gravity out";

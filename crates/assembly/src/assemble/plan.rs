@@ -2,10 +2,12 @@
 
 use nalgebra::DMatrix;
 use pounding_case::{Building, Case, CaseError, Errors, Frame, Gap, Located, Plan, Side};
+use pounding_catalogue::STANDARD_GRAVITY;
 use pounding_catalogue::numbers::six_digits;
 use pounding_shear_building::{
-    Coordinate, EDGE_DISPLACEMENTS, Excitation, FrameDirection, GeneralBuilding, ResponseKind,
-    ResponseRow, ShearBuilding, ShearBuildingError, YieldingFrame,
+    Coordinate, EDGE_DISPLACEMENTS, Excitation, FrameDirection, GeneralBuilding,
+    GeometricStiffness, ResponseKind, ResponseRow, ShearBuilding, ShearBuildingError,
+    YieldingFrame,
 };
 use pounding_time_history::{BuildingPoint, Floor, System};
 
@@ -48,12 +50,6 @@ pub(super) fn building(
         let message = format!("building {}: {message}", b.name.value);
         case.error(given.span.clone(), message, Some(help.to_owned()))
     };
-    if b.p_delta {
-        return Err(refused(
-            "gravity through the drift is not known for floors that turn",
-            "leave `p_delta` out",
-        ));
-    }
     if b.foundation.is_some() {
         return Err(refused(
             "a building that turns in plan stands on a fixed base",
@@ -68,16 +64,23 @@ pub(super) fn building(
         ));
     }
     let made = ShearBuilding::with_coordinates(general).map_err(|e| {
-        let place = match e {
-            ShearBuildingError::Damping { .. } => &b.damping.span,
-            _ => &given.span,
+        let (place, help) = match e {
+            ShearBuildingError::Damping { .. } => (&b.damping.span, RATIOS),
+            ShearBuildingError::UnstableMatrix { .. } => (&given.span, OVERTURNED),
+            _ => (&given.span, RATIOS),
         };
-        let help = "give ratios, such as { ratio = 0.05, modes = [1, 3] }, with modes of all three coordinates of a floor".to_owned();
-        case.error(place.clone(), e.to_string(), Some(help))
+        case.error(place.clone(), e.to_string(), Some(help.to_owned()))
     })?;
     made.with_yielding_frames(yielding_frames(case, b, &given.value)?)
         .map_err(|e| case.error(given.span.clone(), e.to_string(), e.help()))
 }
+
+/// What to do about a building that gravity overturns.
+pub(super) const OVERTURNED: &str =
+    "correct stiffness, masses and heights, with their units; `p_delta = false` leaves gravity out";
+
+/// What to do about a damping that cannot be.
+const RATIOS: &str = "give ratios, such as { ratio = 0.05, modes = [1, 3] }, with modes of all three coordinates of a floor";
 
 /// Frames along and across the row, with the direction of each.
 fn frames(plan: &Plan) -> impl Iterator<Item = (FrameDirection, &Frame)> {
@@ -153,19 +156,47 @@ fn general(b: &Building, plan: &Plan) -> GeneralBuilding {
         inertia,
         excitation,
     };
+    let inertia: Vec<f64> = (0..n).map(inertia).collect();
     let across = (0..n).map(|i| coordinate("motion across", i, b.mass[i], Excitation::Across));
-    let rotation = (0..n).map(|i| coordinate("rotation", i, inertia(i), Excitation::None));
+    let rotation = (0..n).map(|i| coordinate("rotation", i, inertia[i], Excitation::None));
     GeneralBuilding {
         name: b.name.value.clone(),
         mass: b.mass.clone(),
         height: b.height.clone(),
         further: across.chain(rotation).collect(),
         stiffness,
+        geometric: b.p_delta.then(|| geometric(b, &inertia)),
         damping: b.damping.value.clone(),
         drifts: None,
         sections: shears.into_iter().chain([moment]).collect(),
         responses: (0..n).flat_map(|i| responses(plan, n, i)).collect(),
     }
+}
+
+/// What gravity takes off the stiffness: the weight of a floor lies as its mass does, and leans in every storey below it by what
+/// its own place drifts there, `x - y theta` along the row and `y + x theta` across it, which the rotation turns by its moment of
+/// inertia (Rutenberg, J. Struct. Div. ASCE 108 (1982) 1995: a column of negative lateral and torsional stiffness).
+fn geometric(b: &Building, inertia: &[f64]) -> GeometricStiffness {
+    let n = b.mass.len();
+    let mut matrix = DMatrix::zeros(OF_A_FLOOR * n, OF_A_FLOOR * n);
+    let mut storeys = Vec::with_capacity(n);
+    for (storey, height) in b.height.iter().enumerate() {
+        let over_height =
+            |inertia: &[f64]| STANDARD_GRAVITY * inertia[storey..].iter().sum::<f64>() / height;
+        let lateral = over_height(&b.mass);
+        storeys.push(lateral);
+        let of_coordinates = [lateral, lateral, over_height(inertia)];
+        for (kind, stiffness) in of_coordinates.into_iter().enumerate() {
+            let above = kind * n + storey;
+            matrix[(above, above)] += stiffness;
+            if storey > 0 {
+                matrix[(above - 1, above - 1)] += stiffness;
+                matrix[(above, above - 1)] -= stiffness;
+                matrix[(above - 1, above)] -= stiffness;
+            }
+        }
+    }
+    GeometricStiffness { storeys, matrix }
 }
 
 /// Deformation of a frame in a storey, as a sum over the coordinates: of one `at` a distance from

@@ -234,6 +234,14 @@ fn gravity(building: &ShearBuilding) -> String {
 /// gravity (-): by the shape of the mode with gravity.
 fn share_of_first_mode(building: &ShearBuilding) -> f64 {
     let shape = building.modes().shape.column(0);
+    let frequency = building.modes().circular_frequency[0];
+    let masses = shape.iter().zip(building.inertia());
+    let mass: f64 = masses.map(|(u, m)| m * u * u).sum();
+    let left = frequency * frequency * mass;
+    if let Some(matrix) = building.geometric_matrix() {
+        let taken = shape.dot(&(matrix * shape));
+        return taken / (taken + left);
+    }
     // The base of the first storey moves with the foundation.
     let sway = building.foundation().and_then(|on| on.matrices().sway());
     let mut below = sway.map_or(0.0, |i| shape[i]);
@@ -242,10 +250,7 @@ fn share_of_first_mode(building: &ShearBuilding) -> f64 {
         taken += k * (u - below) * (u - below);
         below = *u;
     }
-    let frequency = building.modes().circular_frequency[0];
-    let masses = shape.iter().zip(building.inertia());
-    let mass: f64 = masses.map(|(u, m)| m * u * u).sum();
-    taken / (taken + frequency * frequency * mass)
+    taken / (taken + left)
 }
 
 /// What the event-driven method does where a storey or a link follows a law.

@@ -236,6 +236,7 @@ fn general(
         height: fixed.height().to_vec(),
         further,
         stiffness: matrices.stiffness().clone(),
+        geometric: None,
         damping: Damping::Matrix {
             matrix: matrices.damping().clone(),
         },

@@ -51,6 +51,8 @@ pub struct ShearBuilding {
     frames: Vec<YieldingFrame>,
     isolator: Option<(Isolator, IsolatorProperties)>,
     geometric: Vec<f64>,
+    /// The same of all coordinates, of a building that is given so.
+    geometric_matrix: Option<DMatrix<f64>>,
     elevations: Vec<f64>,
     damping: Damping,
     stiffness_matrix: StiffnessMatrix,
@@ -229,18 +231,19 @@ impl ShearBuilding {
     ///
     /// # Errors
     /// As [`ShearBuilding::with_stiffness_matrix`], and matrices and rows whose size is not
-    /// that of the coordinates.
+    /// that of the coordinates or of the storeys.
     pub fn with_coordinates(general: GeneralBuilding) -> Result<Self, ShearBuildingError> {
         let GeneralBuilding {
             name,
             mass,
             height,
             further,
-            stiffness,
+            mut stiffness,
             damping,
             drifts,
             sections,
             responses,
+            geometric,
         } = general;
         let mut parts = Parts::new(name, mass, height, damping, 0.0)?;
         let (floors, all) = (parts.mass.len(), parts.mass.len() + further.len());
@@ -257,11 +260,14 @@ impl ShearBuilding {
         }
         let of_drifts = drifts.iter().flatten();
         let of_responses = responses.iter().map(|r| &r.weights);
-        let sizes = [stiffness.nrows(), stiffness.ncols()];
+        let by_gravity = geometric.as_ref();
+        let matrices = std::iter::once(&stiffness).chain(by_gravity.map(|g| &g.matrix));
+        let sizes = matrices.flat_map(|matrix| [matrix.nrows(), matrix.ncols()]);
         let rows = of_drifts.chain(&sections).chain(of_responses);
-        let wrong = sizes.into_iter().chain(rows.map(Vec::len));
+        let wrong = sizes.chain(rows.map(Vec::len));
         let lists = [
             (drifts.as_ref().map_or(floors, Vec::len), floors),
+            (by_gravity.map_or(floors, |g| g.storeys.len()), floors),
             (sections.len(), floors + 1),
         ];
         let wrong = wrong.map(|found| (found, all)).chain(lists);
@@ -277,6 +283,7 @@ impl ShearBuilding {
         }
         let of_responses = responses.iter().map(|r| &r.weights);
         let weights = drifts.iter().flatten().chain(&sections).chain(of_responses);
+        let weights = weights.chain(by_gravity.map(|g| &g.storeys));
         if let Some(value) = weights.flatten().find(|weight| !weight.is_finite()) {
             return Err(ShearBuildingError::Weight {
                 building: parts.name,
@@ -288,10 +295,21 @@ impl ShearBuilding {
         let influence = (vec![false; floors].into_iter().chain(still))
             .map(|still| f64::from(u8::from(!still)))
             .collect();
+        let geometric_matrix = geometric.map(|of_gravity| {
+            parts.geometric = of_gravity.storeys;
+            stiffness -= &of_gravity.matrix;
+            of_gravity.matrix
+        });
+        if geometric_matrix.is_some() && stiffness.clone().cholesky().is_none() {
+            return Err(ShearBuildingError::UnstableMatrix {
+                building: parts.name,
+            });
+        }
         let undamped = undamped_dense(&parts.inertia, &stiffness, floors);
         let matrices = (StiffnessMatrix::Dense(stiffness), None);
         let building = Self::finish_with(parts, Vec::new(), matrices, undamped, influence)?;
         Ok(Self {
+            geometric_matrix,
             further,
             drifts,
             sections: Some(sections),
@@ -356,6 +374,7 @@ impl ShearBuilding {
             frames: Vec::new(),
             isolator: None,
             geometric,
+            geometric_matrix: None,
             name,
             mass,
             stiffness,
@@ -605,6 +624,13 @@ impl ShearBuilding {
     #[must_use]
     pub fn geometric_stiffness(&self) -> &[f64] {
         &self.geometric
+    }
+
+    /// What gravity takes off the stiffness of all coordinates (N/m; N m/rad on the diagonal of rotations), where that
+    /// was given ([`ShearBuilding::with_coordinates`]).
+    #[must_use]
+    pub fn geometric_matrix(&self) -> Option<&DMatrix<f64>> {
+        self.geometric_matrix.as_ref()
     }
 
     /// Name of the building.

@@ -20,7 +20,7 @@ const OPEN: f64 = 0.1;
 
 impl Driver<'_> {
     /// Ends the run where a building has fallen in the trial step: overturned by gravity, or because
-    /// the force of a storey's law falls, in a storey that yields, since an elastic one stands or is
+    /// the force of a law falls, in a storey or at a frame that yields, since an elastic one stands or is
     /// refused from the start.
     pub(super) fn stands(
         &self,
@@ -30,19 +30,26 @@ impl Driver<'_> {
     ) -> Result<(), TimeHistoryError> {
         let mut first: Option<(f64, usize, usize)> = None;
         for (index, element) in self.system.elements().iter().enumerate() {
-            let (ElementPlace::Storey { building, storey }, Some(dof)) =
-                (element.place, element.far)
-            else {
-                continue;
+            let (building, storey) = match element.place {
+                ElementPlace::Storey { building, storey } => (building, storey),
+                ElementPlace::Frame { building, frame } => {
+                    let frames = self.system.buildings()[building].yielding_frames();
+                    (building, frames[frame].storey)
+                }
+                ElementPlace::Link { .. } => continue,
             };
             let own = &self.system.buildings()[building];
-            let ratio = self.peaks.storeys[dof].drift_ratio.value;
-            if ratio > 1.0
+            let height = own.height()[storey];
+            let is_beyond = match element.far {
+                Some(dof) => self.peaks.storeys[dof].drift_ratio.value > 1.0,
+                None => self.peaks.elements[index].deformation.value > height,
+            };
+            if is_beyond
                 && (own.geometric_stiffness()[storey] > 0.0
-                    || self.falls_beyond(own.height()[storey], index, step))
+                    || self.falls_beyond(height, index, step))
             {
                 let drift = element.polynomial(|k| *self.method.polynomial(k), 0);
-                let theta = first_beyond(&drift, own.height()[storey]);
+                let theta = first_beyond(&drift, height);
                 if first.is_none_or(|(earlier, ..)| theta < earlier) {
                     first = Some((theta, building, storey));
                 }

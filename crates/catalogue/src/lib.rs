@@ -42,6 +42,8 @@
 
 /// Standard gravity (m/s2): the third General Conference on Weights and Measures (1901).
 pub const STANDARD_GRAVITY: f64 = 9.806_65;
+/// Step (s) of recorded responses where none is asked for.
+pub const OUTPUT_STEP: f64 = 0.01;
 
 pub mod numbers;
 pub mod suggestion;

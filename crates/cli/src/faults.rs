@@ -3,7 +3,8 @@
 use std::path::{Path, PathBuf};
 
 use pounding_assembly::{Assembly, AssemblyError, assemble};
-use pounding_case::{Analysis, Case};
+use pounding_case::Case;
+use pounding_catalogue::OUTPUT_STEP;
 use pounding_files::FileUse;
 use pounding_results::check_size;
 use pounding_study::faults;
@@ -25,7 +26,7 @@ pub fn responses_fit(assembly: &Assembly, case: &Case) -> Result<(), Failure> {
     check_size(&assembly.system, duration, assembly.output_step).map_err(|e| {
         // The one that is further from what is usual.
         let long = e.duration / assembly.system.record_duration().max(1.0);
-        let keys = match long > Analysis::OUTPUT_STEP / assembly.output_step {
+        let keys = match long > OUTPUT_STEP / assembly.output_step {
             true => ["duration", "output_step"],
             false => ["output_step", "duration"],
         };

@@ -4,6 +4,7 @@ use std::ops::ControlFlow;
 
 #[cfg(feature = "toml")]
 use pounding_case::Case;
+use pounding_catalogue::OUTPUT_STEP;
 use pounding_ground_motion::{AccelerationUnit, Accelerogram};
 #[cfg(feature = "toml")]
 use pounding_shear_building::{NAMES, NameFault};
@@ -39,9 +40,6 @@ pub struct Model {
 #[cfg(feature = "toml")]
 const CHANGED: &str =
     "# A program changed the case after this text was read: it does not say all of what was run.";
-
-/// Step of recorded responses unless another is asked for (s).
-pub(crate) const OUTPUT_STEP: f64 = 0.01;
 
 impl Model {
     /// A model of a system that was made by [`time_history`](pounding_time_history) itself, as one with

@@ -1,6 +1,6 @@
 //! A row of buildings under a ground motion.
 
-use pounding_catalogue::suggestion;
+use pounding_catalogue::{OUTPUT_STEP, suggestion};
 use pounding_shear_building::{NAMES, NameFault, WALL, check_names};
 use pounding_time_history::{
     Floor, FloorForce, ForceHistory, GroundAcceleration, MethodChoice, Outcome, RunOptions, System,
@@ -11,7 +11,7 @@ use crate::error::Error;
 use crate::facing::Levels;
 use crate::gap::Gap;
 use crate::link::Link;
-use crate::model::{Model, OUTPUT_STEP};
+use crate::model::Model;
 use crate::record::GroundMotion;
 use crate::units::Time;
 

@@ -1,5 +1,6 @@
 //! How to compute.
 
+use pounding_catalogue::OUTPUT_STEP;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -46,7 +47,7 @@ impl From<Table<AnalysisTable>> for Analysis {
                 span: 0..0,
             }),
             duration: value.duration.number(),
-            output_step: value.output_step.number().unwrap_or(Self::OUTPUT_STEP),
+            output_step: value.output_step.number().unwrap_or(OUTPUT_STEP),
             step: match value.step.is_wrong() {
                 true => Some(STEP),
                 false => value.step.number(),

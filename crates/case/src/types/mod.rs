@@ -601,9 +601,6 @@ pub struct Analysis {
 }
 
 impl Analysis {
-    /// Step of the output (s) where a case gives none.
-    pub const OUTPUT_STEP: f64 = 0.01;
-
     /// Where the value of a key of `[analysis]` stands; that of the method, if the key is not
     /// given.
     #[must_use]

@@ -7,9 +7,9 @@ use std::ops::Range;
 use pounding_case::document::Reader;
 use pounding_case::{Case, CaseTree};
 
-use super::records::stem;
 use super::{Design, RecordKind, RecordSource, Study, Target, Value, Variable};
 use crate::case_text::{Path, Variant};
+use crate::gap_check::name_of_record;
 
 /// Most ways in which a study reads the record of the case: each is kept as long as it runs.
 const MOST_READINGS: usize = 10_000;
@@ -121,7 +121,7 @@ fn source(
     let file = &case.as_ref().unwrap_or(base).ground_motion.file.value;
     let said: Vec<String> = values().map(|(v, x)| v.without_unit(x)).collect();
     RecordSource {
-        name: format!("{} ({})", stem(file), said.join(", ")),
+        name: format!("{} ({})", name_of_record(file), said.join(", ")),
         kind: match case {
             Ok(case) => RecordKind::File {
                 case: Box::new(case),

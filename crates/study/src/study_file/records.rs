@@ -26,7 +26,7 @@ use super::context::Context;
 use super::values::{Whole, all};
 use super::{RecordKind, RecordSource, Study};
 use crate::case_text::{Edit, KEPT, Variant, with_motion};
-use crate::gap_check::across_of_another;
+use crate::gap_check::{across_of_another, name_of_record};
 
 /// A record: the name of its file, or a table.
 pub(super) type Record = TableOr<RecordTable, String>;
@@ -206,18 +206,13 @@ pub(super) fn records(
 pub(super) fn of_case(base: &Case) -> RecordSource {
     let file = &base.ground_motion.file.value;
     RecordSource {
-        name: stem(file),
+        name: name_of_record(file),
         kind: RecordKind::File {
             case: Box::new(base.clone()),
             edits: Vec::new(),
         },
         missing: None,
     }
-}
-
-pub(super) fn stem(file: &Path) -> String {
-    let stem = file.file_stem().unwrap_or_default();
-    one_line(stem.to_string_lossy().into_owned())
 }
 
 fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Option<RecordSource> {
@@ -273,7 +268,7 @@ fn record(reader: &Reader<'_>, item: Located<Record>, context: &Context) -> Opti
     if let Some((message, help)) = nothing_to_move_across(&case) {
         return reader.refuse(span, message, help);
     }
-    let name = name.unwrap_or_else(|| stem(Path::new(&file)));
+    let name = name.unwrap_or_else(|| name_of_record(Path::new(&file)));
     let missing = missing(reader, &name, (&case, base), (place, span));
     context.missing.borrow_mut().extend(missing.clone());
     Some(RecordSource {

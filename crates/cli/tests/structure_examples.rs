@@ -7,14 +7,23 @@ use serde_json::Value;
 
 /// The example, with the adaptive pair in the place of the default method if that is asked for.
 fn run(name: &str, adaptive: bool) -> Value {
+    let method = "[analysis]\nmethod = \"adaptive\"\nrelative_tolerance = 1e-11";
+    match adaptive {
+        true => run_with(name, ("[analysis]", method)),
+        false => run_with(name, ("", "")),
+    }
+}
+
+/// The example with one text in the place of another.
+fn run_with(name: &str, (of, by): (&str, &str)) -> Value {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
         .join("../../examples")
         .join(name);
     let text = std::fs::read_to_string(folder.join("case.toml")).unwrap();
-    let method = "[analysis]\nmethod = \"adaptive\"\nrelative_tolerance = 1e-11";
-    let text = match adaptive {
-        true => text.replace("[analysis]", method),
-        false => text,
+    assert!(text.contains(of));
+    let text = match of {
+        "" => text,
+        of => text.replace(of, by),
     };
     let motions = folder.join("../../ground_motions").canonicalize().unwrap();
     let text = text.replace("../../ground_motions", &motions.display().to_string());
@@ -184,6 +193,15 @@ fn yielding_pair_that_turns() {
         }
         close(&frames[0]["residual_deformation"], -0.022_547, 1e-3);
         close(&frames[1]["residual_deformation"], -0.019_178, 1e-3);
+    }
+    let without = run_with("yielding_pair_that_turns", ("p_delta = true", ""));
+    let levels = without["gaps"][0]["levels"].as_array().unwrap();
+    let impacts: u64 = levels.iter().map(|l| l["impacts"].as_u64().unwrap()).sum();
+    assert_eq!(impacts, 10);
+    let frames = &without["buildings"][0]["frames"];
+    for (frame, ductility, residual) in [(0, 2.6663, -0.019_396), (1, 2.9340, -0.015_655)] {
+        close(&frames[frame]["ductility"]["peak"], ductility, 1e-3);
+        close(&frames[frame]["residual_deformation"], residual, 1e-3);
     }
 }
 

@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 
 use crate::damping::Damping;
+use crate::tridiagonal::SymmetricTridiagonal;
 
 /// Which component of the ground motion accelerates the ground under a coordinate.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -63,6 +64,45 @@ pub struct GeometricStiffness {
     pub storeys: Vec<f64>,
     /// Of all coordinates, as the stiffness is.
     pub matrix: DMatrix<f64>,
+}
+
+impl GeometricStiffness {
+    /// That of floors with several coordinates, which come kind after kind, those along the row first: `inertia` holds of each
+    /// kind the masses (kg) or moments of inertia (kg m2) of the floors. Weights lie as the masses do, and in every storey below
+    /// a floor each part of its weight leans by what its own place drifts there, a rotation among it (Rutenberg, J. Struct. Div.
+    /// ASCE 108 (1982) 1995: a column of negative lateral and torsional stiffness). Heights in m, gravity in m/s2.
+    #[must_use]
+    pub fn of_floors(inertia: &[&[f64]], height: &[f64], gravity: f64) -> Self {
+        let floors = height.len();
+        let kinds = inertia.iter();
+        let kinds = kinds.map(|inertia| weights_over_heights(inertia, height, gravity));
+        let kinds: Vec<Vec<f64>> = kinds.collect();
+        let mut matrix = DMatrix::zeros(floors * kinds.len(), floors * kinds.len());
+        for (kind, storeys) in kinds.iter().enumerate() {
+            let chain = SymmetricTridiagonal::chain(storeys);
+            let of_kind = DMatrix::from_fn(floors, floors, |i, j| chain.entry(i, j));
+            let first = kind * floors;
+            let mut place = matrix.view_mut((first, first), (floors, floors));
+            place.copy_from(&of_kind);
+        }
+        Self {
+            storeys: kinds.into_iter().next().unwrap_or_default(),
+            matrix,
+        }
+    }
+}
+
+/// Weight above over height of every storey (N/m).
+pub(crate) fn weights_over_heights(mass: &[f64], height: &[f64], gravity: f64) -> Vec<f64> {
+    let mut above: f64 = mass.iter().sum();
+    let storeys = mass.iter().zip(height);
+    storeys
+        .map(|(mass, height)| {
+            let load = gravity * above;
+            above -= mass;
+            load / height
+        })
+        .collect()
 }
 
 /// A building of floors and other coordinates with full matrices; see

@@ -39,7 +39,7 @@ fn even_frames_yield_as_a_storey_does() {
 
 /// The same with gravity, which takes as much off both.
 #[test]
-fn gravity_leans_on_even_frames_as_on_a_storey() {
+fn gravity_acts_on_even_frames_as_on_a_storey() {
     as_a_storey(GRAVITY, 2);
 }
 
@@ -178,7 +178,7 @@ fn yielding_pair() -> String {
 }
 
 /// The same under gravity.
-fn leaning_pair() -> String {
+fn pair_under_gravity() -> String {
     yielding_pair().replace("[building.plan]", &format!("{GRAVITY}[building.plan]"))
 }
 
@@ -191,9 +191,9 @@ fn a_yielding_pair_that_turns_gives_the_reference() {
 
 /// The same under gravity, against a solution in which weights lean at four points of every floor, not by a moment of inertia.
 #[test]
-fn a_yielding_pair_that_leans_gives_the_reference() {
+fn a_yielding_pair_under_gravity_gives_the_reference() {
     let text = include_str!("../../data/structures/gravity_torsion_pair.json");
-    gives(&leaning_pair(), text);
+    gives(&pair_under_gravity(), text);
 }
 
 fn gives(case: &str, text: &str) {
@@ -257,7 +257,7 @@ fn gives(case: &str, text: &str) {
 /// program as the reference, with twice the motion.
 #[test]
 fn a_building_that_turns_collapses_where_a_frame_drifts_by_its_height() {
-    let assembly = assembled(&twice(&leaning_pair()));
+    let assembly = assembled(&twice(&pair_under_gravity()));
     let adaptive = MethodChoice::Adaptive {
         relative_tolerance: 1e-11,
     };

@@ -165,38 +165,15 @@ fn general(b: &Building, plan: &Plan) -> GeneralBuilding {
         height: b.height.clone(),
         further: across.chain(rotation).collect(),
         stiffness,
-        geometric: b.p_delta.then(|| geometric(b, &inertia)),
+        geometric: b.p_delta.then(|| {
+            let of_a_floor: [&[f64]; OF_A_FLOOR] = [&b.mass, &b.mass, &inertia];
+            GeometricStiffness::of_floors(&of_a_floor, &b.height, STANDARD_GRAVITY)
+        }),
         damping: b.damping.value.clone(),
         drifts: None,
         sections: shears.into_iter().chain([moment]).collect(),
         responses: (0..n).flat_map(|i| responses(plan, n, i)).collect(),
     }
-}
-
-/// What gravity takes off the stiffness: the weight of a floor lies as its mass does, and leans in every storey below it by what
-/// its own place drifts there, `x - y theta` along the row and `y + x theta` across it, which the rotation turns by its moment of
-/// inertia (Rutenberg, J. Struct. Div. ASCE 108 (1982) 1995: a column of negative lateral and torsional stiffness).
-fn geometric(b: &Building, inertia: &[f64]) -> GeometricStiffness {
-    let n = b.mass.len();
-    let mut matrix = DMatrix::zeros(OF_A_FLOOR * n, OF_A_FLOOR * n);
-    let mut storeys = Vec::with_capacity(n);
-    for (storey, height) in b.height.iter().enumerate() {
-        let over_height =
-            |inertia: &[f64]| STANDARD_GRAVITY * inertia[storey..].iter().sum::<f64>() / height;
-        let lateral = over_height(&b.mass);
-        storeys.push(lateral);
-        let of_coordinates = [lateral, lateral, over_height(inertia)];
-        for (kind, stiffness) in of_coordinates.into_iter().enumerate() {
-            let above = kind * n + storey;
-            matrix[(above, above)] += stiffness;
-            if storey > 0 {
-                matrix[(above - 1, above - 1)] += stiffness;
-                matrix[(above, above - 1)] -= stiffness;
-                matrix[(above - 1, above)] -= stiffness;
-            }
-        }
-    }
-    GeometricStiffness { storeys, matrix }
 }
 
 /// Deformation of a frame in a storey, as a sum over the coordinates: of one `at` a distance from

@@ -5,7 +5,9 @@ mod founded;
 use nalgebra::DMatrix;
 
 use crate::column::HitLine;
-use crate::coordinates::{Coordinate, Excitation, GeneralBuilding, ResponseRow};
+use crate::coordinates::{
+    Coordinate, Excitation, GeneralBuilding, ResponseRow, weights_over_heights,
+};
 use crate::damping::{Damping, DampingMatrix};
 use crate::elevation::elevations;
 use crate::error::ShearBuildingError;
@@ -884,19 +886,6 @@ struct Parts {
     geometric: Vec<f64>,
 }
 
-/// Weight above over height of every storey (N/m).
-fn geometric(mass: &[f64], height: &[f64], gravity: f64) -> Vec<f64> {
-    let mut above: f64 = mass.iter().sum();
-    let storeys = mass.iter().zip(height);
-    storeys
-        .map(|(mass, height)| {
-            let load = gravity * above;
-            above -= mass;
-            load / height
-        })
-        .collect()
-}
-
 /// Sum of masses (kg), heights (m) or stiffnesses (N/m) of a building at most: a little beyond it products with
 /// gravity are no numbers.
 const LARGEST_SUM: f64 = 1.0e300;
@@ -924,7 +913,7 @@ impl Parts {
         check(&name, "mass", &mass, mass.len())?;
         check(&name, "height", &height, mass.len())?;
         Ok(Self {
-            geometric: geometric(&mass, &height, gravity),
+            geometric: weights_over_heights(&mass, &height, gravity),
             name,
             inertia: mass.clone(),
             mass,

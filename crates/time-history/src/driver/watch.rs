@@ -6,7 +6,7 @@ use crate::error::TimeHistoryError;
 use crate::events::{Candidate, EventKind};
 use crate::ledger;
 use crate::polynomial::{Polynomial, first_rise};
-use crate::system::{ElementPlace, Segment};
+use crate::system::Segment;
 
 /// Work of contacts on the buildings, over the largest input energy, that no contact does.
 const GIVEN: f64 = 1.0e6;
@@ -30,13 +30,8 @@ impl Driver<'_> {
     ) -> Result<(), TimeHistoryError> {
         let mut first: Option<(f64, usize, usize)> = None;
         for (index, element) in self.system.elements().iter().enumerate() {
-            let (building, storey) = match element.place {
-                ElementPlace::Storey { building, storey } => (building, storey),
-                ElementPlace::Frame { building, frame } => {
-                    let frames = self.system.buildings()[building].yielding_frames();
-                    (building, frames[frame].storey)
-                }
-                ElementPlace::Link { .. } => continue,
+            let Some((building, storey)) = self.system.storey_of_element(element.place) else {
+                continue;
             };
             let own = &self.system.buildings()[building];
             let height = own.height()[storey];
